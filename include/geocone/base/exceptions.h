@@ -1,0 +1,61 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_base_exceptions_h
+#define geocone_base_exceptions_h
+
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace geocone
+{
+  /**
+   * Wrong input, found before anything is computed or written. The text names
+   * the parameter (with its sections), the value, what is allowed, and how to
+   * mend it. The programs print it and end with exit code 1.
+   */
+  class InputError : public std::runtime_error
+  {
+  public:
+    template <typename Value>
+    InputError(const std::string &parameter,
+               const Value       &value,
+               const std::string &allowed,
+               const std::string &remedy)
+      : std::runtime_error(text(parameter, value, allowed, remedy))
+    {}
+
+    explicit InputError(const std::string &message)
+      : std::runtime_error(message)
+    {}
+
+  private:
+    template <typename Value>
+    static std::string
+    text(const std::string &parameter,
+         const Value       &value,
+         const std::string &allowed,
+         const std::string &remedy)
+    {
+      std::ostringstream out;
+      out << "parameter '" << parameter << "' = '" << value << "'\n"
+          << "  allowed: " << allowed << "\n"
+          << "  remedy:  " << remedy;
+      return out.str();
+    }
+  };
+
+  /**
+   * A computation that cannot go on: steps that fail at the smallest step
+   * size, a file that cannot be written, a value that is not a number.
+   * Results written before stay as they are.
+   */
+  class RunError : public std::runtime_error
+  {
+  public:
+    using std::runtime_error::runtime_error;
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,54 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_base_sparse_matrix_h
+#define geocone_base_sparse_matrix_h
+
+#include <mpi.h>
+
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * A square matrix as a sum over ranks: each rank stores, in compressed rows of
+   * its own local numbering, what its cells contribute; entries that several
+   * ranks hold add up. Direct solvers of distributed matrices take this form as
+   * it is, so that assembly needs no communication. On one rank it is the plain
+   * compressed-row matrix.
+   *
+   * Local rows: those that the rank owns come first, with consecutive global
+   * numbers.
+   */
+  struct SparseMatrix
+  {
+    MPI_Comm comm = MPI_COMM_SELF;
+
+    int n_global = 0; ///< rows of the whole matrix
+    int n_owned  = 0; ///< rows owned by this rank
+
+    /** Global number of each local row. */
+    std::vector<int> global_index;
+
+    /** Compressed rows with sorted columns. */
+    std::vector<int>    row_start = {0};
+    std::vector<int>    column;
+    std::vector<double> value;
+
+    int
+    n_rows() const
+    {
+      return row_start.size() - 1;
+    }
+
+    /** Place of an entry of the pattern in `column` and `value`. */
+    int
+    entry(const int row, const int col) const;
+
+    /** Bytes of the arrays. */
+    std::size_t
+    memory() const;
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,80 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_discretisation_background_mesh_h
+#define geocone_discretisation_background_mesh_h
+
+#include <geocone/discretisation/coarse_mesh.h>
+#include <geocone/scene/scene.h>
+
+#include <deal.II/distributed/tria_base.h>
+
+#include <deal.II/fe/mapping.h>
+
+#include <memory>
+#include <set>
+
+namespace geocone
+{
+  /**
+   * The triangulation, distributed over the ranks, with its mapping, material
+   * ids (indices into Scene::materials) and side ids.
+   *
+   * Quadrilaterals live on parallel::distributed::Triangulation (p4est);
+   * triangles, which p4est does not know, on parallel::shared::Triangulation,
+   * where every rank stores the whole mesh and owns a part of it.
+   */
+  class BackgroundMesh : public dealii::ParameterAcceptor
+  {
+  public:
+    BackgroundMesh(const MPI_Comm comm);
+
+    void
+    prepare(const Scene &scene);
+
+    const dealii::parallel::TriangulationBase<dim> &
+    triangulation() const
+    {
+      return *tria;
+    }
+
+    const dealii::Mapping<dim> &
+    mapping() const
+    {
+      return *map;
+    }
+
+    bool
+    is_simplicial() const
+    {
+      return simplicial;
+    }
+
+    /**
+     * The side ids of a condition.
+     * @throws InputError for a name that no side has
+     */
+    std::set<dealii::types::boundary_id>
+    side_ids(const BoundaryCondition &condition) const;
+
+    /**
+     * The connected part of the body (counted from 0) to which each vertex of
+     * the triangulation belongs; parts that share no edge are not connected.
+     */
+    std::vector<unsigned int>
+    connected_parts() const;
+
+  private:
+    const MPI_Comm comm;
+    MeshParameters parameters;
+    std::string    kind = "automatic";
+
+    std::unique_ptr<dealii::parallel::TriangulationBase<dim>> tria;
+    std::unique_ptr<dealii::Mapping<dim>>                      map;
+    std::map<std::string, dealii::types::boundary_id>         sides;
+    bool                                                       simplicial = false;
+    std::vector<unsigned int>                                  part_of_vertex;
+  };
+} // namespace geocone
+
+#endif

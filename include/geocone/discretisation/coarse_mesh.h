@@ -1,0 +1,85 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_discretisation_coarse_mesh_h
+#define geocone_discretisation_coarse_mesh_h
+
+#include <geocone/scene/geometry.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <deal.II/grid/cell_data.h>
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /** Vertices, cells with material ids, and boundary edges with side ids. */
+  struct CoarseMesh
+  {
+    std::vector<dealii::Point<dim>>                    points;
+    std::vector<dealii::CellData<dim>>                 cells;
+    dealii::SubCellData                                boundary;
+    std::map<std::string, dealii::types::boundary_id> sides;
+
+    bool
+    has_triangles() const;
+
+    /** The edges that belong to one cell only, as pairs of vertices. */
+    std::vector<std::array<unsigned int, 2>>
+    outer_edges() const;
+  };
+
+  /**
+   * How the domain is cut into cells:
+   *  - uniform: squares of about the cell size, or triangles cut from them;
+   *  - graded: a tensor grid whose cells grow from the grading points' rows and
+   *    columns, or triangles cut from it;
+   *  - unstructured: by gmsh, with the size
+   *      h(x) = max(smallest, min(largest, ratio x distance to the nearest
+   *      grading point)),
+   *    and with the grading points and the borders of the materials in it.
+   */
+  class MeshParameters : public dealii::ParameterAcceptor
+  {
+  public:
+    MeshParameters();
+
+    void
+    prepare(const Geometry &geometry);
+
+    std::string                     type      = "uniform";
+    std::string                     cells     = "triangles";
+    std::string                     diagonals = "alternating";
+    double                          cell_size = 0.1;
+    std::vector<dealii::Point<dim>> grading_points;
+    double                          smallest   = 0.005;
+    double                          largest    = 0.3;
+    double                          growth     = 1.3;
+    double                          size_ratio = 0.25;
+    int                             algorithm  = 6;
+  };
+
+  /** Uniform and graded meshes of a box. */
+  CoarseMesh
+  structured_mesh(const MeshParameters &parameters, const Geometry &geometry);
+
+  /** Unstructured mesh of a box or polygon, by gmsh. */
+  CoarseMesh
+  unstructured_mesh(const MeshParameters &parameters,
+                    const Geometry       &geometry,
+                    const Regions        &regions);
+
+  /**
+   * The mesh of a .msh file.
+   * @throws InputError if it holds no cells of first order, inverted cells, or
+   * hanging nodes
+   */
+  CoarseMesh
+  read_msh(const std::string &file_name, const Regions &regions);
+} // namespace geocone
+
+#endif

@@ -1,0 +1,64 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_discretisation_material_points_h
+#define geocone_discretisation_material_points_h
+
+#include <geocone/base/types.h>
+
+#include <deal.II/base/point.h>
+
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * Where the continuum lives, on this rank: contiguous arrays over points that
+   * are sorted by cell. This is all that the incremental problem knows of FEM
+   * or MPM. Everything here belongs to t_n and is const during a step.
+   */
+  struct MaterialPoints
+  {
+    unsigned int
+    n_points() const
+    {
+      return weight.size();
+    }
+    unsigned int
+    n_cells() const
+    {
+      return first_point.size() - 1;
+    }
+
+    /** Nodes per cell. */
+    unsigned int n_nodes = 0;
+
+    /** The points of cell c are first_point[c] ... first_point[c + 1] - 1. */
+    std::vector<unsigned int> first_point = {0};
+
+    /** Local numbers of the nodes of a cell: n_nodes per cell. */
+    std::vector<unsigned int> nodes;
+
+    /** grad N at a point: n_nodes values of d/dx, then n_nodes of d/dy (1/m). */
+    std::vector<double> gradients;
+
+    /** Index of the material of each point. */
+    std::vector<unsigned int> material;
+
+    /** Volume per unit thickness that a point stands for (m^2). */
+    std::vector<double> weight;
+
+    std::vector<dealii::Point<dim>> position;
+
+    /** State at t_n: stress (Pa), plastic strain, and the integral of the norm
+     *  of the plastic strain rate. */
+    std::vector<Mandel> stress;
+    std::vector<Mandel> plastic_strain;
+    std::vector<double> cumulative_plastic_strain;
+
+    /** Norm of the plastic strain rate over the last step (1/s). */
+    std::vector<double> plastic_strain_rate;
+  };
+} // namespace geocone
+
+#endif

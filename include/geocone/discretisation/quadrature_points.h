@@ -1,0 +1,66 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_discretisation_quadrature_points_h
+#define geocone_discretisation_quadrature_points_h
+
+#include <geocone/discretisation/material_points.h>
+#include <geocone/discretisation/space.h>
+
+#include <deal.II/base/quadrature.h>
+
+namespace geocone
+{
+  /**
+   * The rule that integrates B'DB exactly on affine cells: on triangles of
+   * degree p polynomials of degree 2p - 2 (1, 3, 7 points), on quadrilaterals
+   * (p + 1)^2 Gauss points.
+   */
+  dealii::Quadrature<dim>
+  stress_quadrature(const Space &space, const BackgroundMesh &mesh);
+
+  /** Geometry and N at the points of a rule in one cell. */
+  struct CellValues
+  {
+    CellValues(const Space                   &space,
+               const BackgroundMesh          &mesh,
+               const dealii::Quadrature<dim> &quadrature);
+    ~CellValues();
+
+    void
+    reinit(const Space::Cell &cell);
+
+    const dealii::Quadrature<dim>   quadrature;
+    std::vector<dealii::Point<dim>> position;
+    std::vector<double>             weight; ///< JxW (m^2)
+
+    /** N_i at point q (of the reference cell: the same in all cells). */
+    double
+    value(const unsigned int i, const unsigned int q) const
+    {
+      return reference_value[q * n_nodes + i];
+    }
+
+    /** grad N_i at point q (1/m). */
+    dealii::Tensor<1, dim>
+    gradient(const unsigned int i, const unsigned int q) const;
+
+  private:
+    const unsigned int                  n_nodes;
+    std::vector<double>                 reference_value;
+    std::vector<dealii::Tensor<1, dim>> reference_gradient;
+    struct Geometry;
+    std::unique_ptr<Geometry> geometry;
+  };
+
+  /**
+   * Points of the finite element method: the points of a quadrature rule in
+   * each cell, which never move.
+   */
+  MaterialPoints
+  make_quadrature_points(const Scene          &scene,
+                         const BackgroundMesh &mesh,
+                         const Space          &space);
+} // namespace geocone
+
+#endif

@@ -1,0 +1,97 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_materials_material_h
+#define geocone_materials_material_h
+
+#include <geocone/base/types.h>
+#include <geocone/materials/elasticity.h>
+#include <geocone/materials/second_order_cone.h>
+
+#include <deal.II/base/array_view.h>
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <optional>
+#include <string>
+
+namespace geocone
+{
+  /** What a batch of points asks of its material: the same index, one point. */
+  struct Increment
+  {
+    dealii::ArrayView<const Mandel> strain;   ///< strain increments of the step
+    dealii::ArrayView<const Mandel> stress_n; ///< stress at t_n (Pa)
+  };
+
+  /** What the material answers. An empty `tangent` is not computed. */
+  struct Response
+  {
+    dealii::ArrayView<Mandel>       stress;  ///< stress at t_{n+1} (Pa)
+    dealii::ArrayView<Mode>         mode;    ///< elastic, cone or apex
+    dealii::ArrayView<MandelMatrix> tangent; ///< ds/de, generalised (Pa)
+  };
+
+  /**
+   * A constitutive law: a pure function of a batch of strain increments and
+   * states at t_n. Each law is one unit in this folder with its own parameters,
+   * and one line in material_library.cc.
+   *
+   * Parameters of the base: density (kg/m^3), Young modulus (Pa), Poisson ratio.
+   */
+  class Material : public dealii::ParameterAcceptor
+  {
+  public:
+    /** @param section e.g. "Materials/soil" */
+    explicit Material(const std::string &section);
+
+    /** Checks the parameters and computes what derives from them. */
+    virtual void
+    prepare();
+
+    /** The law, for all points of the batch. */
+    virtual void
+    update(const Increment &increment, const Response &response) const = 0;
+
+    /**
+     * The cone of a cone law, by which solutions are checked independently of
+     * update(); nothing for laws without one.
+     */
+    virtual std::optional<FlowCone>
+    flow_cone() const
+    {
+      return std::nullopt;
+    }
+
+    /**
+     * (a - b)/a between 0 (associated: the tangent is symmetric) and 1 (no
+     * dilatancy).
+     */
+    double
+    non_associativity() const;
+
+    double
+    density() const
+    {
+      return rho;
+    }
+
+    const Elasticity &
+    elasticity() const
+    {
+      return elastic;
+    }
+
+  protected:
+    /** "Materials/soil/NAME", for messages. */
+    std::string
+    parameter(const std::string &name) const;
+
+  private:
+    double     rho           = 2000.;
+    double     young_modulus = 1e8;
+    double     poisson_ratio = 0.3;
+    Elasticity elastic;
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,76 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_materials_material_library_h
+#define geocone_materials_material_library_h
+
+#include <geocone/base/parameter_file.h>
+#include <geocone/materials/material.h>
+
+#include <memory>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * Makes the material of a section, e.g. "Materials/soil".
+   * @param type a name of material_types()
+   * @throws InputError for an unknown type, with the list of those known
+   */
+  std::unique_ptr<Material>
+  make_material(const std::string &type, const std::string &section);
+
+  /** The names that make_material() knows. */
+  std::vector<std::string>
+  material_types();
+
+  /**
+   * The materials of a scene, in the order of "Materials/Names"; a material is
+   * known by its place in the list. A point belongs to the last material whose
+   * region contains it, or else to the first one.
+   */
+  class Materials : public dealii::ParameterAcceptor
+  {
+  public:
+    explicit Materials(const ParameterFile &file);
+
+    void
+    prepare();
+
+    unsigned int
+    size() const
+    {
+      return list.size();
+    }
+
+    const Material &
+    operator[](const unsigned int i) const
+    {
+      return *list[i];
+    }
+
+    const std::string &
+    name(const unsigned int i) const
+    {
+      return names[i];
+    }
+
+    /** Largest non-associativity of all materials, 0 to 1. */
+    double
+    non_associativity() const;
+
+    /** Whether all tangents are symmetric (associated flow everywhere). */
+    bool
+    symmetric() const
+    {
+      return non_associativity() == 0.;
+    }
+
+  private:
+    std::vector<std::string>               names;
+    std::vector<std::string>               types;
+    std::vector<std::unique_ptr<Material>> list;
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,211 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_materials_second_order_cone_h
+#define geocone_materials_second_order_cone_h
+
+#include <geocone/base/types.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace geocone
+{
+  /**
+   * Coordinates in which the yield surface is a circular cone: a vector x is
+   * split into x[0] = x.n along the axis n, which points to compression, and the
+   * tangential part x_t = x[1..]. In plane strain, for a Mandel vector,
+   *   n = -(1, 1, 0)/sqrt2, t1 = (1, -1, 0)/sqrt2, t2 = (0, 0, 1).
+   * The map is orthogonal: scalar products do not change.
+   */
+  inline Mandel
+  to_cone_axes(const Mandel &s)
+  {
+    return {-(s[0] + s[1]) / sqrt2, (s[0] - s[1]) / sqrt2, s[2]};
+  }
+
+  inline Mandel
+  from_cone_axes(const Mandel &x)
+  {
+    return {(-x[0] + x[1]) / sqrt2, (-x[0] - x[1]) / sqrt2, x[2]};
+  }
+
+  /** A linear map given in cone axes, written in Mandel components. */
+  inline MandelMatrix
+  from_cone_axes(const MandelMatrix &C)
+  {
+    MandelMatrix columns, result;
+    for (int j = 0; j < n_mandel; ++j)
+      columns.col(j) = from_cone_axes(Mandel(C.col(j)));
+    for (int i = 0; i < n_mandel; ++i)
+      result.row(i) =
+        from_cone_axes(Mandel(columns.row(i).transpose())).transpose();
+    return result;
+  }
+
+  /** In which part of the return map a point ended. */
+  enum class Mode : unsigned char
+  {
+    elastic, ///< inside the cone
+    cone,    ///< on its smooth surface
+    apex     ///< at its tip
+  };
+
+  /**
+   * The admissible set of a cone law and its flow, in cone axes:
+   *   C = { s : |s_t| <= a s_n + k },   a >= 0, k >= 0,
+   * with flow aperture b, 0 <= b <= a (b = a: associated). With
+   * z = -(plastic strain increment), mu = a - b and Psi(z) = z + mu |z_t| n,
+   * the law reads  K* contains Psi(z), orthogonal to s + (k/a) n in K, where
+   * K = {|x_t| <= a x_n} and K* = {a |y_t| <= y_n} (Guillet et al. 2025, eqs 22,
+   * 25-27, 85-91; signs and apertures as in doc/theory.md). For a = 0 the set
+   * is the cylinder |s_t| <= k (Tresca); only the apex divides by a.
+   */
+  struct FlowCone
+  {
+    double a = 0.; ///< aperture of the yield cone, e.g. sin(phi)
+    double b = 0.; ///< aperture of the flow cone, e.g. sin(theta)
+    double k = 0.; ///< radius of the yield surface at s_n = 0 (Pa)
+
+    template <typename V>
+    double
+    yield_function(const V &s) const
+    {
+      return tangential_norm(s) - a * s[0] - k;
+    }
+
+    /** Psi(z) = z + (a - b) |z_t| n: the change of variable of eq (25). */
+    template <typename V>
+    V
+    psi(const V &z) const
+    {
+      V y = z;
+      y[0] += (a - b) * tangential_norm(z);
+      return y;
+    }
+
+    /** Violation of y in K*: max(0, a |y_t| - y_n). */
+    template <typename V>
+    double
+    dual_violation(const V &y) const
+    {
+      return std::max(0., a * tangential_norm(y) - y[0]);
+    }
+
+    /**
+     * <y, s + (k/a) n>, written such that a = 0 is its limit for y in the
+     * boundary of K* (there (k/a) y_n = k |y_t|).
+     */
+    template <typename V>
+    double
+    complementarity_product(const V &y, const V &s) const
+    {
+      return y.dot(s) + (a > 0. ? (k / a) * y[0] : k * tangential_norm(y));
+    }
+
+    template <typename V>
+    static double
+    tangential_norm(const V &x)
+    {
+      return x.template tail<V::RowsAtCompileTime - 1>().norm();
+    }
+  };
+
+  /**
+   * Solution of the one-point problem
+   *   s = t + D z with D = diag(K, 2G, ..., 2G),  z from the law of FlowCone
+   * for a trial value t, in closed form (doc/theory.md, section "Return map"):
+   * with T = |t_t|, f = T - a t_n - k, H = 2G + a b K, g = f/H, q = T - 2G g,
+   *   f <= 0            : s = t                                   (elastic)
+   *   q >= 0 or a = 0   : s_n = t_n + K b g, s_t = q t_t/T        (cone)
+   *   otherwise         : s = (-k/a, 0)                           (apex).
+   * For b = a this is the projection of t onto C in the metric of D^{-1}; with
+   * K = 2G it is the Euclidean projection P_C.
+   *
+   * @param[out] tangent an element of the generalised Jacobian ds/dt times D,
+   * i.e. ds/de for t = s^n + D e; untouched if null
+   */
+  template <typename V, typename M>
+  Mode
+  return_map(const FlowCone &cone,
+             const double    K,
+             const double    two_G,
+             const V        &t,
+             V              &s,
+             M              *tangent)
+  {
+    constexpr int n_tangential = V::RowsAtCompileTime - 1;
+    const double  T            = FlowCone::tangential_norm(t);
+    const double  f            = T - cone.a * t[0] - cone.k;
+    if (f <= 0.)
+      {
+        s = t;
+        if (tangent != nullptr)
+          {
+            tangent->setZero();
+            tangent->diagonal().setConstant(two_G);
+            (*tangent)(0, 0) = K;
+          }
+        return Mode::elastic;
+      }
+    const double H = two_G + cone.a * cone.b * K;
+    const double g = f / H;
+    const double q = T - two_G * g;
+    if (q >= 0. || cone.a == 0.)
+      {
+        const auto u = (t.template tail<n_tangential>() / T).eval();
+        s[0]         = t[0] + K * cone.b * g;
+        s.template tail<n_tangential>() = q * u;
+        if (tangent != nullptr)
+          {
+            M &C    = *tangent;
+            C(0, 0) = K - cone.a * cone.b * K * K / H;
+            C.template block<1, n_tangential>(0, 1) =
+              (K * cone.b * two_G / H) * u.transpose();
+            C.template block<n_tangential, 1>(1, 0) =
+              (two_G * cone.a * K / H) * u;
+            C.template block<n_tangential, n_tangential>(1, 1) =
+              (two_G - two_G * two_G / H - two_G * q / T) * u * u.transpose();
+            C.template block<n_tangential, n_tangential>(1, 1)
+              .diagonal()
+              .array() += two_G * q / T;
+          }
+        return Mode::cone;
+      }
+    s.setZero();
+    s[0] = -cone.k / cone.a;
+    if (tangent != nullptr)
+      tangent->setZero();
+    return Mode::apex;
+  }
+
+  /**
+   * Euclidean projection onto C = {|s_t| <= a s_n + k}.
+   * @param[out] jacobian an element of Clarke's generalised Jacobian (paper,
+   * appendix C, with the polar cone as the third case), if not null
+   */
+  template <typename V, typename M = Eigen::Matrix<double,
+                                                   V::RowsAtCompileTime,
+                                                   V::RowsAtCompileTime>>
+  V
+  project(const double a, const double k, const V &x, M *jacobian = nullptr)
+  {
+    V              projected;
+    const FlowCone cone{a, a, k};
+    return_map(cone, 1., 1., x, projected, jacobian);
+    return projected;
+  }
+
+  /**
+   * Natural map F(s, y) = s - P_C(s - rho y), y = Psi(z): zero if and only if
+   * (s, z) satisfies the law, for any rho > 0 (paper, eqs 58, 59).
+   */
+  template <typename V>
+  V
+  natural_map(const FlowCone &cone, const V &s, const V &y, const double rho)
+  {
+    return s - project(cone.a, cone.k, V(s - rho * y));
+  }
+} // namespace geocone
+
+#endif

@@ -1,0 +1,198 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mechanics_incremental_problem_h
+#define geocone_mechanics_incremental_problem_h
+
+#include <geocone/base/sparse_matrix.h>
+#include <geocone/discretisation/material_points.h>
+#include <geocone/materials/material_library.h>
+#include <geocone/mechanics/constraints.h>
+
+#include <vector>
+
+namespace geocone
+{
+  /** What residual() has found, summed over the ranks. */
+  struct ResidualReport
+  {
+    double       norm       = 0.; ///< Euclidean norm over the free rows (N/m)
+    double       force_norm = 0.; ///< norm of B'V s and F, all rows (N/m)
+    unsigned int n_cone     = 0;  ///< points on the smooth part of the cone
+    unsigned int n_apex     = 0;  ///< points at the apex
+    unsigned int n_switched = 0;  ///< points whose mode differs from last time
+  };
+
+  /**
+   * How well a computed state satisfies the cone law, whatever solver made it:
+   * maxima over all points, with z = S (s - s_n) - h B v recomputed from the
+   * state, y = Psi(z), and the stress scale max |s| + max k.
+   */
+  struct Quality
+  {
+    double natural_map     = 0.; ///< |s - P_C(s - 2G y)| / stress scale
+    double cone_violation  = 0.; ///< max(0, |s_t| - a s_n - k) / stress scale
+    double dual_violation  = 0.; ///< max(0, a |y_t| - y_n) / max |y|
+    double complementarity = 0.; ///< |<y, s + (k/a) n>| / (max |y| stress scale)
+  };
+
+  /**
+   * One implicit step as a root-finding problem for the velocities v of the free
+   * dofs (backward Euler):
+   *   R(v) = M (v - vL)/h + sum_p V_p B_p' s_p(v) - F,
+   *   s_p(v) = material(h B_p v, state at t_n),
+   * with prescribed velocities eliminated. It knows points, weights, gradients
+   * and constraints, and never asks whether they are FEM or MPM. The state at
+   * t_n is const; trial states live here.
+   */
+  class IncrementalProblem
+  {
+  public:
+    /**
+     * @param lumped_mass diagonal of M, or null for a quasi-static problem
+     */
+    IncrementalProblem(const MaterialPoints &points,
+                       const Materials      &materials,
+                       const Constraints    &constraints,
+                       const std::shared_ptr<
+                         const dealii::Utilities::MPI::Partitioner> &layout,
+                       const Vector                                 *lumped_mass);
+
+    /**
+     * Sets the data of the step from t_n to t = t_n + h.
+     * @param force F at t, or null for none
+     * @param velocity_L vL, velocities at t_n
+     */
+    void
+    begin_step(const double  h,
+               const double  t,
+               const Vector *force,
+               const Vector &velocity_L);
+
+    /** Evaluates trial states and R(v) in all rows. @p v needs its ghosts. */
+    ResidualReport
+    residual(Vector &dst, const Vector &v);
+
+    /** Whether the Jacobian is symmetric positive definite. */
+    bool
+    is_symmetric() const
+    {
+      return materials.symmetric();
+    }
+
+    /** Largest (a - b)/a of the materials. */
+    double
+    non_associativity() const
+    {
+      return materials.non_associativity();
+    }
+
+    /** The pattern of the Jacobian on the free dofs, with zero values. */
+    SparseMatrix
+    make_pattern();
+
+    /**
+     * Generalised Jacobian dR/dv = M/h + h sum V B' C B at the last residual(),
+     * with C replaced by (1 - w) C + w D, w the elastic blend.
+     */
+    void
+    linearise(SparseMatrix &matrix, const double elastic_blend = 0.) const;
+
+    /** dst = (dR/dv) dv in all rows, at the last residual(). */
+    void
+    apply_tangent(Vector &dst, const Vector &dv) const;
+
+    /** Sets the prescribed components of v to their values at the step's end. */
+    void
+    set_prescribed(Vector &v) const
+    {
+      constraints.set_values(v, t);
+    }
+
+    const Constraints &
+    free_dofs() const
+    {
+      return constraints;
+    }
+
+    /** Scalar product over the free dofs. */
+    double
+    free_dot(const Vector &a, const Vector &b) const;
+
+    /** A zero vector with the layout of velocities and forces. */
+    Vector
+    make_vector() const
+    {
+      return Vector(layout);
+    }
+
+    /** Checks of the last residual()'s state; the same on all ranks. */
+    Quality
+    quality() const;
+
+    /** @name Trial states at the last residual(), by point */
+    /** @{ */
+    const std::vector<Mandel> &
+    trial_stress() const
+    {
+      return stress;
+    }
+    const std::vector<Mandel> &
+    strain_increment() const
+    {
+      return strain;
+    }
+    const std::vector<Mode> &
+    modes() const
+    {
+      return mode;
+    }
+    /** -z: the plastic part of the strain increment of a point. */
+    Mandel
+    plastic_strain_increment(const unsigned int point) const;
+    /** @} */
+
+    /** Size h of the step (s). */
+    double
+    time_step() const
+    {
+      return h;
+    }
+
+  private:
+    /** Asks the materials, run by run of points with the same one. */
+    void
+    update_materials(const bool with_tangent) const;
+
+    const MaterialPoints                                            &points;
+    const Materials                                                 &materials;
+    const Constraints                                               &constraints;
+    const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
+    const Vector                                                    *mass;
+
+    double        h     = 0.;
+    double        t     = 0.;
+    const Vector *force = nullptr;
+    Vector        velocity_L;
+
+    /** Points from begin to end share a material. */
+    struct Run
+    {
+      unsigned int begin, end, material;
+    };
+    std::vector<Run> runs;
+
+    std::vector<Mandel>                       strain;
+    mutable std::vector<Mandel>               stress;
+    mutable std::vector<Mode>                 mode;
+    std::vector<Mode>                         previous_mode;
+    mutable std::vector<MandelMatrix>         tangent;
+
+    /** Per cell (dim n_nodes)^2 places in the matrix, -1 for prescribed. */
+    std::vector<int> scatter;
+    /** Place of the diagonal entry of each free row. */
+    std::vector<int> diagonal;
+  };
+} // namespace geocone
+
+#endif

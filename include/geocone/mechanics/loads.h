@@ -1,0 +1,66 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mechanics_loads_h
+#define geocone_mechanics_loads_h
+
+#include <geocone/discretisation/space.h>
+#include <geocone/scene/scene.h>
+
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * Nodal integrals of the density, each stored for both components:
+   * @param[out] weight_per_g  int rho N_i, which times g is the weight (kg/m)
+   * @param[out] lumped_mass  diagonal mass: the row sums int rho N_i, which are
+   * positive for P1, P3, Q1, Q2, Q3 (vertex, edge, centre of P3: 1/30, 3/40,
+   * 9/20 of the cell); for P2, whose vertices would get nothing, the diagonal
+   * of the consistent mass scaled to the mass of the cell
+   */
+  void
+  integrate_density(const Scene          &scene,
+                    const BackgroundMesh &mesh,
+                    const Space          &space,
+                    Vector               &weight_per_g,
+                    Vector               &lumped_mass);
+
+  /**
+   * External forces F(t): weight and tractions. Nothing is stored or computed
+   * of what the scene does not have.
+   */
+  class Loads
+  {
+  public:
+    Loads(const Scene &scene, const BackgroundMesh &mesh, const Space &space);
+
+    /** F at time t (N/m). */
+    void
+    evaluate(Vector       &force,
+             const Vector &weight_per_g,
+             const double  t) const;
+
+    bool
+    exist() const
+    {
+      return scene.gravity.acts() || !scene.tractions.list.empty();
+    }
+
+  private:
+    /** A quadrature point of a loaded face. */
+    struct FacePoint
+    {
+      unsigned int              condition;
+      dealii::Point<dim>        position;
+      double                    weight; ///< JxW (m)
+      std::vector<unsigned int> nodes;
+      std::vector<double>       values; ///< N at the point, per node
+    };
+
+    const Scene           &scene;
+    std::vector<FacePoint> face_points;
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,133 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_output_run_output_h
+#define geocone_output_run_output_h
+
+#include <geocone/base/files.h>
+#include <geocone/base/log.h>
+#include <geocone/base/parameter_file.h>
+#include <geocone/output/fields.h>
+#include <geocone/output/limit_load.h>
+#include <geocone/time_stepping/implicit_fem.h>
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  using Json = nlohmann::ordered_json;
+
+  /** An accepted step of the loading programme, with all its substeps. */
+  struct StepRecord
+  {
+    unsigned int        step     = 0;
+    unsigned int        substeps = 0; ///< accepted
+    unsigned int        failures = 0; ///< substeps tried in vain
+    unsigned int        iterations = 0; ///< of all substeps, failed ones too
+    double              time         = 0.;
+    double              displacement = 0.;
+    double              load         = 0.;
+    std::vector<double> reactions; ///< of the observed conditions
+    StepReport          last; ///< of the last substep; works are of the step
+  };
+
+  /**
+   * The folder of a run and what it holds: parameters.prm (as used),
+   * statistics.csv (a line per step), newton.csv (a line per iteration),
+   * summary.json, VTU series, log.txt. Read only with respect to the state.
+   */
+  class RunOutput : public dealii::ParameterAcceptor
+  {
+  public:
+    RunOutput(const MPI_Comm comm, Log &log);
+
+    /**
+     * Makes the folder.
+     * @param default_name name of the parameter file without its ending
+     * @param folder_of_call folder from the command line; empty: none
+     * @throws InputError if it exists and may not be used, or cannot be written
+     */
+    void
+    prepare(const std::string &default_name,
+            const std::string &folder_of_call,
+            const Scene       &scene);
+
+    /** Adds a tried (sub)step to newton.csv. */
+    void
+    add_newton_table(const unsigned int step,
+                     const double       time,
+                     const double       h,
+                     const StepReport  &report);
+
+    /** Adds an accepted step to statistics.csv. */
+    void
+    add_step(const StepRecord &record);
+
+    /** Writes fields, if wanted. */
+    void
+    write_fields(const double          time,
+                 const BackgroundMesh &mesh,
+                 const Space          &space,
+                 const MaterialPoints &points,
+                 const Kinematics     &kinematics);
+
+    /** Writes summary.json. @param status running | finished | failed: why */
+    void
+    write_summary(const std::string &status, const Json &size, const Json &cost);
+
+    /** Prints the result; in tests also a file `output` with all loads. */
+    void
+    print_result() const;
+
+    /**
+     * Compares the summary with the expectations of the parameter file.
+     * @return whether all hold
+     */
+    bool
+    expectations_hold() const;
+
+    const std::string &
+    folder() const
+    {
+      return path;
+    }
+
+    bool
+    wants_pictures() const
+    {
+      return pictures;
+    }
+
+    unsigned int verbosity = 1;
+
+  private:
+    Json
+    results() const;
+
+    const MPI_Comm comm;
+    const bool     writes; ///< whether this is the rank that writes tables
+    Log           &log;
+
+    std::string              path;
+    std::string              name;
+    std::string              if_exists       = "number";
+    bool                     with_fields     = true;
+    bool                     pictures        = true;
+    bool                     report_for_test = false;
+    std::vector<std::string> expectations;
+
+    const Scene            *scene = nullptr;
+    CsvFile                 statistics, newton;
+    Fields                  fields;
+    unsigned int            n_fields = 0;
+    std::vector<StepRecord> records;
+    Json                    summary;
+
+    double work = 0., dissipation = 0., initial_energy = 0.;
+  };
+} // namespace geocone
+
+#endif

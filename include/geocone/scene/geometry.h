@@ -1,0 +1,114 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_scene_geometry_h
+#define geocone_scene_geometry_h
+
+#include <geocone/base/types.h>
+#include <geocone/materials/material_library.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+#include <deal.II/base/point.h>
+#include <deal.II/base/types.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  using Polygon = std::vector<dealii::Point<dim>>;
+
+  /** Whether x lies inside a polygon (crossing number). */
+  bool
+  contains(const Polygon &polygon, const dealii::Point<dim> &x);
+
+  /** Distance of x from the segment ab (m). */
+  double
+  distance_to_segment(const dealii::Point<dim> &x,
+                      const dealii::Point<dim> &a,
+                      const dealii::Point<dim> &b);
+
+  /**
+   * @throws InputError if the polygon has fewer than three vertices, repeated
+   * vertices, no area, or sides that cross or touch
+   */
+  void
+  check_polygon(const Polygon &polygon, const std::string &parameter);
+
+  /**
+   * The domain: a box, a polygon, or whatever a .msh file holds. The sides of
+   * a box are called bottom, right, top, left; those of a polygon 0, 1, 2, ...
+   * (side i runs from vertex i to the next one); those of a file have the
+   * numbers or names of its physical curves.
+   */
+  class Geometry : public dealii::ParameterAcceptor
+  {
+  public:
+    enum class Shape
+    {
+      box,
+      polygon,
+      file
+    };
+
+    Geometry();
+
+    void
+    prepare();
+
+    Shape shape = Shape::box;
+
+    /** Vertices of the box or polygon, in order; empty for a file. */
+    Polygon outline;
+
+    /** The number of each named side of the box or polygon. */
+    std::map<std::string, dealii::types::boundary_id> sides;
+
+    /** Name of the .msh file. */
+    std::string file;
+
+    /** The side of the outline on which x lies (the nearest one). */
+    dealii::types::boundary_id
+    side_of(const dealii::Point<dim> &x) const;
+
+  private:
+    std::string                     shape_name = "box";
+    std::vector<dealii::Point<dim>> box        = {{-1., -2.}, {1., 0.}};
+    std::vector<dealii::Point<dim>> polygon    = {{0., 0.}, {1., 0.}, {1., 1.}};
+  };
+
+  /**
+   * Which material fills which part of the domain: per material a polygon, or
+   * the number of a physical surface of a .msh file.
+   */
+  class Regions
+  {
+  public:
+    explicit Regions(const ParameterFile &file);
+
+    void
+    prepare(const Geometry &geometry);
+
+    /** The polygons, to be respected by mesh generators. */
+    std::vector<Polygon>
+    polygons() const;
+
+    /** The material at x in a cell of a physical surface @p id. */
+    unsigned int
+    material_at(const dealii::Point<dim> &x, const int id) const;
+
+  private:
+    class Region : public dealii::ParameterAcceptor
+    {
+    public:
+      explicit Region(const std::string &name);
+      std::vector<dealii::Point<dim>> polygon;
+      int                             id = -1;
+    };
+    std::vector<std::unique_ptr<Region>> regions;
+  };
+} // namespace geocone
+
+#endif

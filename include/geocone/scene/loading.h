@@ -1,0 +1,114 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_scene_loading_h
+#define geocone_scene_loading_h
+
+#include <geocone/base/parameter_file.h>
+#include <geocone/scene/expression.h>
+#include <geocone/scene/geometry.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+#include <deal.II/base/tensor.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /** One stage of the loading programme: a duration and how to step through it. */
+  class Stage : public dealii::ParameterAcceptor
+  {
+  public:
+    explicit Stage(const std::string &name);
+
+    void
+    prepare();
+
+    /** The sizes of its steps in order (s); they sum up to the duration. */
+    std::vector<double>
+    step_sizes() const;
+
+    const std::string name;
+    double            duration           = 1.;
+    unsigned int      output_every       = 0;
+    bool              reset_displacement = false;
+
+  private:
+    double step_size       = 0.01;
+    double first_step_size = 0.;
+    double growth          = 1.;
+  };
+
+  /** The stages of "Loading/Stages", one after another from t = 0. */
+  class LoadingProgramme : public dealii::ParameterAcceptor
+  {
+  public:
+    explicit LoadingProgramme(const ParameterFile &file);
+
+    void
+    prepare();
+
+    std::vector<std::unique_ptr<Stage>> stages;
+
+  private:
+    std::vector<std::string> names;
+  };
+
+  /** Gravity g(t), at once or ramped up linearly over a duration. */
+  class Gravity : public dealii::ParameterAcceptor
+  {
+  public:
+    Gravity();
+
+    void
+    prepare();
+
+    dealii::Tensor<1, dim>
+    at(const double t) const;
+
+    bool
+    acts() const
+    {
+      return acceleration.norm() > 0.;
+    }
+
+  private:
+    dealii::Tensor<1, dim> acceleration;
+    double                 ramp_duration = 0.;
+  };
+
+  /**
+   * The stress before the first step: zero, given by formulas, or geostatic,
+   *   s_yy = -(surcharge + integral of rho |g| from y to the surface),
+   *   s_xx = K0 s_yy, s_xy = 0,
+   * with the densities of the materials met on the way up.
+   */
+  class InitialStress : public dealii::ParameterAcceptor
+  {
+  public:
+    InitialStress();
+
+    void
+    prepare(const Gravity &gravity, const Geometry &geometry);
+
+    /** Stress at a point x (Pa). */
+    Mandel
+    at(const dealii::Point<dim> &x,
+       const Materials          &materials,
+       const Regions            &regions) const;
+
+  private:
+    std::string                  type  = "zero";
+    std::array<std::string, 3>   texts = {{"0", "0", "0"}};
+    std::array<Expression, 3>    components;
+    double                       k0              = 0.5;
+    double                       surface         = 0.;
+    double                       surcharge       = 0.;
+    double                       g               = 0.;
+  };
+} // namespace geocone
+
+#endif

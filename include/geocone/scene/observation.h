@@ -1,0 +1,69 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_scene_observation_h
+#define geocone_scene_observation_h
+
+#include <geocone/materials/material_library.h>
+#include <geocone/scene/boundary_conditions.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * Exact bearing capacity factor of a weightless half-plane under a strip
+   * (Prandtl 1920, Reissner 1924; paper eq 77):
+   *   Nq = exp(pi tan(phi)) tan^2(pi/4 + phi/2),  Nc = (Nq - 1)/tan(phi),
+   * and Nc = 2 + pi for phi = 0.
+   * @param phi friction angle (degrees)
+   */
+  double
+  bearing_capacity_factor_q(const double phi);
+  double
+  bearing_capacity_factor_c(const double phi);
+
+  /**
+   * What the run is about: the reactions of some boundary conditions, the first
+   * of which is the load of the load-displacement curve, and the value that
+   * its limit is compared with.
+   */
+  class Observation : public dealii::ParameterAcceptor
+  {
+  public:
+    Observation();
+
+    void
+    prepare(const BoundaryConditions &conditions, const Materials &materials);
+
+    /** Indices of the observed conditions. */
+    std::vector<unsigned int> conditions;
+
+    /** 0 for x, 1 for y. */
+    unsigned int component = 1;
+
+    /** Load = factor x reaction, e.g. -2 for a downward load on a half. */
+    double factor = -1.;
+
+    /** The load to compare with (N/m). */
+    std::optional<double> reference;
+    std::string           reference_name;
+
+    /** Largest relative drift of the load over a plateau. */
+    double plateau_tolerance = 0.01;
+
+  private:
+    std::vector<std::string> names;
+    std::string              component_name = "y";
+    std::string              value          = "none";
+    std::string              material;
+    double                   width     = 0.2;
+    double                   surcharge = 0.;
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,89 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_simulation_h
+#define geocone_simulation_h
+
+#include <geocone/output/run_output.h>
+
+namespace geocone
+{
+  /**
+   * How failed steps are cut and grow again. A step of the loading programme is
+   * reached in substeps: a failed one is halved, an easy one lets the next grow
+   * by half, up to the whole step.
+   */
+  class StepControl : public dealii::ParameterAcceptor
+  {
+  public:
+    StepControl();
+
+    void
+    prepare();
+
+    unsigned int max_halvings    = 9;
+    unsigned int easy_iterations = 12;
+  };
+
+  /**
+   * A run: owns everything, in the order in which data flows. Velocities, time
+   * and step number are locals of run().
+   */
+  class Simulation
+  {
+  public:
+    Simulation(const MPI_Comm comm, const ParameterFile &file, Log &log);
+
+    /**
+     * @param name of the parameter file, without its ending
+     * @param folder of the output, from the command line; may be empty
+     * @return whether all expectations of the parameter file hold
+     * @throws InputError before anything is computed, RunError afterwards
+     */
+    bool
+    run(const std::string &name, const std::string &folder);
+
+    const RunOutput &
+    output() const
+    {
+      return run_output;
+    }
+
+  private:
+    /** Cheap or not, all that can be refused is refused here. */
+    void
+    prepare(const std::string &name, const std::string &folder);
+
+    /** One step of the programme, from t to t + h. @throws RunError */
+    StepRecord
+    advance(Kinematics        &kinematics,
+            const unsigned int step,
+            const double       t,
+            const double       h,
+            double            &substep);
+
+    Json
+    size() const;
+    Json
+    cost() const;
+
+    const MPI_Comm comm;
+    Log           &log;
+
+    Scene           scene;
+    BackgroundMesh  mesh;
+    Space           space;
+    NonsmoothNewton newton;
+    ImplicitFEM     stepper;
+    StepControl     step_control;
+    RunOutput       run_output;
+
+    dealii::TimerOutput          timer;
+    dealii::Timer                total, step_loop;
+    std::unique_ptr<Constraints> constraints;
+    MaterialPoints               points;
+    unsigned int                 n_factorisations = 0;
+  };
+} // namespace geocone
+
+#endif

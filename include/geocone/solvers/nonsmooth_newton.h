@@ -1,0 +1,96 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_solvers_nonsmooth_newton_h
+#define geocone_solvers_nonsmooth_newton_h
+
+#include <geocone/mechanics/incremental_problem.h>
+#include <geocone/solvers/linear_solver.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+#include <deal.II/base/timer.h>
+
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /** A line of the Newton table: a state and how it was reached. */
+  struct NewtonIteration
+  {
+    double       relative_residual = 0.; ///< norm / force norm
+    double       step_length       = 0.; ///< of the step that led here
+    unsigned int n_cone            = 0;
+    unsigned int n_apex            = 0;
+    unsigned int n_switched        = 0;
+  };
+
+  /** What a solve came to. */
+  struct SolverReport
+  {
+    bool                         converged    = false;
+    unsigned int                 iterations   = 0; ///< linear systems solved
+    unsigned int                 regularised  = 0; ///< of them, with a blend
+    double                       residual     = 0.; ///< relative, at the end
+    std::vector<NewtonIteration> table;
+    std::string                  reason; ///< why it did not converge
+  };
+
+  /**
+   * Semismooth Newton method for R(v) = 0 with the generalised Jacobian of the
+   * closed-form return map (the natural map in the elastic metric, with (s, z)
+   * eliminated point by point), and the line search of line_search.h. The
+   * change of the prescribed velocities enters the first linear system, whose
+   * step is full. Convergence: |R_free| <= max(tolerance |B'V s|, absolute).
+   */
+  class NonsmoothNewton : public dealii::ParameterAcceptor
+  {
+  public:
+    NonsmoothNewton();
+
+    /** Checks the parameters. */
+    void
+    prepare();
+
+    /**
+     * @param[in,out] v in: the start, velocities of t_n; out: the solution
+     * @param[out] residual R(v) in all rows: reactions where prescribed
+     */
+    SolverReport
+    solve(IncrementalProblem  &problem,
+          SparseMatrix        &matrix,
+          LinearSolver        &linear_solver,
+          dealii::TimerOutput &timer,
+          Vector              &v,
+          Vector              &residual) const;
+
+    double
+    tolerance() const
+    {
+      return relative_tolerance;
+    }
+
+    /** Name of the linear solver that was asked for. */
+    const std::string &
+    linear_solver_name() const
+    {
+      return solver_name.value;
+    }
+
+  private:
+    double       relative_tolerance  = 1e-10;
+    double       absolute_tolerance  = 1e-12;
+    unsigned int max_iterations      = 0;
+    bool         use_line_search     = true;
+
+    /** Has a section of its own. */
+    struct SolverName : dealii::ParameterAcceptor
+    {
+      SolverName();
+      std::string value = "automatic";
+    };
+    SolverName solver_name;
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,105 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <unistd.h>
+
+#include <cstdarg>
+#include <iostream>
+#include <vector>
+
+namespace geocone
+{
+  Log::Log(const MPI_Comm comm, const bool quiet)
+    : speaks(dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+    , quiet(quiet)
+    , terminal(speaks && isatty(STDOUT_FILENO))
+  {}
+
+  Log::~Log()
+  {
+    end_progress_line();
+  }
+
+  void
+  Log::open(const std::string &file_name)
+  {
+    if (!speaks)
+      return;
+    file.open(file_name);
+    if (!file)
+      throw RunError("the log '" + file_name + "' cannot be written");
+    file << said_before_open.str() << std::flush;
+  }
+
+  void
+  Log::end_progress_line()
+  {
+    if (progress_width > 0)
+      std::cout << std::endl;
+    progress_width = 0;
+  }
+
+  void
+  Log::print(const std::string &text)
+  {
+    if (!speaks)
+      return;
+    end_progress_line();
+    if (!quiet)
+      std::cout << text << std::endl;
+    if (file.is_open())
+      file << text << std::endl;
+    else
+      said_before_open << text << '\n';
+  }
+
+  void
+  Log::warn(const std::string &text)
+  {
+    if (!speaks)
+      return;
+    if (quiet)
+      std::cerr << "warning: " << text << std::endl;
+    print("warning: " + text);
+  }
+
+  void
+  Log::progress(const std::string &text)
+  {
+    if (!speaks)
+      return;
+    if (!quiet && terminal)
+      {
+        // Pad with blanks what a longer line before left on the screen.
+        std::cout << '\r' << text
+                  << std::string(progress_width > text.size() ?
+                                   progress_width - text.size() :
+                                   0,
+                                 ' ')
+                  << std::flush;
+        progress_width = text.size();
+      }
+    else if (!quiet)
+      std::cout << text << std::endl;
+    if (file.is_open())
+      file << text << std::endl;
+  }
+
+  std::string
+  format(const char *pattern, ...)
+  {
+    va_list arguments, copy;
+    va_start(arguments, pattern);
+    va_copy(copy, arguments);
+    std::vector<char> buffer(1 + std::vsnprintf(nullptr, 0, pattern, copy));
+    va_end(copy);
+    std::vsnprintf(buffer.data(), buffer.size(), pattern, arguments);
+    va_end(arguments);
+    return buffer.data();
+  }
+} // namespace geocone

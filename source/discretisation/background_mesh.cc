@@ -1,0 +1,172 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/discretisation/background_mesh.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/distributed/shared_tria.h>
+#include <deal.II/distributed/tria.h>
+
+#include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/mapping_fe.h>
+#include <deal.II/fe/mapping_q1.h>
+
+#include <numeric>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  BackgroundMesh::BackgroundMesh(const MPI_Comm comm)
+    : ParameterAcceptor("/Mesh")
+    , comm(comm)
+  {
+    add_parameter("Triangulation",
+                  kind,
+                  "automatic | distributed (p4est, quadrilaterals only) | "
+                  "shared (every rank stores the whole mesh).");
+  }
+
+  void
+  BackgroundMesh::prepare(const Scene &scene)
+  {
+    parameters.prepare(scene.geometry);
+    const Geometry &geometry = scene.geometry;
+
+    CoarseMesh mesh;
+    if (geometry.shape == Geometry::Shape::file)
+      mesh = read_msh(geometry.file, scene.regions);
+    else
+      {
+        mesh = parameters.type == "unstructured" ?
+                 unstructured_mesh(parameters, geometry, scene.regions) :
+                 structured_mesh(parameters, geometry);
+        for (auto &cell : mesh.cells)
+          {
+            Point<dim> centre;
+            for (const unsigned int v : cell.vertices)
+              centre += mesh.points[v] / cell.vertices.size();
+            cell.material_id = scene.regions.material_at(centre, -1);
+          }
+        mesh.sides = geometry.sides;
+        for (const auto &edge : mesh.outer_edges())
+          {
+            CellData<1> line(2);
+            line.vertices    = {edge[0], edge[1]};
+            line.boundary_id = geometry.side_of(
+              0.5 * (mesh.points[edge[0]] + mesh.points[edge[1]]));
+            mesh.boundary.boundary_lines.push_back(line);
+          }
+      }
+    sides      = mesh.sides;
+    simplicial = mesh.has_triangles();
+
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
+    if (simplicial && mesh.cells.size() > 0 &&
+        std::any_of(mesh.cells.begin(), mesh.cells.end(), [](const auto &cell) {
+          return cell.vertices.size() == 4;
+        }))
+      throw InputError("the mesh mixes triangles and quadrilaterals\n"
+                       "  allowed: one kind of cells\n"
+                       "  remedy:  recombine all or none in gmsh");
+    if (n_ranks > mesh.cells.size())
+      throw InputError("there are more ranks (" + std::to_string(n_ranks) +
+                       ") than cells (" + std::to_string(mesh.cells.size()) +
+                       ")\n  remedy:  call mpirun with fewer ranks");
+    if (kind == "automatic")
+      kind = simplicial ? "shared" : "distributed";
+    if (kind == "distributed" && simplicial)
+      throw InputError("Mesh/Triangulation",
+                       kind,
+                       "automatic | shared for triangles: p4est knows only "
+                       "quadrilaterals, on 1 rank or more",
+                       "set Mesh/Triangulation = automatic");
+    if (kind == "distributed")
+      tria = std::make_unique<parallel::distributed::Triangulation<dim>>(comm);
+    else if (kind == "shared")
+      tria = std::make_unique<parallel::shared::Triangulation<dim>>(
+        comm,
+        Triangulation<dim>::none,
+        true,
+        parallel::shared::Triangulation<dim>::Settings::partition_metis);
+    else
+      throw InputError("Mesh/Triangulation",
+                       kind,
+                       "automatic | distributed | shared",
+                       "choose one of them");
+    tria->create_triangulation(mesh.points, mesh.cells, mesh.boundary);
+
+    if (simplicial)
+      map = std::make_unique<MappingFE<dim>>(FE_SimplexP<dim>(1));
+    else
+      map = std::make_unique<MappingQ1<dim>>();
+
+    // Parts connected through edges, by union of the vertices of cells that
+    // share an edge: cells that touch in one vertex only can still rotate.
+    std::vector<unsigned int> part(mesh.cells.size());
+    std::iota(part.begin(), part.end(), 0U);
+    const auto root = [&](unsigned int i) {
+      while (part[i] != i)
+        i = part[i] = part[part[i]];
+      return i;
+    };
+    std::map<std::pair<unsigned int, unsigned int>, unsigned int> first_cell;
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      {
+        const auto        &v = mesh.cells[c].vertices;
+        const unsigned int n = v.size();
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = i + 1; j < n; ++j)
+            {
+              const auto entry =
+                first_cell.emplace(std::minmax(v[i], v[j]), c).first;
+              part[root(c)] = root(entry->second);
+            }
+      }
+    std::map<unsigned int, unsigned int> number;
+    part_of_vertex.assign(mesh.points.size(), 0);
+    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
+      {
+        const unsigned int p =
+          number.emplace(root(c), number.size()).first->second;
+        for (const unsigned int v : mesh.cells[c].vertices)
+          part_of_vertex[v] = p;
+      }
+  }
+
+  std::vector<unsigned int>
+  BackgroundMesh::connected_parts() const
+  {
+    return part_of_vertex;
+  }
+
+  std::set<types::boundary_id>
+  BackgroundMesh::side_ids(const BoundaryCondition &condition) const
+  {
+    std::set<types::boundary_id> ids;
+    for (const std::string &name : condition.sides)
+      {
+        if (name == "all")
+          {
+            for (const auto id : tria->get_boundary_ids())
+              ids.insert(id);
+            continue;
+          }
+        const auto side = sides.find(name);
+        if (side == sides.end())
+          {
+            std::string known = "all";
+            for (const auto &entry : sides)
+              known += ", " + entry.first;
+            throw InputError(condition.parameter("Sides"),
+                             name,
+                             known,
+                             "choose some of them");
+          }
+        ids.insert(side->second);
+      }
+    return ids;
+  }
+} // namespace geocone

@@ -1,0 +1,289 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/discretisation/coarse_mesh.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace geocone
+{
+  using dealii::Point;
+
+  bool
+  CoarseMesh::has_triangles() const
+  {
+    return std::any_of(cells.begin(), cells.end(), [](const auto &cell) {
+      return cell.vertices.size() == 3;
+    });
+  }
+
+  std::vector<std::array<unsigned int, 2>>
+  CoarseMesh::outer_edges() const
+  {
+    // Vertices of the edges: of triangles around the cell, of quadrilaterals in
+    // deal.II's lexicographic numbering.
+    static const std::vector<std::array<unsigned int, 2>>
+      edges_of_triangle      = {{0, 1}, {1, 2}, {2, 0}},
+      edges_of_quadrilateral = {{0, 1}, {1, 3}, {3, 2}, {2, 0}};
+
+    std::map<std::array<unsigned int, 2>, unsigned int> n_cells;
+    for (const auto &cell : cells)
+      for (const auto &edge : cell.vertices.size() == 3 ?
+                                edges_of_triangle :
+                                edges_of_quadrilateral)
+        {
+          const unsigned int a = cell.vertices[edge[0]];
+          const unsigned int b = cell.vertices[edge[1]];
+          ++n_cells[{{std::min(a, b), std::max(a, b)}}];
+        }
+    std::vector<std::array<unsigned int, 2>> outer;
+    for (const auto &[edge, n] : n_cells)
+      if (n == 1)
+        outer.push_back(edge);
+    return outer;
+  }
+
+  MeshParameters::MeshParameters()
+    : dealii::ParameterAcceptor("/Mesh")
+  {
+    add_parameter("Type",
+                  type,
+                  "uniform | graded (both for boxes) | unstructured (by gmsh). "
+                  "Not used where the domain is a .msh file.");
+    add_parameter("Cells", cells, "triangles | quadrilaterals.");
+    add_parameter("Diagonals",
+                  diagonals,
+                  "How the rectangles of a uniform or graded mesh are cut into "
+                  "triangles: alternating | parallel (two triangles) | crossed "
+                  "(four).");
+    add_parameter("Cell size",
+                  cell_size,
+                  "Side of the squares of a uniform mesh (m); it is rounded to "
+                  "a whole number of cells.");
+    add_parameter("Grading points",
+                  grading_points,
+                  "Points x, y; x, y; ... (m) around which graded and "
+                  "unstructured meshes are fine. Each becomes a vertex.");
+    add_parameter("Smallest size",
+                  smallest,
+                  "Cell size at the grading points (m).");
+    add_parameter("Largest size", largest, "Largest cell size (m).");
+    add_parameter("Growth factor",
+                  growth,
+                  "Graded meshes: ratio of a cell to its smaller neighbour, "
+                  "> 1.");
+    add_parameter("Size ratio",
+                  size_ratio,
+                  "Unstructured meshes: cell size over distance to the nearest "
+                  "grading point, > 0.");
+    add_parameter("Gmsh algorithm",
+                  algorithm,
+                  "gmsh's number of the 2D algorithm: 5 Delaunay, 6 "
+                  "frontal-Delaunay, 1 MeshAdapt, 8 frontal for "
+                  "quadrilaterals.");
+  }
+
+  void
+  MeshParameters::prepare(const Geometry &geometry)
+  {
+    const auto choose = [](const std::string              &entry,
+                           const std::string              &value,
+                           const std::vector<std::string> &choices) {
+      std::string allowed;
+      for (const std::string &choice : choices)
+        allowed += (allowed.empty() ? "" : " | ") + choice;
+      if (std::find(choices.begin(), choices.end(), value) == choices.end())
+        throw InputError("Mesh/" + entry,
+                         value,
+                         allowed,
+                         "choose one of them");
+    };
+    const auto positive = [](const std::string &entry, const double value) {
+      if (!(value > 0.))
+        throw InputError("Mesh/" + entry, value, "> 0", "give it in m");
+    };
+    choose("Type", type, {"uniform", "graded", "unstructured"});
+    choose("Cells", cells, {"triangles", "quadrilaterals"});
+    choose("Diagonals", diagonals, {"alternating", "parallel", "crossed"});
+    positive("Cell size", cell_size);
+    positive("Smallest size", smallest);
+    positive("Largest size", largest);
+    positive("Size ratio", size_ratio);
+    if (largest < smallest)
+      throw InputError("Mesh/Largest size",
+                       largest,
+                       ">= the smallest size",
+                       "exchange the two");
+    if (type == "graded" && !(growth > 1.))
+      throw InputError("Mesh/Growth factor",
+                       growth,
+                       "> 1",
+                       "1.3 is usual; for equal cells take a uniform mesh");
+    if (type != "unstructured" && geometry.shape == Geometry::Shape::polygon)
+      throw InputError("Mesh/Type",
+                       type,
+                       "unstructured, where the domain is a polygon",
+                       "set Mesh/Type = unstructured");
+    if (type == "graded" && grading_points.empty())
+      throw InputError("Mesh/Grading points",
+                       "",
+                       "one or more points for a graded mesh",
+                       "give e.g. the edge of the footing: 0.1, 0");
+    if (geometry.shape != Geometry::Shape::file)
+      for (const Point<dim> &x : grading_points)
+        {
+          double distance = 1e300;
+          for (std::size_t i = 0; i < geometry.outline.size(); ++i)
+            distance = std::min(
+              distance,
+              distance_to_segment(x,
+                                  geometry.outline[i],
+                                  geometry.outline[(i + 1) %
+                                                   geometry.outline.size()]));
+          if (distance > 1e-9 && !contains(geometry.outline, x))
+            throw InputError("Mesh/Grading points",
+                             dealii::Patterns::Tools::to_string(x),
+                             "points of the domain",
+                             "move it into the domain or onto its border");
+        }
+  }
+
+  namespace
+  {
+    std::vector<double>
+    uniform_coordinates(const double begin, const double end, const double size)
+    {
+      const int n =
+        std::max(1, static_cast<int>(std::lround((end - begin) / size)));
+      std::vector<double> x(n + 1);
+      for (int i = 0; i <= n; ++i)
+        x[i] = begin + (end - begin) * i / n;
+      return x;
+    }
+
+    /**
+     * Sizes from a fine end over a length: smallest, smallest x growth, ... up
+     * to largest, scaled together so that they fill the length.
+     */
+    std::vector<double>
+    growing_sizes(const double length, const MeshParameters &parameters)
+    {
+      std::vector<double> sizes;
+      double              sum = 0.;
+      for (double h = parameters.smallest; sum < length * (1. - 1e-9);
+           h        = std::min(h * parameters.growth, parameters.largest))
+        {
+          sizes.push_back(h);
+          sum += h;
+        }
+      for (double &size : sizes)
+        size *= length / sum;
+      return sizes;
+    }
+
+    std::vector<double>
+    graded_coordinates(const double          begin,
+                       const double          end,
+                       std::vector<double>   fine,
+                       const MeshParameters &parameters)
+    {
+      std::sort(fine.begin(), fine.end());
+      std::vector<double> knots = {begin};
+      for (const double x : fine)
+        if (x > knots.back() + 1e-9 * (end - begin))
+          knots.push_back(x);
+      if (end > knots.back() + 1e-9 * (end - begin))
+        knots.push_back(end);
+      const auto is_fine = [&](const double x) {
+        return std::any_of(fine.begin(), fine.end(), [&](const double f) {
+          return std::abs(f - x) < 1e-9 * (end - begin);
+        });
+      };
+
+      std::vector<double> x = {begin};
+      for (std::size_t i = 0; i + 1 < knots.size(); ++i)
+        {
+          const double left = knots[i], right = knots[i + 1];
+          std::vector<double> sizes;
+          if (is_fine(left) && is_fine(right))
+            {
+              const std::vector<double> half =
+                growing_sizes((right - left) / 2., parameters);
+              sizes = half;
+              sizes.insert(sizes.end(), half.rbegin(), half.rend());
+            }
+          else
+            {
+              sizes = growing_sizes(right - left, parameters);
+              if (is_fine(right))
+                std::reverse(sizes.begin(), sizes.end());
+            }
+          for (const double size : sizes)
+            x.push_back(x.back() + size);
+          x.back() = right; // exactly: conditions select by coordinate
+        }
+      return x;
+    }
+  } // namespace
+
+  CoarseMesh
+  structured_mesh(const MeshParameters &parameters, const Geometry &geometry)
+  {
+    const Point<dim> lower = geometry.outline[0], upper = geometry.outline[2];
+    std::vector<double> x[dim];
+    for (unsigned int c = 0; c < dim; ++c)
+      if (parameters.type == "graded")
+        {
+          std::vector<double> fine;
+          for (const Point<dim> &point : parameters.grading_points)
+            fine.push_back(point[c]);
+          x[c] = graded_coordinates(lower[c], upper[c], fine, parameters);
+        }
+      else
+        x[c] = uniform_coordinates(lower[c], upper[c], parameters.cell_size);
+
+    CoarseMesh         mesh;
+    const unsigned int nx = x[0].size() - 1, ny = x[1].size() - 1;
+    for (unsigned int j = 0; j <= ny; ++j)
+      for (unsigned int i = 0; i <= nx; ++i)
+        mesh.points.emplace_back(x[0][i], x[1][j]);
+
+    const auto add_cell = [&](const std::vector<unsigned int> &vertices) {
+      dealii::CellData<dim> cell(vertices.size());
+      cell.vertices = vertices;
+      mesh.cells.push_back(cell);
+    };
+    const bool crossed = parameters.diagonals == "crossed";
+    for (unsigned int j = 0; j < ny; ++j)
+      for (unsigned int i = 0; i < nx; ++i)
+        {
+          const unsigned int a = j * (nx + 1) + i, b = a + 1;
+          const unsigned int c = a + nx + 1, d = c + 1;
+          if (parameters.cells == "quadrilaterals")
+            add_cell({a, b, c, d});
+          else if (crossed)
+            {
+              const unsigned int m = mesh.points.size();
+              mesh.points.emplace_back((x[0][i] + x[0][i + 1]) / 2.,
+                                       (x[1][j] + x[1][j + 1]) / 2.);
+              add_cell({a, b, m});
+              add_cell({b, d, m});
+              add_cell({d, c, m});
+              add_cell({c, a, m});
+            }
+          else if (parameters.diagonals == "parallel" || (i + j) % 2 == 0)
+            {
+              add_cell({a, b, d});
+              add_cell({a, d, c});
+            }
+          else
+            {
+              add_cell({a, b, c});
+              add_cell({b, d, c});
+            }
+        }
+    return mesh;
+  }
+} // namespace geocone

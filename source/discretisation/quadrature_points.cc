@@ -1,0 +1,115 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/discretisation/quadrature_points.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <deal.II/fe/fe_nothing.h>
+#include <deal.II/fe/fe_values.h>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  Quadrature<dim>
+  stress_quadrature(const Space &space, const BackgroundMesh &mesh)
+  {
+    const unsigned int p = space.degree();
+    if (!mesh.is_simplicial())
+      return QGauss<dim>(p + 1);
+    if (p < 3)
+      return QGaussSimplex<dim>(p); // 1 and 3 points, degree 1 and 2
+    return QWitherdenVincentSimplex<dim>(3); // 7 points, degree 5
+  }
+
+  struct CellValues::Geometry
+  {
+    Geometry(const BackgroundMesh &mesh, const Quadrature<dim> &quadrature)
+      : nothing(mesh.is_simplicial() ? ReferenceCells::Triangle :
+                                       ReferenceCells::Quadrilateral)
+      , fe_values(mesh.mapping(),
+                  nothing,
+                  quadrature,
+                  update_inverse_jacobians | update_JxW_values |
+                    update_quadrature_points)
+    {}
+    FE_Nothing<dim> nothing;
+    FEValues<dim>   fe_values;
+  };
+
+  CellValues::CellValues(const Space           &space,
+                         const BackgroundMesh  &mesh,
+                         const Quadrature<dim> &quadrature)
+    : quadrature(quadrature)
+    , position(quadrature.size())
+    , weight(quadrature.size())
+    , n_nodes(space.nodes_per_cell())
+    , geometry(std::make_unique<Geometry>(mesh, quadrature))
+  {
+    for (const Point<dim> &x : quadrature.get_points())
+      for (unsigned int i = 0; i < n_nodes; ++i)
+        {
+          reference_value.push_back(space.finite_element().shape_value(i, x));
+          reference_gradient.push_back(space.finite_element().shape_grad(i, x));
+        }
+  }
+
+  CellValues::~CellValues() = default;
+
+  void
+  CellValues::reinit(const Space::Cell &cell)
+  {
+    geometry->fe_values.reinit(Triangulation<dim>::cell_iterator(cell));
+    for (unsigned int q = 0; q < position.size(); ++q)
+      {
+        position[q] = geometry->fe_values.quadrature_point(q);
+        weight[q]   = geometry->fe_values.JxW(q);
+      }
+  }
+
+  Tensor<1, dim>
+  CellValues::gradient(const unsigned int i, const unsigned int q) const
+  {
+    return apply_transformation(
+      transpose(Tensor<2, dim>(geometry->fe_values.inverse_jacobian(q))),
+      reference_gradient[q * n_nodes + i]);
+  }
+
+  MaterialPoints
+  make_quadrature_points(const Scene          &scene,
+                         const BackgroundMesh &mesh,
+                         const Space          &space)
+  {
+    MaterialPoints points;
+    points.n_nodes = space.nodes_per_cell();
+    CellValues values(space, mesh, stress_quadrature(space, mesh));
+    std::vector<types::global_dof_index> nodes;
+    for (const Space::Cell &cell : space.dof_handler().active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          values.reinit(cell);
+          space.cell_nodes(cell, nodes);
+          for (const types::global_dof_index node : nodes)
+            points.nodes.push_back(space.local_node(node));
+          for (unsigned int q = 0; q < values.quadrature.size(); ++q)
+            {
+              points.weight.push_back(values.weight[q]);
+              points.position.push_back(values.position[q]);
+              points.material.push_back(cell->material_id());
+              points.stress.push_back(
+                scene.initial_stress.at(values.position[q],
+                                        scene.materials,
+                                        scene.regions));
+              for (unsigned int c = 0; c < dim; ++c)
+                for (unsigned int i = 0; i < points.n_nodes; ++i)
+                  points.gradients.push_back(values.gradient(i, q)[c]);
+            }
+          points.first_point.push_back(points.weight.size());
+        }
+    points.plastic_strain.assign(points.n_points(), Mandel::Zero());
+    points.cumulative_plastic_strain.assign(points.n_points(), 0.);
+    points.plastic_strain_rate.assign(points.n_points(), 0.);
+    return points;
+  }
+} // namespace geocone

@@ -1,0 +1,188 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/version.h>
+#include <geocone/simulation.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+
+namespace
+{
+  using namespace geocone;
+
+  struct CommandLine
+  {
+    std::string              file;
+    std::string              folder;
+    std::vector<std::string> overrides;
+    std::string              defaults_file;
+    bool                     quiet   = false;
+    bool                     help    = false;
+    bool                     version = false;
+  };
+
+  const char *usage =
+    "geocone FILE.prm [--output FOLDER] [--set 'Section/Parameter = value']... "
+    "[--quiet]\n"
+    "mpirun -np RANKS geocone FILE.prm ...\n"
+    "\n"
+    "  --output FOLDER      folder of the results (default: results/NAME)\n"
+    "  --set 'S/P = value'  overrides a parameter of the file; repeatable\n"
+    "  --quiet              nothing on the screen but errors and warnings\n"
+    "  --defaults NEW.prm   writes all parameters with their defaults, commented\n"
+    "  --help               this text and all parameters\n"
+    "  --version            versions of geocone and its libraries\n"
+    "\n"
+    "The exit code is 0 if the run has finished and its expectations hold, and\n"
+    "1 otherwise.\n";
+
+  CommandLine
+  parse_command_line(const int argc, char **argv)
+  {
+    CommandLine call;
+    const auto  value = [&](int &i) {
+      if (i + 1 >= argc)
+        throw InputError(std::string("the option ") + argv[i] +
+                         " needs a value\n  remedy:  see geocone --help");
+      return std::string(argv[++i]);
+    };
+    for (int i = 1; i < argc; ++i)
+      {
+        const std::string argument = argv[i];
+        if (argument == "--output")
+          call.folder = value(i);
+        else if (argument == "--set")
+          call.overrides.push_back(value(i));
+        else if (argument == "--quiet")
+          call.quiet = true;
+        else if (argument == "--help" || argument == "-h")
+          call.help = true;
+        else if (argument == "--version")
+          call.version = true;
+        else if (argument == "--defaults")
+          call.defaults_file = value(i);
+        else if (!argument.empty() && argument[0] == '-')
+          throw InputError("unknown option '" + argument +
+                           "'\n  remedy:  see geocone --help");
+        else if (call.file.empty())
+          call.file = argument;
+        else
+          throw InputError("a second parameter file '" + argument +
+                           "'\n  remedy:  give one; overrides go into --set");
+      }
+    return call;
+  }
+
+  /** All parameters with an example of each kind of named section. */
+  void
+  print_defaults(std::ostream &out)
+  {
+    const std::filesystem::path example =
+      std::filesystem::temp_directory_path() /
+      ("geocone-" + std::to_string(getpid()) + ".prm");
+    {
+      std::ofstream file(example);
+      file << "subsection Boundary conditions\nset Names = footing\nend\n"
+              "subsection Tractions\nset Names = surcharge\nend\n";
+    }
+    const ParameterFile file(example.string(), {});
+    std::filesystem::remove(example);
+    Log        log(MPI_COMM_WORLD, true);
+    Simulation simulation(MPI_COMM_WORLD, file, log);
+    file.parse();
+    ParameterFile::print(out, true);
+  }
+
+  int
+  run(const int argc, char **argv, std::string &folder_to_draw)
+  {
+    const bool first =
+      dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    const CommandLine call = parse_command_line(argc, argv);
+    if (call.version)
+      {
+        if (first)
+          std::cout << "geocone " << version << " (deal.II " << DEAL_II_PACKAGE_VERSION
+                    << ")" << std::endl;
+        return 0;
+      }
+    if (call.help)
+      {
+        if (first)
+          {
+            std::cout << usage << "\nAll parameters, with their defaults:\n\n";
+            print_defaults(std::cout);
+          }
+        return 0;
+      }
+    if (!call.defaults_file.empty())
+      {
+        if (first)
+          write_file(call.defaults_file, &print_defaults);
+        return 0;
+      }
+    if (call.file.empty())
+      {
+        if (first)
+          std::cerr << "error: no parameter file\n" << usage;
+        return 1;
+      }
+
+    const ParameterFile file(call.file, call.overrides);
+    Log                 log(MPI_COMM_WORLD, call.quiet);
+    Simulation          simulation(MPI_COMM_WORLD, file, log);
+    file.parse();
+    const bool ok =
+      simulation.run(std::filesystem::path(call.file).stem().string(),
+                     call.folder);
+    if (first && simulation.output().wants_pictures())
+      folder_to_draw = simulation.output().folder();
+    return ok ? 0 : 1;
+  }
+} // namespace
+
+int
+main(int argc, char **argv)
+{
+  std::string folder_to_draw;
+  int         status = 1;
+  {
+    // One thread per rank: the parallelism is MPI's.
+    dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+    const bool                               several =
+      dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1;
+    const bool first =
+      dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    try
+      {
+        status = run(argc, argv, folder_to_draw);
+      }
+    catch (const InputError &error)
+      {
+        // All ranks find the same, and end without waiting for each other.
+        if (first)
+          std::cerr << "error: " << error.what() << std::endl;
+      }
+    catch (const std::exception &error)
+      {
+        std::cerr << "error: " << error.what() << std::endl;
+        if (several)
+          MPI_Abort(MPI_COMM_WORLD, 1);
+      }
+  }
+  if (!folder_to_draw.empty())
+    {
+      const std::string command =
+        std::string("'" GEOCONE_SOURCE_DIR "/scripts/plot' '") +
+        folder_to_draw + "'";
+      if (std::system(command.c_str()) != 0)
+        std::cerr << "warning: no pictures: " << command << " failed"
+                  << std::endl;
+    }
+  return status;
+}

@@ -1,0 +1,21 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/materials/linear_elastic.h>
+
+namespace geocone
+{
+  void
+  LinearElastic::update(const Increment &increment,
+                        const Response  &response) const
+  {
+    for (std::size_t p = 0; p < increment.strain.size(); ++p)
+      {
+        response.stress[p] =
+          increment.stress_n[p] + elasticity().stress(increment.strain[p]);
+        response.mode[p] = Mode::elastic;
+      }
+    for (MandelMatrix &tangent : response.tangent)
+      tangent = elasticity().stiffness();
+  }
+} // namespace geocone

@@ -1,0 +1,102 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/materials/linear_elastic.h>
+#include <geocone/materials/material_library.h>
+#include <geocone/materials/mohr_coulomb.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace geocone
+{
+  namespace
+  {
+    template <typename Law>
+    std::unique_ptr<Material>
+    make(const std::string &section)
+    {
+      return std::make_unique<Law>(section);
+    }
+
+    /** The list of all laws: a new one is a new line here. */
+    const std::vector<
+      std::pair<std::string,
+                std::unique_ptr<Material> (*)(const std::string &)>>
+      laws = {{"Mohr-Coulomb", &make<MohrCoulomb>},
+              {"Tresca", &make<Tresca>},
+              {"linear elastic", &make<LinearElastic>}};
+  } // namespace
+
+  std::vector<std::string>
+  material_types()
+  {
+    std::vector<std::string> names;
+    for (const auto &law : laws)
+      names.push_back(law.first);
+    return names;
+  }
+
+  std::unique_ptr<Material>
+  make_material(const std::string &type, const std::string &section)
+  {
+    std::string known;
+    for (const auto &law : laws)
+      {
+        if (law.first == type)
+          return law.second(section);
+        known += (known.empty() ? "" : " | ") + law.first;
+      }
+    throw InputError(section + "/Type",
+                     type,
+                     known,
+                     "choose one of these laws, or add one as doc/theory.md "
+                     "tells");
+  }
+
+  Materials::Materials(const ParameterFile &file)
+    : dealii::ParameterAcceptor("/Materials")
+    , names(file.peek_list("Materials/Names", "soil"))
+  {
+    add_parameter("Names",
+                  names,
+                  "Names of the materials, comma-separated; each has a "
+                  "subsection of that name.");
+    if (names.empty())
+      throw InputError("Materials/Names",
+                       "",
+                       "at least one name",
+                       "set Names = soil");
+    types.resize(names.size());
+    for (std::size_t i = 0; i < names.size(); ++i)
+      {
+        const std::string section = "Materials/" + names[i];
+        types[i] = file.peek(section + "/Type", "Mohr-Coulomb");
+        std::string documentation = "The law, one of:";
+        for (const std::string &type : material_types())
+          documentation += " " + type + ",";
+        documentation.back() = '.';
+        enter_subsection(names[i]);
+        add_parameter("Type", types[i], documentation);
+        leave_subsection();
+        list.push_back(make_material(types[i], section));
+      }
+  }
+
+  void
+  Materials::prepare()
+  {
+    for (const auto &material : list)
+      material->prepare();
+  }
+
+  double
+  Materials::non_associativity() const
+  {
+    double largest = 0.;
+    for (const auto &material : list)
+      largest = std::max(largest, material->non_associativity());
+    return largest;
+  }
+} // namespace geocone

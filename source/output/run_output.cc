@@ -1,0 +1,446 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/output/run_output.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <filesystem>
+#include <iostream>
+
+namespace geocone
+{
+  using dealii::Utilities::MPI::broadcast;
+
+  RunOutput::RunOutput(const MPI_Comm comm, Log &log)
+    : dealii::ParameterAcceptor("/Output")
+    , comm(comm)
+    , writes(dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+    , log(log)
+  {
+    add_parameter("Folder",
+                  path,
+                  "Folder of the run; empty: results/NAME for NAME.prm. The "
+                  "option --output goes before it.");
+    add_parameter("If folder exists",
+                  if_exists,
+                  "number (take NAME-2, NAME-3, ...) | refuse | overwrite (the "
+                  "files of the run before are removed).");
+    add_parameter("Fields",
+                  with_fields,
+                  "Whether VTU files are written (see Loading/.../Output "
+                  "every).");
+    add_parameter("Pictures",
+                  pictures,
+                  "Whether the curve and the fields are drawn at the end, by "
+                  "scripts/plot.");
+    add_parameter("Verbosity",
+                  verbosity,
+                  "0: results only, 1: progress, 2: also the table of every "
+                  "Newton iteration.");
+    add_parameter("Expectations",
+                  expectations,
+                  "Comma-separated statements about summary.json that must "
+                  "hold at the end, else the exit code is 1: TOPIC/NAME <= "
+                  "NUMBER or >= NUMBER, e.g. newton/iterations_mean <= 7.");
+    add_parameter("Report for tests",
+                  report_for_test,
+                  "Writes a file 'output' with the load of each step into the "
+                  "folder of the call.");
+  }
+
+  void
+  RunOutput::prepare(const std::string &default_name,
+                     const std::string &folder_of_call,
+                     const Scene       &scene_)
+  {
+    namespace fs = std::filesystem;
+    scene        = &scene_;
+    name         = default_name;
+    if (if_exists != "number" && if_exists != "refuse" &&
+        if_exists != "overwrite")
+      throw InputError("Output/If folder exists",
+                       if_exists,
+                       "number | refuse | overwrite",
+                       "choose one of them");
+    for (const std::string &statement : expectations)
+      {
+        double            bound;
+        char              topic[200];
+        char              relation[3];
+        if (std::sscanf(statement.c_str(), "%199s %2s %lf", topic, relation, &bound) !=
+              3 ||
+            (std::string(relation) != "<=" && std::string(relation) != ">="))
+          throw InputError("Output/Expectations",
+                           statement,
+                           "TOPIC/NAME <= NUMBER or TOPIC/NAME >= NUMBER",
+                           "e.g. newton/iterations_mean <= 7");
+      }
+    if (!folder_of_call.empty())
+      path = folder_of_call;
+    if (path.empty())
+      path = "results/" + default_name;
+
+    // Rank 0 makes the folder; all learn its name, or why there is none.
+    std::string refusal;
+    if (writes)
+      {
+        std::error_code error;
+        const auto      is_used = [&](const std::string &folder) {
+          return fs::exists(folder) &&
+                 (!fs::is_directory(folder) || !fs::is_empty(folder, error));
+        };
+        const std::string wanted = path;
+        if (is_used(path) && if_exists == "number")
+          for (unsigned int i = 2; is_used(path); ++i)
+            path = wanted + "-" + std::to_string(i);
+        if (is_used(path) && if_exists == "refuse")
+          refusal = "it exists and is not empty";
+        else if (is_used(path) && fs::is_directory(path))
+          {
+            // Only what a run writes, never anything else.
+            for (const auto &entry : fs::directory_iterator(path, error))
+              {
+                const std::string file = entry.path().filename().string();
+                const std::string end  = entry.path().extension().string();
+                if (file == "parameters.prm" || file == "statistics.csv" ||
+                    file == "newton.csv" || file == "summary.json" ||
+                    file == "log.txt" || end == ".vtu" || end == ".pvtu" ||
+                    end == ".pvd" || end == ".part" || end == ".png" ||
+                    end == ".svg")
+                  fs::remove(entry.path(), error);
+              }
+          }
+        if (refusal.empty())
+          {
+            fs::create_directories(path, error);
+            if (!fs::is_directory(path))
+              refusal = "it cannot be made";
+            else
+              {
+                std::ofstream probe(path + "/parameters.prm");
+                if (probe)
+                  ParameterFile::print(probe, false);
+                probe.close();
+                if (!probe)
+                  refusal = "it cannot be written";
+              }
+          }
+      }
+    path    = broadcast(comm, path);
+    refusal = broadcast(comm, refusal);
+    if (!refusal.empty())
+      throw InputError("Output/Folder",
+                       path,
+                       "a folder that can be written",
+                       refusal + "; name another one with --output");
+
+    if (!writes)
+      return;
+    log.open(path + "/log.txt");
+    std::vector<std::string> columns = {"step",
+                                        "time (s)",
+                                        "displacement (m)",
+                                        "load (N/m)"};
+    for (const unsigned int c : scene->observation.conditions)
+      for (const char *direction : {" x", " y"})
+        columns.push_back("reaction " + scene->dirichlet.list[c]->name +
+                          direction + " (N/m)");
+    for (const char *column : {"iterations (-)",
+                               "substeps (-)",
+                               "failed substeps (-)",
+                               "residual (-)",
+                               "natural-map error (-)",
+                               "cone violation (-)",
+                               "dual-cone violation (-)",
+                               "complementarity (-)",
+                               "plastic points (-)",
+                               "apex points (-)",
+                               "kinetic energy (J/m)",
+                               "elastic energy (J/m)",
+                               "plastic dissipation (J/m)",
+                               "external work (J/m)",
+                               "numerical loss (J/m)"})
+      columns.push_back(column);
+    statistics.open(path + "/statistics.csv", columns);
+    newton.open(path + "/newton.csv",
+                {"step",
+                 "time (s)",
+                 "step size (s)",
+                 "converged",
+                 "iteration",
+                 "relative residual (-)",
+                 "step length (-)",
+                 "cone points",
+                 "apex points",
+                 "switched points"});
+  }
+
+  void
+  RunOutput::add_newton_table(const unsigned int step,
+                              const double       time,
+                              const double       h,
+                              const StepReport  &report)
+  {
+    if (verbosity >= 2)
+      log.print(format("  step %u, t = %.6g s, h = %.3g s\n"
+                       "    it   residual   length     cone   apex  switched",
+                       step,
+                       time,
+                       h));
+    for (std::size_t i = 0; i < report.newton.table.size(); ++i)
+      {
+        const NewtonIteration &line = report.newton.table[i];
+        if (verbosity >= 2)
+          log.print(format("    %2zu  %9.2e  %7.3f  %7u %6u  %8u",
+                           i,
+                           line.relative_residual,
+                           line.step_length,
+                           line.n_cone,
+                           line.n_apex,
+                           line.n_switched));
+        if (writes)
+          newton.add_line({double(step),
+                           time,
+                           h,
+                           double(report.converged),
+                           double(i),
+                           line.relative_residual,
+                           line.step_length,
+                           double(line.n_cone),
+                           double(line.n_apex),
+                           double(line.n_switched)});
+      }
+  }
+
+  void
+  RunOutput::add_step(const StepRecord &record)
+  {
+    const StepReport &report = record.last;
+    const Energies   &e      = report.energies;
+    work += e.external_work;
+    dissipation += e.dissipation;
+    records.push_back(record);
+    records.back().last.residual.reinit(0); // only the numbers are kept
+    records.back().last.newton.table.clear();
+    if (!writes)
+      return;
+
+    std::vector<double> line = {double(record.step),
+                                record.time,
+                                record.displacement,
+                                record.load};
+    line.insert(line.end(), record.reactions.begin(), record.reactions.end());
+    const NewtonIteration last = report.newton.table.back();
+    for (const double value :
+         {double(record.iterations),
+          double(record.substeps),
+          double(record.failures),
+          report.newton.residual,
+          report.quality.natural_map,
+          report.quality.cone_violation,
+          report.quality.dual_violation,
+          report.quality.complementarity,
+          double(last.n_cone + last.n_apex),
+          double(last.n_apex),
+          e.kinetic,
+          e.elastic,
+          dissipation,
+          work,
+          initial_energy + work - e.kinetic - e.elastic - dissipation})
+      line.push_back(value);
+    statistics.add_line(line);
+  }
+
+  void
+  RunOutput::write_fields(const double          time,
+                          const BackgroundMesh &mesh,
+                          const Space          &space,
+                          const MaterialPoints &points,
+                          const Kinematics     &kinematics)
+  {
+    if (with_fields)
+      fields.write(path, n_fields++, time, mesh, space, points, kinematics);
+  }
+
+  Json
+  RunOutput::results() const
+  {
+    std::vector<LoadPoint> curve;
+    unsigned int           iterations = 0, most = 0, substeps = 0, failures = 0;
+    double                 natural_map = 0., complementarity = 0., cone = 0.,
+           dual = 0., residual = 0.;
+    for (const StepRecord &record : records)
+      {
+        curve.push_back({record.displacement, record.load});
+        iterations += record.iterations;
+        most = std::max(most, record.iterations);
+        substeps += record.substeps;
+        failures += record.failures;
+        const Quality &quality = record.last.quality;
+        natural_map     = std::max(natural_map, quality.natural_map);
+        complementarity = std::max(complementarity, quality.complementarity);
+        cone            = std::max(cone, quality.cone_violation);
+        dual            = std::max(dual, quality.dual_violation);
+        residual        = std::max(residual, record.last.newton.residual);
+      }
+
+    Json json;
+    if (!scene->observation.conditions.empty())
+      {
+        const LimitLoad limit =
+          find_limit_load(curve, scene->observation.plateau_tolerance);
+        const auto &reference = scene->observation.reference;
+        Json       &topic     = json["limit_load"];
+        const Json  nothing;
+        topic["value"]     = limit.found ? Json(limit.value) : nothing;
+        topic["reference"] = reference ? Json(*reference) : nothing;
+        topic["reference_name"] =
+          reference ? Json(scene->observation.reference_name) : nothing;
+        topic["relative_error"] = limit.found && reference ?
+                                    Json(limit.value / *reference - 1.) :
+                                    nothing;
+        topic["band_low"]       = limit.found ? Json(limit.band_low) : nothing;
+        topic["band_high"]      = limit.found ? Json(limit.band_high) : nothing;
+        topic["plateau_begins_at"] =
+          limit.found ? Json(limit.begins_at) : nothing;
+        topic["drift"] = limit.drift;
+        topic["peak"]  = limit.peak;
+        topic["last"]  = curve.empty() ? nothing : Json(curve.back().load);
+      }
+    json["newton"] = {
+      {"steps", records.size()},
+      {"substeps", substeps},
+      {"iterations_mean",
+       records.empty() ? 0. : double(iterations) / records.size()},
+      {"iterations_max", most},
+      {"failures", failures},
+      {"residual_max", residual}};
+    json["quality"] = {{"natural_map_error_max", natural_map},
+                       {"complementarity_max", complementarity},
+                       {"cone_violation_max", cone},
+                       {"dual_cone_violation_max", dual}};
+    return json;
+  }
+
+  void
+  RunOutput::write_summary(const std::string &status,
+                           const Json        &size,
+                           const Json        &cost)
+  {
+    if (!writes)
+      return;
+    summary = Json{{"name", name}, {"status", status}};
+    summary.update(results());
+    summary["size"] = size;
+    summary["cost"] = cost;
+    write_file(path + "/summary.json",
+               [&](std::ostream &out) { out << summary.dump(2) << "\n"; });
+  }
+
+  void
+  RunOutput::print_result() const
+  {
+    if (!writes)
+      return;
+    const Json &newton_part = summary["newton"];
+    log.print(format("%zu steps, %.1f iterations per step (at most %u), %u "
+                     "failed substeps",
+                     records.size(),
+                     newton_part["iterations_mean"].get<double>(),
+                     newton_part["iterations_max"].get<unsigned int>(),
+                     newton_part["failures"].get<unsigned int>()));
+    log.print(format("natural-map error <= %.1e, complementarity <= %.1e, cone "
+                     "violation <= %.1e",
+                     summary["quality"]["natural_map_error_max"].get<double>(),
+                     summary["quality"]["complementarity_max"].get<double>(),
+                     summary["quality"]["cone_violation_max"].get<double>()));
+    if (summary.contains("limit_load"))
+      {
+        const Json &limit = summary["limit_load"];
+        if (limit["value"].is_null())
+          log.print(format("limit load: none, the load still drifts by %.2g %%",
+                           100. * limit["drift"].get<double>()));
+        else
+          {
+            std::string line = format("limit load %.2f N/m",
+                                      limit["value"].get<double>());
+            if (limit["band_high"] != limit["band_low"])
+              line += format(" (band %.2f to %.2f)",
+                             limit["band_low"].get<double>(),
+                             limit["band_high"].get<double>());
+            if (!limit["reference"].is_null())
+              line += format(", %s %.2f N/m, error %+.3f %%",
+                             limit["reference_name"].get<std::string>().c_str(),
+                             limit["reference"].get<double>(),
+                             100. * limit["relative_error"].get<double>());
+            log.print(line);
+          }
+      }
+    if (report_for_test)
+      write_file("output", [&](std::ostream &out) {
+        out << "time [s]  displacement [mm]  load [N/m]\n";
+        for (const StepRecord &record : records)
+          out << format("%.6g %.6g %.8g\n",
+                        record.time,
+                        1e3 * record.displacement,
+                        record.load);
+        if (summary.contains("limit_load"))
+          {
+            const Json &limit = summary["limit_load"];
+            if (limit["value"].is_null())
+              out << "no limit load\n";
+            else
+              out << format("limit load %.8g\n", limit["value"].get<double>());
+            if (limit["relative_error"].is_number())
+              out << format("error %.5g %%\n",
+                            100. * limit["relative_error"].get<double>());
+          }
+        const double scale =
+          std::max(1e-300, std::abs(work) + std::abs(dissipation));
+        const Energies &e = records.back().last.energies;
+        out << format("elastic %.6g %% dissipated %.6g %% kinetic %.4g %% of "
+                      "the work\n",
+                      100. * e.elastic / scale,
+                      100. * dissipation / scale,
+                      100. * e.kinetic / scale);
+        out << "unknowns " << summary["size"]["dofs"] << " points "
+            << summary["size"]["points"] << "\n";
+      });
+  }
+
+  bool
+  RunOutput::expectations_hold() const
+  {
+    bool hold = true;
+    if (writes)
+      for (const std::string &statement : expectations)
+        {
+          double bound;
+          char   topic[200];
+          char   relation[3];
+          std::sscanf(statement.c_str(), "%199s %2s %lf", topic, relation, &bound);
+          const Json::json_pointer pointer("/" + std::string(topic));
+          const bool known = summary.contains(pointer) &&
+                             summary[pointer].is_number();
+          const double value =
+            known ? summary[pointer].get<double>() :
+                    std::numeric_limits<double>::quiet_NaN();
+          const bool holds = std::string(relation) == "<=" ? value <= bound :
+                                                             value >= bound;
+          hold             = hold && holds;
+          log.print(format("expected %s: %s (%.6g)",
+                           statement.c_str(),
+                           holds ? "yes" : "NO",
+                           value));
+          if (report_for_test)
+            {
+              std::ofstream out("output", std::ios::app);
+              out << "expected " << statement << ": " << (holds ? "yes" : "NO")
+                  << "\n";
+            }
+        }
+    return broadcast(comm, hold);
+  }
+} // namespace geocone

@@ -1,0 +1,104 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/scene/boundary_conditions.h>
+
+namespace geocone
+{
+  BoundaryCondition::BoundaryCondition(const std::string &list,
+                                       const std::string &name,
+                                       const std::string &quantity,
+                                       const std::string &unit,
+                                       const std::string &unset)
+    : dealii::ParameterAcceptor("/" + list + "/" + name)
+    , name(name)
+    , quantity(quantity)
+    , unset(unset)
+  {
+    texts.fill(unset);
+    add_parameter("Sides",
+                  sides,
+                  "Comma-separated names of the sides of the domain, or all.");
+    add_parameter("Box",
+                  box,
+                  "Restricts the condition to the part of the sides inside the "
+                  "box from x, y to x, y (m): 'x, y; x, y'. Empty: the whole "
+                  "sides.");
+    const std::string documentation =
+      unit + " as a formula in x, y (m) and t (s); '" + unset + "': none.";
+    add_parameter(quantity + " x", texts[0], documentation);
+    add_parameter(quantity + " y", texts[1], documentation);
+  }
+
+  std::string
+  BoundaryCondition::parameter(const std::string &entry) const
+  {
+    return get_section_name().substr(1) + "/" + entry;
+  }
+
+  void
+  BoundaryCondition::prepare()
+  {
+    if (sides.empty())
+      throw InputError(parameter("Sides"),
+                       "",
+                       "one or more sides of the domain, or all",
+                       "of a box: bottom, right, top, left; of a polygon: 0, "
+                       "1, ...; of a file: its physical curves");
+    if (!box.empty() && (box.size() != 2 || box[0][0] > box[1][0] ||
+                         box[0][1] > box[1][1]))
+      throw InputError(parameter("Box"),
+                       dealii::Patterns::Tools::to_string(box),
+                       "empty, or lower left; upper right corner",
+                       "e.g. -0.1, -1; 0.1, 1");
+    for (unsigned int c = 0; c < dim; ++c)
+      if (texts[c] != unset)
+        {
+          components[c].emplace();
+          components[c]->prepare(texts[c],
+                                 parameter(quantity + (c == 0 ? " x" : " y")));
+        }
+    if (!components[0] && !components[1])
+      throw InputError(parameter(quantity + " x"),
+                       unset,
+                       "a formula for at least one component",
+                       "give " + quantity + " x or " + quantity +
+                         " y, or take the condition out of the list");
+  }
+
+  bool
+  BoundaryCondition::in_box(const dealii::Point<dim> &x) const
+  {
+    if (box.empty())
+      return true;
+    const double tolerance =
+      1e-9 * (1. + box[0].norm() + (box[1] - box[0]).norm());
+    for (unsigned int c = 0; c < dim; ++c)
+      if (x[c] < box[0][c] - tolerance || x[c] > box[1][c] + tolerance)
+        return false;
+    return true;
+  }
+
+  BoundaryConditions::BoundaryConditions(const ParameterFile &file,
+                                         const std::string   &section,
+                                         const std::string   &quantity,
+                                         const std::string   &unit,
+                                         const std::string   &unset,
+                                         const std::string   &documentation)
+    : dealii::ParameterAcceptor("/" + section)
+    , names(file.peek_list(section + "/Names", ""))
+  {
+    add_parameter("Names", names, documentation);
+    for (const std::string &name : names)
+      list.push_back(std::make_unique<BoundaryCondition>(
+        section, name, quantity, unit, unset));
+  }
+
+  void
+  BoundaryConditions::prepare()
+  {
+    for (const auto &condition : list)
+      condition->prepare();
+  }
+} // namespace geocone

@@ -1,0 +1,34 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/scene/expression.h>
+
+namespace geocone
+{
+  void
+  Expression::prepare(const std::string &text, const std::string &parameter)
+  {
+    try
+      {
+        function = std::make_unique<dealii::FunctionParser<dim>>(1);
+        function->initialize("x,y,t", text, {{"pi", pi}}, true);
+        function->value(dealii::Point<dim>(0., 0.)); // parses now
+      }
+    catch (const std::exception &)
+      {
+        throw InputError(parameter,
+                         text,
+                         "a formula in x, y (m), t (s) and pi, e.g. "
+                         "-0.02*min(1,t/0.1)",
+                         "check the parentheses and the names");
+      }
+  }
+
+  double
+  Expression::value(const dealii::Point<dim> &x, const double t) const
+  {
+    function->set_time(t);
+    return function->value(x);
+  }
+} // namespace geocone

@@ -1,0 +1,259 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/scene/geometry.h>
+
+#include <filesystem>
+
+namespace geocone
+{
+  using dealii::Point;
+
+  namespace
+  {
+    double
+    cross(const Point<dim> &o, const Point<dim> &a, const Point<dim> &b)
+    {
+      return (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
+    }
+
+    bool
+    segments_meet(const Point<dim> &a,
+                  const Point<dim> &b,
+                  const Point<dim> &c,
+                  const Point<dim> &d,
+                  const double      tolerance)
+    {
+      if (distance_to_segment(a, c, d) < tolerance ||
+          distance_to_segment(b, c, d) < tolerance ||
+          distance_to_segment(c, a, b) < tolerance ||
+          distance_to_segment(d, a, b) < tolerance)
+        return true;
+      return cross(a, b, c) * cross(a, b, d) < 0. &&
+             cross(c, d, a) * cross(c, d, b) < 0.;
+    }
+
+    std::string
+    text(const Polygon &polygon)
+    {
+      std::string all;
+      for (const Point<dim> &x : polygon)
+        all += format("%s%g, %g", all.empty() ? "" : "; ", x[0], x[1]);
+      return all;
+    }
+  } // namespace
+
+  bool
+  contains(const Polygon &polygon, const Point<dim> &x)
+  {
+    bool inside = false;
+    for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++)
+      {
+        const Point<dim> &a = polygon[i], &b = polygon[j];
+        if ((a[1] > x[1]) != (b[1] > x[1]) &&
+            x[0] < (b[0] - a[0]) * (x[1] - a[1]) / (b[1] - a[1]) + a[0])
+          inside = !inside;
+      }
+    return inside;
+  }
+
+  double
+  distance_to_segment(const Point<dim> &x,
+                      const Point<dim> &a,
+                      const Point<dim> &b)
+  {
+    const dealii::Tensor<1, dim> side = b - a;
+    const double                 s =
+      std::max(0., std::min(1., (x - a) * side / side.norm_square()));
+    return (x - (a + s * side)).norm();
+  }
+
+  void
+  check_polygon(const Polygon &polygon, const std::string &parameter)
+  {
+    const std::size_t n = polygon.size();
+    const std::string allowed =
+      "three or more vertices x, y; x, y; ... of a polygon whose sides do not "
+      "meet";
+    if (n < 3)
+      throw InputError(parameter, text(polygon), allowed, "give its vertices");
+    double size = 0.;
+    for (const Point<dim> &x : polygon)
+      size = std::max(size, (x - polygon[0]).norm());
+    for (std::size_t i = 0; i < n; ++i)
+      {
+        if (polygon[i].distance(polygon[(i + 1) % n]) < 1e-9 * size)
+          throw InputError(parameter,
+                           text(polygon),
+                           allowed,
+                           "vertex " + std::to_string(i) +
+                             " and the next one are the same");
+        for (std::size_t j = i + 2; j < n; ++j)
+          if ((i != 0 || j != n - 1) && segments_meet(polygon[i],
+                                                      polygon[i + 1],
+                                                      polygon[j],
+                                                      polygon[(j + 1) % n],
+                                                      1e-9 * size))
+            throw InputError(parameter,
+                             text(polygon),
+                             allowed,
+                             "it intersects itself: the sides " +
+                               std::to_string(i) + " and " + std::to_string(j) +
+                               " meet; check the order of the vertices");
+      }
+    double area = 0.;
+    for (std::size_t i = 0; i < n; ++i)
+      area += cross(polygon[0], polygon[i], polygon[(i + 1) % n]) / 2.;
+    if (std::abs(area) < 1e-9 * size * size)
+      throw InputError(parameter,
+                       text(polygon),
+                       allowed,
+                       "the vertices lie on one line");
+  }
+
+  Geometry::Geometry()
+    : dealii::ParameterAcceptor("/Geometry")
+  {
+    add_parameter("Shape", shape_name, "box | polygon | file.");
+    add_parameter("Box",
+                  box,
+                  "Lower left and upper right corner x, y; x, y (m). Its sides "
+                  "are called bottom, right, top, left.");
+    add_parameter("Polygon",
+                  polygon,
+                  "Vertices x, y; x, y; ... (m) in order. Side i runs from "
+                  "vertex i to the next and is called i (0, 1, ...).");
+    add_parameter("File",
+                  file,
+                  "A gmsh .msh file (relative to the folder of the call) with "
+                  "triangles or quadrilaterals of first order. Sides have the "
+                  "numbers or names of its physical curves.");
+  }
+
+  void
+  Geometry::prepare()
+  {
+    outline.clear();
+    sides.clear();
+    if (shape_name == "box")
+      {
+        shape = Shape::box;
+        if (box.size() != 2 || !(box[0][0] < box[1][0]) ||
+            !(box[0][1] < box[1][1]))
+          throw InputError("Geometry/Box",
+                           text(box),
+                           "lower left; upper right corner",
+                           "for a box of 2 m x 2 m: -1, -2; 1, 0");
+        outline = {box[0],
+                   {box[1][0], box[0][1]},
+                   box[1],
+                   {box[0][0], box[1][1]}};
+        sides   = {{"bottom", 0}, {"right", 1}, {"top", 2}, {"left", 3}};
+      }
+    else if (shape_name == "polygon")
+      {
+        shape   = Shape::polygon;
+        outline = polygon;
+        check_polygon(outline, "Geometry/Polygon");
+        for (unsigned int i = 0; i < outline.size(); ++i)
+          sides[std::to_string(i)] = i;
+      }
+    else if (shape_name == "file")
+      {
+        shape = Shape::file;
+        if (!std::filesystem::is_regular_file(file))
+          throw InputError("Geometry/File",
+                           file,
+                           "an existing gmsh .msh file",
+                           "check the name; it is relative to the folder in "
+                           "which the program is called");
+      }
+    else
+      throw InputError("Geometry/Shape",
+                       shape_name,
+                       "box | polygon | file",
+                       "choose one of them");
+  }
+
+  dealii::types::boundary_id
+  Geometry::side_of(const Point<dim> &x) const
+  {
+    std::size_t nearest  = 0;
+    double      distance = std::numeric_limits<double>::max();
+    for (std::size_t i = 0; i < outline.size(); ++i)
+      if (const double d =
+            distance_to_segment(x, outline[i], outline[(i + 1) % outline.size()]);
+          d < distance)
+        {
+          distance = d;
+          nearest  = i;
+        }
+    return nearest;
+  }
+
+  Regions::Region::Region(const std::string &name)
+    : dealii::ParameterAcceptor("/Materials/" + name)
+  {
+    add_parameter("Region polygon",
+                  polygon,
+                  "Vertices x, y; x, y; ... (m) of the part of the domain that "
+                  "this material fills. Empty: the first material fills what no "
+                  "other one does.");
+    add_parameter("Region number",
+                  id,
+                  "Number of the physical surface of the .msh file that this "
+                  "material fills, or -1.");
+  }
+
+  Regions::Regions(const ParameterFile &parameter_file)
+  {
+    for (const std::string &name :
+         parameter_file.peek_list("Materials/Names", "soil"))
+      regions.push_back(std::make_unique<Region>(name));
+  }
+
+  void
+  Regions::prepare(const Geometry &geometry)
+  {
+    for (std::size_t i = 0; i < regions.size(); ++i)
+      {
+        const Region     &region  = *regions[i];
+        const std::string section = region.get_section_name().substr(1);
+        if (!region.polygon.empty())
+          check_polygon(region.polygon, section + "/Region polygon");
+        if (region.id >= 0 && geometry.shape != Geometry::Shape::file)
+          throw InputError(section + "/Region number",
+                           region.id,
+                           "-1, unless the domain comes from a .msh file",
+                           "give a 'Region polygon' instead");
+        if (i > 0 && region.polygon.empty() && region.id < 0)
+          throw InputError(section + "/Region polygon",
+                           "",
+                           "a polygon (or a region number) for every material "
+                           "but the first",
+                           "say where this material is");
+      }
+  }
+
+  std::vector<Polygon>
+  Regions::polygons() const
+  {
+    std::vector<Polygon> all;
+    for (const auto &region : regions)
+      if (!region->polygon.empty())
+        all.push_back(region->polygon);
+    return all;
+  }
+
+  unsigned int
+  Regions::material_at(const Point<dim> &x, const int id) const
+  {
+    for (std::size_t i = regions.size(); i-- > 1;)
+      if ((regions[i]->id >= 0 && regions[i]->id == id) ||
+          (!regions[i]->polygon.empty() && contains(regions[i]->polygon, x)))
+        return i;
+    return 0;
+  }
+} // namespace geocone

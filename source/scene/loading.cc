@@ -1,0 +1,222 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/scene/loading.h>
+
+#include <cmath>
+
+namespace geocone
+{
+  Stage::Stage(const std::string &name)
+    : dealii::ParameterAcceptor("/Loading/" + name)
+    , name(name)
+  {
+    add_parameter("Duration", duration, "Duration of the stage (s), > 0.");
+    add_parameter("Step size", step_size, "Time step h (s), > 0.");
+    add_parameter("First step size",
+                  first_step_size,
+                  "Size of the first step (s); 0: the step size. Later steps "
+                  "grow from it up to the step size by the growth factor.");
+    add_parameter("Growth factor",
+                  growth,
+                  "Ratio of a step to the one before, >= 1, used while the "
+                  "steps are smaller than the step size.");
+    add_parameter("Output every",
+                  output_every,
+                  "Write fields every so many steps, and at the end of the "
+                  "stage; 0: at the end only.");
+    add_parameter("Reset displacement",
+                  reset_displacement,
+                  "Count displacements and plastic strains from the beginning "
+                  "of this stage.");
+  }
+
+  void
+  Stage::prepare()
+  {
+    const std::string section = get_section_name().substr(1) + "/";
+    if (!(duration > 0.))
+      throw InputError(section + "Duration", duration, "> 0 s", "give seconds");
+    if (!(step_size > 0.))
+      throw InputError(section + "Step size",
+                       step_size,
+                       "> 0 s",
+                       "the footing's examples take 0.01 s");
+    if (!(first_step_size >= 0.))
+      throw InputError(section + "First step size",
+                       first_step_size,
+                       ">= 0 s",
+                       "0 stands for the step size");
+    if (!(growth >= 1.))
+      throw InputError(section + "Growth factor",
+                       growth,
+                       ">= 1",
+                       "1 keeps the step size");
+    if (first_step_size > 0. && first_step_size < step_size && growth == 1.)
+      throw InputError(section + "Growth factor",
+                       growth,
+                       "> 1 where the first step is smaller than the others",
+                       "2 or 3 are usual");
+  }
+
+  std::vector<double>
+  Stage::step_sizes() const
+  {
+    std::vector<double> steps;
+    double              t = 0.;
+    double h = first_step_size > 0. ? std::min(first_step_size, step_size) :
+                                      step_size;
+    while (duration - t > 1e-9 * duration)
+      {
+        const double left = duration - t;
+        // The last step is the rest, stretched by up to 1e-6 of its size
+        // rather than followed by a sliver.
+        steps.push_back(left <= h * (1. + 1e-6) ? left : h);
+        t += steps.back();
+        h = std::min(step_size, h * growth);
+      }
+    return steps;
+  }
+
+  LoadingProgramme::LoadingProgramme(const ParameterFile &file)
+    : dealii::ParameterAcceptor("/Loading")
+    , names(file.peek_list("Loading/Stages", "push"))
+  {
+    add_parameter("Stages",
+                  names,
+                  "Names of the stages in order, comma-separated; each has a "
+                  "subsection of that name.");
+    for (const std::string &name : names)
+      stages.push_back(std::make_unique<Stage>(name));
+  }
+
+  void
+  LoadingProgramme::prepare()
+  {
+    if (stages.empty())
+      throw InputError("Loading/Stages",
+                       "",
+                       "at least one name",
+                       "set Stages = push");
+    for (const auto &stage : stages)
+      stage->prepare();
+  }
+
+  Gravity::Gravity()
+    : dealii::ParameterAcceptor("/Gravity")
+  {
+    add_parameter("Acceleration",
+                  acceleration,
+                  "g_x, g_y (m/s^2), e.g. 0, -9.81; 0, 0: no gravity.");
+    add_parameter("Ramp duration",
+                  ramp_duration,
+                  "Time (s) over which gravity grows linearly from zero; 0: it "
+                  "acts fully from the first step.");
+  }
+
+  void
+  Gravity::prepare()
+  {
+    if (!(ramp_duration >= 0.))
+      throw InputError("Gravity/Ramp duration",
+                       ramp_duration,
+                       ">= 0 s",
+                       "0 switches gravity on at once");
+  }
+
+  dealii::Tensor<1, dim>
+  Gravity::at(const double t) const
+  {
+    return ramp_duration > 0. ? std::min(1., t / ramp_duration) * acceleration :
+                                acceleration;
+  }
+
+  InitialStress::InitialStress()
+    : dealii::ParameterAcceptor("/Initial stress")
+  {
+    add_parameter("Type", type, "zero | given | geostatic.");
+    add_parameter("Stress xx",
+                  texts[0],
+                  "For 'given': formula in x, y (Pa, tension positive).");
+    add_parameter("Stress yy", texts[1], "As Stress xx.");
+    add_parameter("Stress xy", texts[2], "As Stress xx.");
+    add_parameter("K0",
+                  k0,
+                  "For 'geostatic': horizontal over vertical stress (-), > 0.");
+    add_parameter("Surface level",
+                  surface,
+                  "For 'geostatic': y of the ground surface (m).");
+    add_parameter("Surcharge",
+                  surcharge,
+                  "For 'geostatic': vertical pressure on the surface (Pa).");
+  }
+
+  void
+  InitialStress::prepare(const Gravity &gravity, const Geometry &geometry)
+  {
+    if (type == "given")
+      {
+        const char *names[] = {"Stress xx", "Stress yy", "Stress xy"};
+        for (unsigned int i = 0; i < 3; ++i)
+          components[i].prepare(texts[i],
+                                std::string("Initial stress/") + names[i]);
+      }
+    else if (type == "geostatic")
+      {
+        // The final value: a geostatic state is one under full gravity.
+        const dealii::Tensor<1, dim> full = gravity.at(1e300);
+        if (full[0] != 0. || full[1] > 0.)
+          throw InputError("Gravity/Acceleration",
+                           dealii::Patterns::Tools::to_string(full),
+                           "g_x = 0 and g_y <= 0 with a geostatic initial "
+                           "stress",
+                           "give the initial stress by formulas instead");
+        if (!(k0 > 0.))
+          throw InputError("Initial stress/K0",
+                           k0,
+                           "> 0",
+                           "1 - sin(phi) is usual");
+        g = -full[1];
+        for (const dealii::Point<dim> &x : geometry.outline)
+          if (x[1] > surface + 1e-9)
+            throw InputError("Initial stress/Surface level",
+                             surface,
+                             ">= " + std::to_string(x[1]) +
+                               " m, the top of the domain",
+                             "a geostatic stress needs a level ground surface");
+      }
+    else if (type != "zero")
+      throw InputError("Initial stress/Type",
+                       type,
+                       "zero | given | geostatic",
+                       "choose one of them");
+  }
+
+  Mandel
+  InitialStress::at(const dealii::Point<dim> &x,
+                    const Materials          &materials,
+                    const Regions            &regions) const
+  {
+    if (type == "given")
+      return {components[0].value(x, 0.),
+              components[1].value(x, 0.),
+              sqrt2 * components[2].value(x, 0.)};
+    if (type == "zero")
+      return Mandel::Zero();
+
+    // Weight of the column above x, by a midpoint sum that is exact
+    // for one material and within a 400th of the depth at layer boundaries.
+    const double       depth = surface - x[1];
+    const unsigned int n     = materials.size() == 1 ? 1 : 400;
+    double             mass  = 0.;
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        const dealii::Point<dim> above(x[0], x[1] + depth * (i + 0.5) / n);
+        mass +=
+          materials[regions.material_at(above, -1)].density() * depth / n;
+      }
+    const double vertical = -(surcharge + g * mass);
+    return {k0 * vertical, vertical, 0.};
+  }
+} // namespace geocone

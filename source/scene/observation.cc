@@ -1,0 +1,137 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/materials/mohr_coulomb.h>
+#include <geocone/scene/observation.h>
+
+#include <cstdlib>
+
+namespace geocone
+{
+  double
+  bearing_capacity_factor_q(const double phi)
+  {
+    const double t = std::tan(radians(45. + phi / 2.));
+    return std::exp(pi * std::tan(radians(phi))) * t * t;
+  }
+
+  double
+  bearing_capacity_factor_c(const double phi)
+  {
+    // Below a thousandth of a degree the difference Nq - 1 loses its digits;
+    // the limit is then closer than they are.
+    return phi < 1e-3 ?
+             2. + pi :
+             (bearing_capacity_factor_q(phi) - 1.) / std::tan(radians(phi));
+  }
+
+  Observation::Observation()
+    : dealii::ParameterAcceptor("/Observation")
+  {
+    add_parameter("Conditions",
+                  names,
+                  "Boundary conditions whose reactions are reported; the first "
+                  "one gives the load-displacement curve.");
+    add_parameter("Component", component_name, "x | y.");
+    add_parameter("Factor",
+                  factor,
+                  "Load = factor x reaction of the support on the body: -1 "
+                  "makes a downward load positive, -2 where only half of a "
+                  "symmetric body is modelled.");
+    add_parameter("Reference",
+                  value,
+                  "Load to compare with: none, a number (N/m), or Prandtl, the "
+                  "exact load width x (c Nc + surcharge x Nq) of a strip on "
+                  "weightless soil.");
+    add_parameter("Reference material",
+                  material,
+                  "Material whose c and phi enter Prandtl's load; empty: the "
+                  "first one.");
+    add_parameter("Reference width",
+                  width,
+                  "Width of the whole footing (m), for Prandtl.");
+    add_parameter("Reference surcharge",
+                  surcharge,
+                  "Pressure beside the footing (Pa), for Prandtl.");
+    add_parameter("Plateau tolerance",
+                  plateau_tolerance,
+                  "The limit load is the mean over the last part of the curve "
+                  "over which the load drifts by less than this (relative).");
+  }
+
+  void
+  Observation::prepare(const BoundaryConditions &all, const Materials &materials)
+  {
+    conditions.clear();
+    for (const std::string &name : names)
+      {
+        const unsigned int before = conditions.size();
+        for (unsigned int i = 0; i < all.list.size(); ++i)
+          if (all.list[i]->name == name)
+            conditions.push_back(i);
+        if (conditions.size() == before)
+          throw InputError("Observation/Conditions",
+                           name,
+                           "names of the list 'Boundary conditions/Names'",
+                           "check the spelling");
+      }
+    if (component_name != "x" && component_name != "y")
+      throw InputError("Observation/Component",
+                       component_name,
+                       "x | y",
+                       "choose one of them");
+    component = component_name == "x" ? 0 : 1;
+    if (!(plateau_tolerance > 0.))
+      throw InputError("Observation/Plateau tolerance",
+                       plateau_tolerance,
+                       "> 0",
+                       "0.01 is usual");
+
+    reference.reset();
+    reference_name.clear();
+    if (value == "none")
+      return;
+    if (conditions.empty())
+      throw InputError("Observation/Reference",
+                       value,
+                       "none, where no condition is observed",
+                       "name the loaded part in 'Observation/Conditions'");
+    if (value == "Prandtl")
+      {
+        unsigned int index = materials.size();
+        for (unsigned int i = 0; i < materials.size(); ++i)
+          if (materials.name(i) == material || (material.empty() && i == 0))
+            index = i;
+        const auto *law =
+          index < materials.size() ?
+            dynamic_cast<const MohrCoulomb *>(&materials[index]) :
+            nullptr;
+        if (law == nullptr)
+          throw InputError("Observation/Reference material",
+                           material,
+                           "the name of a Mohr-Coulomb or Tresca material",
+                           "Prandtl's load needs c and phi");
+        if (!(width > 0.))
+          throw InputError("Observation/Reference width",
+                           width,
+                           "> 0 m",
+                           "give the width of the whole footing");
+        reference =
+          width *
+          (law->cohesion() * bearing_capacity_factor_c(law->friction_angle()) +
+           surcharge * bearing_capacity_factor_q(law->friction_angle()));
+        reference_name = "Prandtl";
+        return;
+      }
+    char        *end    = nullptr;
+    const double number = std::strtod(value.c_str(), &end);
+    if (value.empty() || *end != '\0' || !std::isfinite(number) || number == 0.)
+      throw InputError("Observation/Reference",
+                       value,
+                       "none, Prandtl, or a number other than zero (N/m)",
+                       "choose one of them");
+    reference      = number;
+    reference_name = "reference";
+  }
+} // namespace geocone

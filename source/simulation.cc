@@ -1,0 +1,274 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/discretisation/quadrature_points.h>
+#include <geocone/simulation.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <sys/resource.h>
+
+#include <iostream>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  StepControl::StepControl()
+    : ParameterAcceptor("/Time stepping")
+  {
+    add_parameter("Maximum halvings",
+                  max_halvings,
+                  "How often a step may be halved before the run gives up.");
+    add_parameter("Easy iterations",
+                  easy_iterations,
+                  "After a substep with at most so many iterations the next one "
+                  "is half as long again, up to the whole step.");
+  }
+
+  void
+  StepControl::prepare()
+  {
+    if (max_halvings > 30)
+      throw InputError("Time stepping/Maximum halvings",
+                       max_halvings,
+                       "0 to 30",
+                       "9 is usual");
+  }
+
+  Simulation::Simulation(const MPI_Comm       comm,
+                         const ParameterFile &file,
+                         Log                 &log)
+    : comm(comm)
+    , log(log)
+    , scene(file)
+    , mesh(comm)
+    , run_output(comm, log)
+    , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
+  {}
+
+  void
+  Simulation::prepare(const std::string &name, const std::string &folder)
+  {
+    scene.prepare();
+    newton.prepare();
+    step_control.prepare();
+    mesh.prepare(scene);
+    space.prepare(mesh);
+    constraints = std::make_unique<Constraints>(scene, mesh, space);
+    points      = make_quadrature_points(scene, mesh, space);
+    stepper.prepare(scene, mesh, space, *constraints, points, newton, timer);
+    run_output.prepare(name, folder, scene);
+  }
+
+  StepRecord
+  Simulation::advance(Kinematics        &kinematics,
+                      const unsigned int step,
+                      const double       t,
+                      const double       h,
+                      double            &substep)
+  {
+    StepRecord record;
+    record.step    = step;
+    record.time    = t + h;
+    const double smallest = h * std::pow(0.5, step_control.max_halvings);
+    double       done     = 0.;
+    substep               = std::min(substep, h);
+    while (done < h)
+      {
+        // Land on the end of the step exactly, without a sliver before it.
+        const double left = h - done;
+        const double size = left <= substep * (1. + 1e-6) ? left : substep;
+        StepReport   report =
+          stepper.advance(kinematics, points, newton, timer, t + done, size);
+        run_output.add_newton_table(step, t + done + size, size, report);
+        record.iterations += report.newton.iterations;
+        n_factorisations += report.newton.iterations;
+        if (report.converged)
+          {
+            done = size == left ? h : done + size;
+            ++record.substeps;
+            // Works add up over the substeps.
+            report.energies.external_work += record.last.energies.external_work;
+            report.energies.dissipation += record.last.energies.dissipation;
+            record.last = std::move(report);
+            if (record.last.newton.iterations <= step_control.easy_iterations)
+              substep = std::min(h, 1.5 * substep);
+          }
+        else
+          {
+            ++record.failures;
+            substep = size / 2.;
+            if (run_output.verbosity >= 2)
+              log.print("    cut: " + report.newton.reason);
+            if (substep < smallest * (1. - 1e-6))
+              throw RunError(
+                format("the step %u failed at t = %.6g s, also when cut to "
+                       "%.3g s ('Time stepping/Maximum halvings' = %u):\n  ",
+                       step,
+                       t + done,
+                       size,
+                       step_control.max_halvings) +
+                report.newton.reason +
+                "\n  remedy:  take smaller steps, allow more halvings or "
+                "iterations, or check whether the body can carry its loads");
+          }
+      }
+    return record;
+  }
+
+  bool
+  Simulation::run(const std::string &name, const std::string &folder)
+  {
+    prepare(name, folder);
+    log.print(format("%s: %s, %u unknowns, %u points, %s, %u rank%s, solver %s",
+                     name.c_str(),
+                     space.element().c_str(),
+                     constraints->n_rows,
+                     Utilities::MPI::sum(points.n_points(), comm),
+                     stepper.has_inertia() ? "with inertia" : "quasi-static",
+                     Utilities::MPI::n_mpi_processes(comm),
+                     Utilities::MPI::n_mpi_processes(comm) > 1 ? "s" : "",
+                     stepper.linear_solver_name().c_str()));
+    log.print("results in " + run_output.folder());
+
+    unsigned int n_steps = 0;
+    for (const auto &stage : scene.loading.stages)
+      n_steps += stage->step_sizes().size();
+
+    Kinematics kinematics;
+    kinematics.velocity.reinit(space.partitioner());
+    kinematics.displacement.reinit(space.partitioner());
+    const Observation &observation = scene.observation;
+    const double       sign        = observation.factor < 0. ? -1. : 1.;
+    double             t           = 0.;
+    unsigned int       step        = 0;
+    run_output.write_summary("running", size(), cost());
+    try
+      {
+        for (const auto &stage : scene.loading.stages)
+          {
+            if (stage->reset_displacement)
+              {
+                kinematics.displacement = 0.;
+                for (auto &strain : points.plastic_strain)
+                  strain = Mandel::Zero();
+                for (double &strain : points.cumulative_plastic_strain)
+                  strain = 0.;
+              }
+            const std::vector<double> sizes   = stage->step_sizes();
+            double                    substep = sizes[0];
+            for (std::size_t i = 0; i < sizes.size(); ++i)
+              {
+                // A substep that stood for a whole step grows with the steps.
+                if (i > 0 && substep >= sizes[i - 1] * (1. - 1e-6))
+                  substep = sizes[i];
+                ++step;
+                step_loop.start();
+                StepRecord record =
+                  advance(kinematics, step, t, sizes[i], substep);
+                step_loop.stop();
+                t += sizes[i];
+
+                for (const unsigned int c : observation.conditions)
+                  for (unsigned int d = 0; d < dim; ++d)
+                    record.reactions.push_back(
+                      constraints->resultant(record.last.residual, c, d));
+                if (!observation.conditions.empty())
+                  {
+                    record.displacement =
+                      sign * constraints->mean(kinematics.displacement,
+                                               observation.conditions[0],
+                                               observation.component);
+                    record.load = observation.factor *
+                                  record.reactions[observation.component];
+                  }
+                run_output.add_step(record);
+                if (run_output.verbosity >= 1)
+                  log.progress(format(
+                    "step %u/%u  t = %.4g s  u = %.4g mm  load = %.1f N/m  %u "
+                    "iterations  %.0f s left",
+                    step,
+                    n_steps,
+                    t,
+                    1e3 * record.displacement,
+                    record.load,
+                    record.iterations,
+                    total.wall_time() / step * (n_steps - step)));
+
+                if (i + 1 == sizes.size() ||
+                    (stage->output_every > 0 &&
+                     (i + 1) % stage->output_every == 0))
+                  {
+                    TimerOutput::Scope scope(timer, "output");
+                    run_output.write_fields(
+                      t, mesh, space, points, kinematics);
+                    run_output.write_summary("running", size(), cost());
+                  }
+              }
+          }
+      }
+    catch (const RunError &error)
+      {
+        run_output.write_summary(std::string("failed: ") + error.what(),
+                                 size(),
+                                 cost());
+        run_output.write_fields(t, mesh, space, points, kinematics);
+        throw;
+      }
+    run_output.write_summary("finished", size(), cost());
+    run_output.print_result();
+    const Json costs = cost();
+    log.print(format(
+      "%.1f s in all; step loop %.2f s = %.2f x its factorisations and solves; "
+      "%.0f MB at most",
+      costs["total_s"].get<double>(),
+      costs["step_loop_s"].get<double>(),
+      costs["ratio_to_factorise_and_solve"].is_null() ?
+        0. :
+        costs["ratio_to_factorise_and_solve"].get<double>(),
+      costs["peak_memory_MB"].get<double>()));
+    return run_output.expectations_hold();
+  }
+
+  Json
+  Simulation::size() const
+  {
+    return {{"element", space.element()},
+            {"cells",
+             mesh.triangulation().n_global_active_cells()},
+            {"dofs", constraints->n_rows},
+            {"points", Utilities::MPI::sum(points.n_points(), comm)},
+            {"nonzeros", Utilities::MPI::sum(stepper.n_nonzeros(), comm)},
+            {"ranks", Utilities::MPI::n_mpi_processes(comm)}};
+  }
+
+  Json
+  Simulation::cost() const
+  {
+    std::map<std::string, double> seconds =
+      timer.get_summary_data(TimerOutput::total_wall_time);
+    const double linear = seconds["factorise"] + seconds["solve"];
+    const double steps  = step_loop.wall_time();
+    struct rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    const double megabytes =
+      Utilities::MPI::sum(usage.ru_maxrss / 1024., comm); // kB on Linux
+    return {{"total_s", total.wall_time()},
+            {"step_loop_s", steps},
+            {"residual_s", seconds["residual"]},
+            {"assembly_s", seconds["assemble"]},
+            {"analyse_s", seconds["analyse"]},
+            {"factorise_s", seconds["factorise"]},
+            {"solve_s", seconds["solve"]},
+            {"commit_s", seconds["commit"]},
+            {"output_s", seconds["output"]},
+            {"linear_solver", stepper.linear_solver_name()},
+            {"factorisations", n_factorisations},
+            {"ratio_to_factorise_and_solve",
+             linear > 0. ? Json(steps / linear) : Json()},
+            {"peak_memory_MB", megabytes}};
+  }
+} // namespace geocone

@@ -1,0 +1,197 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/solvers/line_search.h>
+#include <geocone/solvers/nonsmooth_newton.h>
+
+namespace geocone
+{
+  using dealii::TimerOutput;
+
+  NonsmoothNewton::SolverName::SolverName()
+    : dealii::ParameterAcceptor("/Linear solver")
+  {
+    add_parameter("Name",
+                  value,
+                  "automatic | Cholmod | Umfpack | Mumps. Automatic: Cholmod "
+                  "for associated flow and Umfpack otherwise on one rank, Mumps "
+                  "on several.");
+  }
+
+  NonsmoothNewton::NonsmoothNewton()
+    : dealii::ParameterAcceptor("/Newton")
+  {
+    add_parameter("Tolerance",
+                  relative_tolerance,
+                  "A step is solved when the norm of the free residual is below "
+                  "this times the norm of the internal (or external) forces.");
+    add_parameter("Absolute tolerance",
+                  absolute_tolerance,
+                  "... or below this (N/m), which ends steps without load.");
+    add_parameter("Maximum iterations",
+                  max_iterations,
+                  "Linear systems to solve before the step is given up and cut. "
+                  "0: 150 where theta >= phi/2 (slow starts are then worth "
+                  "waiting for), 15 otherwise.");
+    add_parameter("Line search",
+                  use_line_search,
+                  "Whether a step along the Newton direction may be shortened. "
+                  "Without it, plastic steps often do not converge.");
+  }
+
+  void
+  NonsmoothNewton::prepare()
+  {
+    if (!(relative_tolerance > 0. && relative_tolerance < 1.))
+      throw InputError("Newton/Tolerance",
+                       relative_tolerance,
+                       "between 0 and 1",
+                       "1e-10 is reached in all scenes");
+    if (!(absolute_tolerance >= 0.))
+      throw InputError("Newton/Absolute tolerance",
+                       absolute_tolerance,
+                       ">= 0 N/m",
+                       "1e-12 is usual");
+  }
+
+  SolverReport
+  NonsmoothNewton::solve(IncrementalProblem &problem,
+                         SparseMatrix       &matrix,
+                         LinearSolver       &linear_solver,
+                         TimerOutput        &timer,
+                         Vector             &v,
+                         Vector             &residual) const
+  {
+    const Constraints &constraints = problem.free_dofs();
+    const unsigned int n_owned     = v.locally_owned_size();
+    const unsigned int limit       = max_iterations > 0 ? max_iterations :
+                                     problem.non_associativity() > 0.51 ? 15 :
+                                                                          150;
+
+    SolverReport   report;
+    Vector         direction = problem.make_vector();
+    Vector         start     = problem.make_vector();
+    ResidualReport state;
+
+    const auto evaluate = [&]() {
+      TimerOutput::Scope scope(timer, "residual");
+      v.update_ghost_values();
+      state = problem.residual(residual, v);
+    };
+    const auto record = [&](const double length) {
+      report.residual =
+        state.norm / std::max(state.force_norm,
+                              std::numeric_limits<double>::min());
+      report.table.push_back({report.residual,
+                              length,
+                              state.n_cone,
+                              state.n_apex,
+                              state.n_switched});
+    };
+
+    // The change of the prescribed velocities over the step.
+    Vector jump = v;
+    problem.set_prescribed(jump);
+    jump -= v;
+    const bool jumps = jump.linfty_norm() > 0.;
+
+    evaluate();
+    record(0.);
+    std::vector<double> rhs(matrix.n_owned);
+    for (bool first = true;; first = false)
+      {
+        if (!std::isfinite(state.norm))
+          {
+            report.reason = "the residual is not a number";
+            return report;
+          }
+        if (!(first && jumps) &&
+            state.norm <= std::max(relative_tolerance * state.force_norm,
+                                   absolute_tolerance))
+          {
+            report.converged = true;
+            return report;
+          }
+        if (report.iterations >= limit)
+          {
+            report.reason = format(
+              "the residual stopped at %.1e after %u iterations (%u points on "
+              "the cone, %u at the apex, %u of them switching)",
+              report.residual,
+              report.iterations,
+              state.n_cone,
+              state.n_apex,
+              state.n_switched);
+            return report;
+          }
+
+        // A few apex points can make a Jacobian without mass singular: blend
+        // in as little of the elastic stiffness as makes it regular.
+        bool regular = false;
+        for (const double blend : {0., 1e-6, 1e-3, 0.1})
+          {
+            {
+              TimerOutput::Scope scope(timer, "assemble");
+              problem.linearise(matrix, blend);
+            }
+            TimerOutput::Scope scope(timer, "factorise");
+            regular = linear_solver.factorise(matrix);
+            if (regular)
+              {
+                report.regularised += blend > 0.;
+                break;
+              }
+          }
+        if (!regular)
+          {
+            report.reason = "the Jacobian is singular";
+            return report;
+          }
+
+        if (first && jumps)
+          {
+            TimerOutput::Scope scope(timer, "residual");
+            jump.update_ghost_values();
+            problem.apply_tangent(direction, jump);
+          }
+        for (unsigned int i = 0; i < n_owned; ++i)
+          if (constraints.is_free(i))
+            rhs[constraints.free_row[i]] =
+              -residual.local_element(i) -
+              (first && jumps ? direction.local_element(i) : 0.);
+        {
+          TimerOutput::Scope scope(timer, "solve");
+          linear_solver.solve(rhs);
+        }
+        ++report.iterations;
+        for (unsigned int i = 0; i < n_owned; ++i)
+          direction.local_element(i) =
+            constraints.is_free(i) ?
+              rhs[constraints.free_row[i]] :
+              (first && jumps ? jump.local_element(i) : 0.);
+
+        double length = 1.;
+        if ((first && jumps) || !use_line_search)
+          {
+            v += direction;
+            evaluate();
+          }
+        else
+          {
+            start     = v;
+            length    = line_search(problem.free_dot(residual, direction),
+                                 [&](const double x) {
+                                   for (unsigned int i = 0; i < n_owned; ++i)
+                                     v.local_element(i) =
+                                       start.local_element(i) +
+                                       x * direction.local_element(i);
+                                   evaluate();
+                                   return problem.free_dot(residual, direction);
+                                 });
+          }
+        record(length);
+      }
+  }
+} // namespace geocone
