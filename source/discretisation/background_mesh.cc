@@ -44,12 +44,8 @@ namespace geocone
                  unstructured_mesh(parameters, geometry, scene.regions) :
                  structured_mesh(parameters, geometry);
         for (auto &cell : mesh.cells)
-          {
-            Point<dim> centre;
-            for (const unsigned int v : cell.vertices)
-              centre += mesh.points[v] / cell.vertices.size();
-            cell.material_id = scene.regions.material_at(centre, -1);
-          }
+          cell.material_id =
+            scene.regions.material_at(mesh.centre(cell), -1);
         mesh.sides = geometry.sides;
         for (const auto &edge : mesh.outer_edges())
           {

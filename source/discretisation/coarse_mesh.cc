@@ -19,14 +19,23 @@ namespace geocone
     });
   }
 
+  Point<dim>
+  CoarseMesh::centre(const dealii::CellData<dim> &cell) const
+  {
+    Point<dim> sum;
+    for (const unsigned int v : cell.vertices)
+      sum += points[v];
+    return sum / double(cell.vertices.size());
+  }
+
   std::vector<std::array<unsigned int, 2>>
   CoarseMesh::outer_edges() const
   {
     // Vertices of the edges: of triangles around the cell, of quadrilaterals in
     // deal.II's lexicographic numbering.
     static const std::vector<std::array<unsigned int, 2>>
-      edges_of_triangle      = {{0, 1}, {1, 2}, {2, 0}},
-      edges_of_quadrilateral = {{0, 1}, {1, 3}, {3, 2}, {2, 0}};
+      edges_of_triangle      = {{{0, 1}}, {{1, 2}}, {{2, 0}}},
+      edges_of_quadrilateral = {{{0, 1}}, {{1, 3}}, {{3, 2}}, {{2, 0}}};
 
     std::map<std::array<unsigned int, 2>, unsigned int> n_cells;
     for (const auto &cell : cells)

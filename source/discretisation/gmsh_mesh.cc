@@ -259,17 +259,12 @@ namespace geocone
     CoarseMesh mesh = copy_model({}, what);
     check_hanging_nodes(mesh, what);
     for (auto &cell : mesh.cells)
-      {
-        Point<dim> centre;
-        for (const unsigned int v : cell.vertices)
-          centre += mesh.points[v] / cell.vertices.size();
-        cell.material_id =
-          regions.material_at(centre,
-                              cell.material_id ==
-                                  dealii::numbers::invalid_material_id ?
-                                -1 :
-                                static_cast<int>(cell.material_id));
-      }
+      cell.material_id =
+        regions.material_at(mesh.centre(cell),
+                            cell.material_id ==
+                                dealii::numbers::invalid_material_id ?
+                              -1 :
+                              static_cast<int>(cell.material_id));
     order_quadrilaterals(mesh);
     return mesh;
   }

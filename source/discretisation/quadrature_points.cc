@@ -71,9 +71,8 @@ namespace geocone
   Tensor<1, dim>
   CellValues::gradient(const unsigned int i, const unsigned int q) const
   {
-    return apply_transformation(
-      transpose(Tensor<2, dim>(geometry->fe_values.inverse_jacobian(q))),
-      reference_gradient[q * n_nodes + i]);
+    return reference_gradient[q * n_nodes + i] *
+           Tensor<2, dim>(geometry->fe_values.inverse_jacobian(q));
   }
 
   MaterialPoints

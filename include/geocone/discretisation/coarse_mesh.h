@@ -8,7 +8,7 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
-#include <deal.II/grid/cell_data.h>
+#include <deal.II/grid/tria_description.h>
 
 #include <array>
 #include <map>
@@ -27,6 +27,10 @@ namespace geocone
 
     bool
     has_triangles() const;
+
+    /** Mean of the vertices of a cell. */
+    dealii::Point<dim>
+    centre(const dealii::CellData<dim> &cell) const;
 
     /** The edges that belong to one cell only, as pairs of vertices. */
     std::vector<std::array<unsigned int, 2>>
