@@ -143,14 +143,18 @@ namespace geocone
   }
 
   SparseMatrix
-  IncrementalProblem::make_pattern()
+  IncrementalProblem::make_pattern(const bool one_triangle_)
   {
+    Assert(!one_triangle_ || is_symmetric(), ExcInternalError());
+    one_triangle = one_triangle_;
+
     const unsigned int     n      = points.n_nodes;
     const unsigned int     n_dofs = dim * n;
     const std::vector<int> &row_of = constraints.free_row;
 
     SparseMatrix matrix;
     matrix.comm         = layout->get_mpi_communicator();
+    matrix.symmetric    = one_triangle;
     matrix.n_global     = constraints.n_rows;
     matrix.n_owned      = constraints.n_owned_rows;
     matrix.global_index = constraints.global_row;
@@ -176,25 +180,31 @@ namespace geocone
             {
               for (const unsigned int other : list)
                 for (unsigned int d = 0; d < dim; ++d)
-                  if (row_of[dim * other + d] >= 0)
+                  if (row_of[dim * other + d] >= 0 &&
+                      (!one_triangle ||
+                       row_of[dim * other + d] <= row_of[dim * node + c]))
                     matrix.column.push_back(row_of[dim * other + d]);
               matrix.row_start.push_back(matrix.column.size());
             }
       }
     matrix.value.assign(matrix.column.size(), 0.);
 
-    scatter.resize(std::size_t(points.n_cells()) * n_dofs * n_dofs);
-    std::size_t        place = 0;
-    std::vector<int>   rows(n_dofs);
+    scatter.clear();
+    scatter.reserve(std::size_t(points.n_cells()) * n_dofs *
+                    (one_triangle ? n_dofs + 1 : 2 * n_dofs) / 2);
+    std::vector<int> rows(n_dofs);
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       {
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int d = 0; d < dim; ++d)
             rows[dim * i + d] = row_of[dim * points.nodes[c * n + i] + d];
         for (unsigned int i = 0; i < n_dofs; ++i)
-          for (unsigned int j = 0; j < n_dofs; ++j)
-            scatter[place++] =
-              rows[i] < 0 || rows[j] < 0 ? -1 : matrix.entry(rows[i], rows[j]);
+          for (unsigned int j = one_triangle ? i : 0; j < n_dofs; ++j)
+            scatter.push_back(rows[i] < 0 || rows[j] < 0 ? -1 :
+                              one_triangle && rows[i] < rows[j] ?
+                                                   matrix.entry(rows[j], rows[i]) :
+                                                   matrix.entry(rows[i],
+                                                                rows[j]));
       }
     diagonal.resize(matrix.n_rows());
     for (int row = 0; row < matrix.n_rows(); ++row)
@@ -212,6 +222,7 @@ namespace geocone
       std::vector<MandelMatrix> C;
       std::vector<double>       scratch;
       double                    K[4 * n * n];
+      const int                *place = scatter.data();
       for (unsigned int c = 0; c < points.n_cells(); ++c)
         {
           const unsigned int first = points.first_point[c];
@@ -227,12 +238,15 @@ namespace geocone
                        (blend * h * points.weight[p]) *
                          materials[points.material[p]].elasticity().stiffness();
             }
-          stiffness<n>(
-            &points.gradients[2 * n * first], C.data(), n_q, scratch.data(), K);
-          const int *place = &scatter[std::size_t(c) * 4 * n * n];
-          for (int i = 0; i < 4 * n * n; ++i)
-            if (place[i] >= 0)
-              matrix.value[place[i]] += K[i];
+          const double *g = &points.gradients[2 * n * first];
+          if (one_triangle)
+            stiffness<n, true>(g, C.data(), n_q, scratch.data(), K);
+          else
+            stiffness<n, false>(g, C.data(), n_q, scratch.data(), K);
+          for (int i = 0; i < 2 * n; ++i)
+            for (int j = one_triangle ? i : 0; j < 2 * n; ++j, ++place)
+              if (*place >= 0)
+                matrix.value[*place] += K[2 * n * i + j];
         }
     });
     if (mass != nullptr)

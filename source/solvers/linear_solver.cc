@@ -23,8 +23,12 @@ namespace geocone
       Cholmod()
       {
         cholmod_start(&common);
-        common.print           = 0;
+        common.print = 0;
         common.quick_return_if_not_posdef = 1;
+        // Nested dissection by Metis: 25 % less time per factorisation than
+        // AMD on the meshes of doc/performance.md.
+        common.nmethods           = 1;
+        common.method[0].ordering = CHOLMOD_NESDIS;
       }
 
       ~Cholmod() override
@@ -82,8 +86,14 @@ namespace geocone
         return "Cholmod";
       }
 
+      bool
+      wants_one_triangle() const override
+      {
+        return true;
+      }
+
     private:
-      /** Compressed rows are compressed columns of a symmetric matrix. */
+      /** Compressed rows of the lower are compressed columns of the upper. */
       static cholmod_sparse
       view(const SparseMatrix &matrix)
       {
@@ -94,7 +104,7 @@ namespace geocone
         A.p             = const_cast<int *>(matrix.row_start.data());
         A.i             = const_cast<int *>(matrix.column.data());
         A.x             = const_cast<double *>(matrix.value.data());
-        A.stype         = 1; // only one triangle is read
+        A.stype         = 1; // the upper triangle
         A.itype         = CHOLMOD_INT;
         A.xtype         = CHOLMOD_REAL;
         A.dtype         = CHOLMOD_DOUBLE;
@@ -188,6 +198,12 @@ namespace geocone
         return "Umfpack";
       }
 
+      bool
+      wants_one_triangle() const override
+      {
+        return false;
+      }
+
     private:
       static void
       check(const int status)
@@ -235,7 +251,6 @@ namespace geocone
       void
       analyse(const SparseMatrix &matrix) override
       {
-        entries.clear();
         rows.clear();
         columns.clear();
         for (int i = 0; i < matrix.n_rows(); ++i)
@@ -243,18 +258,13 @@ namespace geocone
             {
               const int row = matrix.global_index[i] + 1;
               const int col = matrix.global_index[matrix.column[e]] + 1;
-              if (symmetric && col > row)
-                continue;
-              entries.push_back(e);
               rows.push_back(row);
               columns.push_back(col);
             }
-        values.resize(entries.size());
         id.n       = matrix.n_global;
-        id.nnz_loc = entries.size();
+        id.nnz_loc = rows.size();
         id.irn_loc = rows.data();
         id.jcn_loc = columns.data();
-        id.a_loc   = values.data();
         call(1);
         if (id.infog[0] < 0)
           throw RunError("Mumps: analysis failed with error " +
@@ -274,8 +284,7 @@ namespace geocone
       bool
       factorise(const SparseMatrix &matrix) override
       {
-        for (std::size_t e = 0; e < entries.size(); ++e)
-          values[e] = matrix.value[entries[e]];
+        id.a_loc = const_cast<double *>(matrix.value.data());
         for (int attempt = 0;; ++attempt)
           {
             call(2);
@@ -329,6 +338,12 @@ namespace geocone
         return "Mumps";
       }
 
+      bool
+      wants_one_triangle() const override
+      {
+        return symmetric;
+      }
+
     private:
       void
       call(const int job)
@@ -347,9 +362,7 @@ namespace geocone
       const bool          symmetric;
       const int           rank;
       DMUMPS_STRUC_C      id;
-      std::vector<int>    entries; ///< places in the matrix of what is given
       std::vector<int>    rows, columns;
-      std::vector<double> values;
       std::vector<double> rhs; ///< of all rows, on rank 0
       std::vector<int>    counts, offsets;
     };

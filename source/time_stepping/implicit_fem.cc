@@ -46,7 +46,7 @@ namespace geocone
                                                    space.partitioner(),
                                                    inertia ? &lumped_mass :
                                                              nullptr);
-    matrix  = problem->make_pattern();
+    matrix  = problem->make_pattern(linear_solver->wants_one_triangle());
     TimerOutput::Scope scope(timer, "analyse");
     linear_solver->analyse(matrix);
   }

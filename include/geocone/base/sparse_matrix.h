@@ -24,6 +24,9 @@ namespace geocone
   {
     MPI_Comm comm = MPI_COMM_SELF;
 
+    /** Whether only the entries with column <= row (local numbers) are stored. */
+    bool symmetric = false;
+
     int n_global = 0; ///< rows of the whole matrix
     int n_owned  = 0; ///< rows owned by this rank
 

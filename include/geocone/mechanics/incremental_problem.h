@@ -87,9 +87,12 @@ namespace geocone
       return materials.non_associativity();
     }
 
-    /** The pattern of the Jacobian on the free dofs, with zero values. */
+    /**
+     * The pattern of the Jacobian on the free dofs, with zero values.
+     * @param one_triangle whether the lower triangle of a symmetric one is enough
+     */
     SparseMatrix
-    make_pattern();
+    make_pattern(const bool one_triangle);
 
     /**
      * Generalised Jacobian dR/dv = M/h + h sum V B' C B at the last residual(),
@@ -188,8 +191,12 @@ namespace geocone
     std::vector<Mode>                         previous_mode;
     mutable std::vector<MandelMatrix>         tangent;
 
-    /** Per cell (dim n_nodes)^2 places in the matrix, -1 for prescribed. */
+    /**
+     * Per cell the places in the matrix of its (dim n_nodes)^2 entries, or of
+     * one of each symmetric pair if one triangle is stored; -1 for prescribed.
+     */
     std::vector<int> scatter;
+    bool             one_triangle = false;
     /** Place of the diagonal entry of each free row. */
     std::vector<int> diagonal;
   };

@@ -72,13 +72,14 @@ namespace geocone::kernels
   }
 
   /**
-   * K = sum_q B_q' C_q B_q of a cell, row-major (2n)^2. The sum over the points
-   * is the innermost loop but one, so that a row of K stays in registers.
+   * K = sum_q B_q' C_q B_q of a cell, row-major (2n)^2. K is computed in small
+   * blocks of nodes whose sums over the points stay in registers.
+   * @tparam upper whether only the blocks of nodes i <= j are needed
    * @param g gradients of the points one after another, 2n each
    * @param C tangents times weights
    * @param scratch at least n_points x 3 x 2n values
    */
-  template <int n>
+  template <int n, bool upper>
   inline void
   stiffness(const double       *g,
             const MandelMatrix *C,
@@ -104,26 +105,29 @@ namespace geocone::kernels
               }
           }
       }
+    constexpr int block = n % 2 == 0 ? 4 : 2; // columns, of two nodes or one
     for (int i = 0; i < n; ++i)
-      {
-        double x[m] = {}, y[m] = {};
-        for (unsigned int q = 0; q < n_points; ++q)
-          {
-            const double  gx = g[q * m + i], gy = g[q * m + n + i];
-            const double *row0 = scratch + 3 * q * m;
-            const double *row1 = row0 + m, *row2 = row1 + m;
-            for (int j = 0; j < m; ++j)
-              {
-                x[j] += gx * row0[j] + gy * row2[j];
-                y[j] += gy * row1[j] + gx * row2[j];
-              }
-          }
-        for (int j = 0; j < m; ++j)
-          {
-            K[2 * i * m + j]       = x[j];
-            K[(2 * i + 1) * m + j] = y[j];
-          }
-      }
+      for (int first = upper ? 2 * i / block * block : 0; first < m;
+           first += block)
+        {
+          double x[block] = {}, y[block] = {};
+          for (unsigned int q = 0; q < n_points; ++q)
+            {
+              const double  gx = g[q * m + i], gy = g[q * m + n + i];
+              const double *row0 = scratch + 3 * q * m + first;
+              const double *row1 = row0 + m, *row2 = row1 + m;
+              for (int j = 0; j < block; ++j)
+                {
+                  x[j] += gx * row0[j] + gy * row2[j];
+                  y[j] += gy * row1[j] + gx * row2[j];
+                }
+            }
+          for (int j = 0; j < block; ++j)
+            {
+              K[2 * i * m + first + j]       = x[j];
+              K[(2 * i + 1) * m + first + j] = y[j];
+            }
+        }
   }
 
   /** Copies the entries of a cell's nodes between a cell vector and a vector. */

@@ -37,6 +37,10 @@ namespace geocone
     virtual void
     solve(std::vector<double> &x) = 0;
 
+    /** Whether it takes the lower triangle of a symmetric matrix only. */
+    virtual bool
+    wants_one_triangle() const = 0;
+
     virtual std::string
     name() const = 0;
   };
