@@ -135,9 +135,9 @@ namespace geocone
              M              *tangent)
   {
     constexpr int n_tangential = V::RowsAtCompileTime - 1;
-    const double  T            = FlowCone::tangential_norm(t);
-    const double  f            = T - cone.a * t[0] - cone.k;
-    if (f <= 0.)
+    const double  radius       = cone.a * t[0] + cone.k;
+    const double  T2 = t.template tail<n_tangential>().squaredNorm();
+    if (radius >= 0. && T2 <= radius * radius) // most points: no root needed
       {
         s = t;
         if (tangent != nullptr)
@@ -148,6 +148,8 @@ namespace geocone
           }
         return Mode::elastic;
       }
+    const double T = std::sqrt(T2);
+    const double f = T - radius;
     const double H = two_G + cone.a * cone.b * K;
     const double g = f / H;
     const double q = T - two_G * g;

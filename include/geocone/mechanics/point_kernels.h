@@ -8,7 +8,7 @@
 
 #include <deal.II/base/exceptions.h>
 
-#include <array>
+#include <cstring>
 #include <type_traits>
 #include <vector>
 
@@ -80,12 +80,12 @@ namespace geocone::kernels
    * @param scratch at least n_points x 3 x 2n values
    */
   template <int n, bool upper>
-  inline void
-  stiffness(const double       *g,
-            const MandelMatrix *C,
-            const unsigned int  n_points,
-            double             *scratch,
-            double             *K)
+  [[gnu::always_inline]] inline void
+  stiffness_body(const double       *g,
+                 const MandelMatrix *C,
+                 const unsigned int  n_points,
+                 double             *scratch,
+                 double             *K)
   {
     constexpr int m = 2 * n;
     for (unsigned int q = 0; q < n_points; ++q)
@@ -106,28 +106,57 @@ namespace geocone::kernels
           }
       }
     constexpr int block = n % 2 == 0 ? 4 : 2; // columns, of two nodes or one
+    using Pack [[gnu::vector_size(block * sizeof(double))]] = double;
     for (int i = 0; i < n; ++i)
       for (int first = upper ? 2 * i / block * block : 0; first < m;
            first += block)
         {
-          double x[block] = {}, y[block] = {};
+          Pack x = {}, y = {}, row0, row1, row2;
           for (unsigned int q = 0; q < n_points; ++q)
             {
               const double  gx = g[q * m + i], gy = g[q * m + n + i];
-              const double *row0 = scratch + 3 * q * m + first;
-              const double *row1 = row0 + m, *row2 = row1 + m;
-              for (int j = 0; j < block; ++j)
-                {
-                  x[j] += gx * row0[j] + gy * row2[j];
-                  y[j] += gy * row1[j] + gx * row2[j];
-                }
+              const double *row = scratch + 3 * q * m + first;
+              std::memcpy(&row0, row, sizeof(Pack));
+              std::memcpy(&row1, row + m, sizeof(Pack));
+              std::memcpy(&row2, row + 2 * m, sizeof(Pack));
+              x += gx * row0 + gy * row2;
+              y += gy * row1 + gx * row2;
             }
-          for (int j = 0; j < block; ++j)
-            {
-              K[2 * i * m + first + j]       = x[j];
-              K[(2 * i + 1) * m + first + j] = y[j];
-            }
+          std::memcpy(K + 2 * i * m + first, &x, sizeof(Pack));
+          std::memcpy(K + (2 * i + 1) * m + first, &y, sizeof(Pack));
         }
+  }
+
+#if defined(__x86_64__)
+  /** The same for processors with AVX2 and fused multiply-add. */
+  template <int n, bool upper>
+  [[gnu::target("avx2,fma")]] void
+  stiffness_avx2(const double       *g,
+                 const MandelMatrix *C,
+                 const unsigned int  n_points,
+                 double             *scratch,
+                 double             *K)
+  {
+    stiffness_body<n, upper>(g, C, n_points, scratch, K);
+  }
+#endif
+
+  /** K by the fastest variant that the processor has. */
+  template <int n, bool upper>
+  void
+  stiffness(const double       *g,
+            const MandelMatrix *C,
+            const unsigned int  n_points,
+            double             *scratch,
+            double             *K)
+  {
+#if defined(__x86_64__)
+    static const bool avx2 =
+      __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    if (avx2)
+      return stiffness_avx2<n, upper>(g, C, n_points, scratch, K);
+#endif
+    stiffness_body<n, upper>(g, C, n_points, scratch, K);
   }
 
   /** Copies the entries of a cell's nodes between a cell vector and a vector. */
