@@ -34,11 +34,13 @@ namespace geocone
                   max_iterations,
                   "Linear systems to solve before the step is given up and cut. "
                   "0: 150 where theta >= phi/2 (slow starts are then worth "
-                  "waiting for), 15 otherwise.");
-    add_parameter("Line search",
-                  use_line_search,
-                  "Whether a step along the Newton direction may be shortened. "
-                  "Without it, plastic steps often do not converge.");
+                  "waiting for); otherwise 15 with the line search and 30 with "
+                  "the elastic blend.");
+    add_parameter("Globalisation",
+                  globalisation,
+                  "automatic | line search | elastic blend | none. Automatic: "
+                  "the elastic blend for theta < phi/2 without inertia, the "
+                  "line search otherwise. None: plastic steps often fail.");
   }
 
   void
@@ -49,6 +51,12 @@ namespace geocone
                        relative_tolerance,
                        "between 0 and 1",
                        "1e-10 is reached in all scenes");
+    if (globalisation != "automatic" && globalisation != "line search" &&
+        globalisation != "elastic blend" && globalisation != "none")
+      throw InputError("Newton/Globalisation",
+                       globalisation,
+                       "automatic | line search | elastic blend | none",
+                       "take automatic");
     if (!(absolute_tolerance >= 0.))
       throw InputError("Newton/Absolute tolerance",
                        absolute_tolerance,
@@ -66,9 +74,16 @@ namespace geocone
   {
     const Constraints &constraints = problem.free_dofs();
     const unsigned int n_owned     = v.locally_owned_size();
-    const unsigned int limit       = max_iterations > 0 ? max_iterations :
-                                     problem.non_associativity() > 0.51 ? 15 :
-                                                                          150;
+
+    // theta >= phi/2 is (nearly) mu/a <= 1/2: there the line search has never
+    // been seen to fail, and slow starts are worth waiting for.
+    const bool hard  = problem.non_associativity() > 0.51;
+    const bool blend = globalisation == "elastic blend" ||
+                       (globalisation == "automatic" && hard &&
+                        !problem.has_inertia());
+    const bool search = !blend && globalisation != "none";
+    const unsigned int limit =
+      max_iterations > 0 ? max_iterations : !hard ? 150 : blend ? 30 : 15;
 
     SolverReport   report;
     Vector         direction = problem.make_vector();
@@ -129,18 +144,20 @@ namespace geocone
 
         // A few apex points can make a Jacobian without mass singular: blend
         // in as little of the elastic stiffness as makes it regular.
-        bool regular = false;
-        for (const double blend : {0., 1e-6, 1e-3, 0.1})
+        bool         regular = false;
+        const double wanted =
+          blend && !first ? std::min(0.5, report.residual) : 0.;
+        for (const double least : {0., 1e-6, 1e-3, 0.1})
           {
             {
               TimerOutput::Scope scope(timer, "assemble");
-              problem.linearise(matrix, blend);
+              problem.linearise(matrix, std::max(wanted, least));
             }
             TimerOutput::Scope scope(timer, "factorise");
             regular = linear_solver.factorise(matrix);
             if (regular)
               {
-                report.regularised += blend > 0.;
+                report.regularised += least > 0.;
                 break;
               }
           }
@@ -173,7 +190,7 @@ namespace geocone
               (first && jumps ? jump.local_element(i) : 0.);
 
         double length = 1.;
-        if ((first && jumps) || !use_line_search)
+        if ((first && jumps) || !search)
           {
             v += direction;
             evaluate();

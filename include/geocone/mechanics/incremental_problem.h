@@ -80,6 +80,12 @@ namespace geocone
       return materials.symmetric();
     }
 
+    bool
+    has_inertia() const
+    {
+      return mass != nullptr;
+    }
+
     /** Largest (a - b)/a of the materials. */
     double
     non_associativity() const

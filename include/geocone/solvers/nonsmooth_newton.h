@@ -39,9 +39,17 @@ namespace geocone
   /**
    * Semismooth Newton method for R(v) = 0 with the generalised Jacobian of the
    * closed-form return map (the natural map in the elastic metric, with (s, z)
-   * eliminated point by point), and the line search of line_search.h. The
-   * change of the prescribed velocities enters the first linear system, whose
-   * step is full. Convergence: |R_free| <= max(tolerance |B'V s|, absolute).
+   * eliminated point by point). The change of the prescribed velocities enters
+   * the first linear system, whose step is full. Convergence: |R_free| <=
+   * max(tolerance |B'V s|, absolute).
+   *
+   * Globalisation, by name:
+   *  - line search: that of line_search.h, along each Newton direction;
+   *  - elastic blend: full steps with the tangent (1 - w) C + w D, where
+   *    w = min(1/2, |R_free| / |B'V s|), which vanishes with the residual;
+   *  - none: full Newton steps;
+   *  - automatic: the elastic blend for theta < phi/2 without inertia, the line
+   *    search otherwise (doc/performance.md has the measurements).
    */
   class NonsmoothNewton : public dealii::ParameterAcceptor
   {
@@ -81,7 +89,7 @@ namespace geocone
     double       relative_tolerance  = 1e-10;
     double       absolute_tolerance  = 1e-12;
     unsigned int max_iterations      = 0;
-    bool         use_line_search     = true;
+    std::string  globalisation       = "automatic";
 
     /** Has a section of its own. */
     struct SolverName : dealii::ParameterAcceptor
