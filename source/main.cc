@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include <dlfcn.h>
 #include <unistd.h>
 
 namespace
@@ -160,6 +161,9 @@ main(int argc, char **argv)
     // number of threads in blocks that are far too small for them, which was
     // measured to triple the time of a factorisation; this alone stops it.
     omp_set_max_active_levels(0);
+    if (const auto set_blas_threads = reinterpret_cast<void (*)(int)>(
+          dlsym(RTLD_DEFAULT, "openblas_set_num_threads")))
+      set_blas_threads(1);
     dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
     const bool                               several =
       dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1;
