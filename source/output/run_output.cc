@@ -430,10 +430,14 @@ namespace geocone
           const bool holds = std::string(relation) == "<=" ? value <= bound :
                                                              value >= bound;
           hold             = hold && holds;
-          log.print(format("expected %s: %s (%.6g)",
-                           statement.c_str(),
-                           holds ? "yes" : "NO",
-                           value));
+          const std::string line = format("expected %s: %s (%.6g)",
+                                          statement.c_str(),
+                                          holds ? "yes" : "NO",
+                                          value);
+          if (holds)
+            log.print(line);
+          else
+            log.warn(line);
           if (report_for_test)
             {
               std::ofstream out("output", std::ios::app);

@@ -60,11 +60,11 @@ namespace geocone
     std::string                     diagonals = "alternating";
     double                          cell_size = 0.1;
     std::vector<dealii::Point<dim>> grading_points;
-    double                          smallest   = 0.005;
+    double                          smallest   = 0.001;
     double                          largest    = 0.3;
     double                          growth     = 1.3;
-    double                          size_ratio = 0.25;
-    int                             algorithm  = 6;
+    double                          size_ratio = 0.18;
+    int                             algorithm  = 5;
   };
 
   /** Uniform and graded meshes of a box. */

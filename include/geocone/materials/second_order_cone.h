@@ -115,7 +115,8 @@ namespace geocone
    * Solution of the one-point problem
    *   s = t + D z with D = diag(K, 2G, ..., 2G),  z from the law of FlowCone
    * for a trial value t, in closed form (doc/theory.md, section "Return map"):
-   * with T = |t_t|, f = T - a t_n - k, H = 2G + a b K, g = f/H, q = T - 2G g,
+   * with T = |t_t|, f = T - a t_n - k, H = 2G + a b K, g = f/H,
+   * q = T - 2G g = a s_n + k,
    *   f <= 0            : s = t                                   (elastic)
    *   q >= 0 or a = 0   : s_n = t_n + K b g, s_t = q t_t/T        (cone)
    *   otherwise         : s = (-k/a, 0)                           (apex).
@@ -152,11 +153,14 @@ namespace geocone
     const double f = T - radius;
     const double H = two_G + cone.a * cone.b * K;
     const double g = f / H;
-    const double q = T - two_G * g;
+    // q = T - 2G g, written such that the cone is met to the last digit also
+    // where the trial value is many orders of magnitude larger.
+    const double s_n = t[0] + K * cone.b * g;
+    const double q   = cone.a * s_n + cone.k;
     if (q >= 0. || cone.a == 0.)
       {
         const auto u = (t.template tail<n_tangential>() / T).eval();
-        s[0]         = t[0] + K * cone.b * g;
+        s[0]         = s_n;
         s.template tail<n_tangential>() = q * u;
         if (tangent != nullptr)
           {
