@@ -55,6 +55,7 @@ namespace geocone
     scene.prepare();
     newton.prepare();
     step_control.prepare();
+    exact_solution.prepare();
     mesh.prepare(scene);
     space.prepare(mesh);
     constraints = std::make_unique<Constraints>(scene, mesh, space);
@@ -218,6 +219,9 @@ namespace geocone
         run_output.write_fields(t, mesh, space, points, kinematics);
         throw;
       }
+    if (exact_solution.is_given())
+      run_output.set_field_errors(exact_solution.errors(
+        mesh, space, points, kinematics.displacement, t));
     run_output.write_summary("finished", size(), cost());
     run_output.print_result();
     const Json costs = cost();

@@ -4,6 +4,7 @@
 #ifndef geocone_simulation_h
 #define geocone_simulation_h
 
+#include <geocone/output/exact_solution.h>
 #include <geocone/output/run_output.h>
 
 namespace geocone
@@ -76,6 +77,7 @@ namespace geocone
     NonsmoothNewton newton;
     ImplicitFEM     stepper;
     StepControl     step_control;
+    ExactSolution   exact_solution;
     RunOutput       run_output;
 
     dealii::TimerOutput          timer;

@@ -333,6 +333,9 @@ namespace geocone
       return;
     summary = Json{{"name", name}, {"status", status}};
     summary.update(results());
+    if (field_errors)
+      summary["field_errors"] = {{"displacement", field_errors->displacement},
+                                 {"stress", field_errors->stress}};
     summary["size"] = size;
     summary["cost"] = cost;
     write_file(path + "/summary.json",
@@ -378,6 +381,10 @@ namespace geocone
             log.print(line);
           }
       }
+    if (field_errors)
+      log.print(format("relative L2 errors: displacement %.3e, stress %.3e",
+                       field_errors->displacement,
+                       field_errors->stress));
     if (report_for_test)
       write_file("output", [&](std::ostream &out) {
         out << "time [s]  displacement [mm]  load [N/m]\n";

@@ -7,6 +7,7 @@
 #include <geocone/base/files.h>
 #include <geocone/base/log.h>
 #include <geocone/base/parameter_file.h>
+#include <geocone/output/exact_solution.h>
 #include <geocone/output/fields.h>
 #include <geocone/output/limit_load.h>
 #include <geocone/time_stepping/implicit_fem.h>
@@ -78,6 +79,13 @@ namespace geocone
     void
     write_summary(const std::string &status, const Json &size, const Json &cost);
 
+    /** Adds the errors against exact fields to the summaries to come. */
+    void
+    set_field_errors(const FieldErrors &errors)
+    {
+      field_errors = errors;
+    }
+
     /** Prints the result; in tests also a file `output` with all loads. */
     void
     print_result() const;
@@ -125,6 +133,7 @@ namespace geocone
     unsigned int            n_fields = 0;
     std::vector<StepRecord> records;
     Json                    summary;
+    std::optional<FieldErrors> field_errors;
 
     double work = 0., dissipation = 0., initial_energy = 0.;
   };

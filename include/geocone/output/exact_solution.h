@@ -1,0 +1,57 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_output_exact_solution_h
+#define geocone_output_exact_solution_h
+
+#include <geocone/discretisation/material_points.h>
+#include <geocone/discretisation/space.h>
+#include <geocone/scene/expression.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <array>
+#include <string>
+
+namespace geocone
+{
+  /** Relative errors in the L2 norm, against given exact fields. */
+  struct FieldErrors
+  {
+    double displacement = 0.; ///< |u_h - u| / |u|
+    double stress       = 0.; ///< |s_h - s| / |s|, at the material points
+  };
+
+  /**
+   * Exact displacement and stress at the end of the run, as formulas in x, y, t;
+   * for verification by manufactured or analytical solutions.
+   */
+  class ExactSolution : public dealii::ParameterAcceptor
+  {
+  public:
+    ExactSolution();
+
+    void
+    prepare();
+
+    bool
+    is_given() const
+    {
+      return given;
+    }
+
+    FieldErrors
+    errors(const BackgroundMesh &mesh,
+           const Space          &space,
+           const MaterialPoints &points,
+           const Vector         &displacement,
+           const double          t) const;
+
+  private:
+    std::array<std::string, 5> texts = {{"none", "none", "none", "none", "none"}};
+    std::array<Expression, 5>  fields;
+    bool                       given = false;
+  };
+} // namespace geocone
+
+#endif
