@@ -142,7 +142,7 @@ namespace geocone
   ParameterFile::ParameterFile(const std::string              &file_name,
                                const std::vector<std::string> &overrides)
   {
-    read(file_name, 0);
+    read(file_name, "'" + file_name + "'", 0);
     for (const std::string &override_text : overrides)
       {
         const auto        equals = override_text.find('=');
@@ -165,15 +165,17 @@ namespace geocone
   }
 
   void
-  ParameterFile::read(const std::string &file_name, const int depth)
+  ParameterFile::read(const std::string &file_name,
+                      const std::string &shown_name,
+                      const int          depth)
   {
     if (depth > 20)
-      throw InputError("the parameter file '" + file_name +
-                       "' includes itself");
+      throw InputError("the parameter file " + shown_name +
+                       " includes itself");
     std::ifstream in(file_name);
     if (!in || std::filesystem::is_directory(file_name))
-      throw InputError("the parameter file '" + file_name +
-                       "' cannot be read\n"
+      throw InputError("the parameter file " + shown_name +
+                       " cannot be read\n"
                        "  remedy:  check the name; the examples are in prm/");
     int open_sections = 0;
     int number        = 0;
@@ -196,10 +198,14 @@ namespace geocone
         if (line.compare(0, 8, "include ") == 0)
           {
             std::filesystem::path included(trim(line.substr(8)));
+            const std::string     shown =
+              "'" + included.string() + "' (included by '" +
+              std::filesystem::path(file_name).filename().string() +
+              "', line " + std::to_string(first_number) + ")";
             if (included.is_relative())
               included =
                 std::filesystem::path(file_name).parent_path() / included;
-            read(included.string(), depth + 1);
+            read(included.string(), shown, depth + 1);
             continue;
           }
         open_sections += line.compare(0, 11, "subsection ") == 0 ? 1 :
@@ -264,6 +270,30 @@ namespace geocone
     return names;
   }
 
+  std::vector<std::string>
+  ParameterFile::named_sections(const std::string &section,
+                                const std::string &list,
+                                const std::string &default_value,
+                                std::size_t       &n_listed) const
+  {
+    std::vector<std::string> names =
+      peek_list(section + "/" + list, default_value);
+    n_listed = names.size();
+    std::vector<std::string> stack;
+    for (const Line &line : lines)
+      if (line.text.compare(0, 11, "subsection ") == 0)
+        {
+          const std::string name = trim(line.text.substr(11));
+          if (stack.size() == 1 && stack[0] == section &&
+              std::find(names.begin(), names.end(), name) == names.end())
+            names.push_back(name);
+          stack.push_back(name);
+        }
+      else if (line.text == "end")
+        stack.pop_back();
+    return names;
+  }
+
   void
   ParameterFile::check_names() const
   {
@@ -292,8 +322,7 @@ namespace geocone
                      "\n  remedy:  this section has no subsections" :
                      "\n  remedy:  did you mean '" +
                        joined(path, nearest(name, known)) +
-                       "'? Sections of materials, conditions and stages need "
-                       "their name in the list 'Names' of the section above"));
+                       "'?"));
               }
             stack.push_back(below);
             path.push_back(name);
@@ -357,7 +386,7 @@ namespace geocone
                                    "",
                                    std::regex_constants::format_first_only);
           }
-        throw InputError(message);
+        throw InputError(std::regex_replace(message, std::regex("\\s*\n\\s+"), " "));
       }
     ParameterAcceptor::parse_all_parameters();
   }

@@ -68,19 +68,23 @@ namespace geocone
                        "",
                        "at least one name",
                        "set Names = soil");
-    types.resize(names.size());
-    for (std::size_t i = 0; i < names.size(); ++i)
+    std::size_t n_listed;
+    const auto  all =
+      file.named_sections("Materials", "Names", "soil", n_listed);
+    types.resize(all.size());
+    for (std::size_t i = 0; i < all.size(); ++i)
       {
-        const std::string section = "Materials/" + names[i];
+        const std::string section = "Materials/" + all[i];
         types[i] = file.peek(section + "/Type", "Mohr-Coulomb");
         std::string documentation = "The law, one of:";
         for (const std::string &type : material_types())
           documentation += " " + type + ",";
         documentation.back() = '.';
-        enter_subsection(names[i]);
+        enter_subsection(all[i]);
         add_parameter("Type", types[i], documentation);
         leave_subsection();
-        list.push_back(make_material(types[i], section));
+        (i < n_listed ? list : unused)
+          .push_back(make_material(types[i], section));
       }
   }
 

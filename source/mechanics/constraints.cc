@@ -43,7 +43,7 @@ namespace geocone
         n_nodes.push_back(Utilities::MPI::sum(owned_nodes[c].size(), comm));
         if (n_nodes[c] == 0)
           throw InputError(list[c]->parameter("Box"),
-                           "Sides and Box of '" + list[c]->name + "'",
+                           list[c]->part(),
                            "a part of the boundary with at least one node",
                            "this condition selects no node: check its sides, "
                            "its box, and the size of the cells there");
@@ -169,10 +169,15 @@ namespace geocone
                       ": no node of it has its velocity y prescribed" :
                       "");
         else
-          motion = format("rotate about (%.3g, %.3g)",
-                          xc[p] - m[1] / m[2] * size[p],
-                          yc[p] + m[0] / m[2] * size[p]) +
-                   ": too few nodes are prescribed to stop it";
+          {
+            const auto rounded = [&](const double x) {
+              return std::abs(x) < 1e-9 * size[p] ? 0. : x;
+            };
+            motion = format("rotate about (%.3g, %.3g)",
+                            rounded(xc[p] - m[1] / m[2] * size[p]),
+                            rounded(yc[p] + m[0] / m[2] * size[p])) +
+                     ": too few nodes are prescribed to stop it";
+          }
         throw InputError("singular system (rigid body motion): " + which +
                          " can " + motion + format(" (%.0f nodes)", sums[4 * p]) +
                          "\n  remedy:  add a boundary condition that holds it, "

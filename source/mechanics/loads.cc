@@ -116,7 +116,7 @@ namespace geocone
         if (Utilities::MPI::sum(n_faces,
                                 mesh.triangulation().get_communicator()) == 0)
           throw InputError(condition.parameter("Box"),
-                           "Sides and Box of '" + condition.name + "'",
+                           condition.part(),
                            "a part of the boundary with at least one face",
                            "this traction acts on no face: check its sides, "
                            "its box, and the size of the cells there");

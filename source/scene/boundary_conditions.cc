@@ -67,6 +67,14 @@ namespace geocone
                          " y, or take the condition out of the list");
   }
 
+  std::string
+  BoundaryCondition::part() const
+  {
+    return "Sides = " + dealii::Patterns::Tools::to_string(sides) +
+           ", Box = " +
+           (box.empty() ? "" : dealii::Patterns::Tools::to_string(box));
+  }
+
   bool
   BoundaryCondition::in_box(const dealii::Point<dim> &x) const
   {
@@ -90,9 +98,12 @@ namespace geocone
     , names(file.peek_list(section + "/Names", ""))
   {
     add_parameter("Names", names, documentation);
-    for (const std::string &name : names)
-      list.push_back(std::make_unique<BoundaryCondition>(
-        section, name, quantity, unit, unset));
+    std::size_t n_listed;
+    const auto  all = file.named_sections(section, "Names", "", n_listed);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      (i < n_listed ? list : unused)
+        .push_back(std::make_unique<BoundaryCondition>(
+          section, all[i], quantity, unit, unset));
   }
 
   void

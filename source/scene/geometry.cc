@@ -209,9 +209,12 @@ namespace geocone
 
   Regions::Regions(const ParameterFile &parameter_file)
   {
-    for (const std::string &name :
-         parameter_file.peek_list("Materials/Names", "soil"))
-      regions.push_back(std::make_unique<Region>(name));
+    std::size_t n_listed;
+    const auto  all =
+      parameter_file.named_sections("Materials", "Names", "soil", n_listed);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      (i < n_listed ? regions : unused)
+        .push_back(std::make_unique<Region>(all[i]));
   }
 
   void

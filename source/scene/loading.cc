@@ -87,8 +87,12 @@ namespace geocone
                   names,
                   "Names of the stages in order, comma-separated; each has a "
                   "subsection of that name.");
-    for (const std::string &name : names)
-      stages.push_back(std::make_unique<Stage>(name));
+    std::size_t n_listed;
+    const auto  all =
+      file.named_sections("Loading", "Stages", "push", n_listed);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      (i < n_listed ? stages : unused)
+        .push_back(std::make_unique<Stage>(all[i]));
   }
 
   void

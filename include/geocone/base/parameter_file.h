@@ -43,6 +43,18 @@ namespace geocone
     peek_list(const std::string &path, const std::string &default_value) const;
 
     /**
+     * The names in the list SECTION/LIST, and after them those of all other
+     * subsections of SECTION in the file: what is not in the list is not used,
+     * but its parameters are known and checked. @p n_listed is the number of
+     * the former.
+     */
+    std::vector<std::string>
+    named_sections(const std::string &section,
+                   const std::string &list,
+                   const std::string &default_value,
+                   std::size_t       &n_listed) const;
+
+    /**
      * Gives every declared parameter of dealii::ParameterAcceptor its value.
      * @throws InputError on unknown sections and entries (with the nearest
      * known name) and on values that do not fit
@@ -63,7 +75,9 @@ namespace geocone
     };
 
     void
-    read(const std::string &file_name, const int depth);
+    read(const std::string &file_name,
+         const std::string &shown_name,
+         const int          depth);
 
     void
     check_names() const;

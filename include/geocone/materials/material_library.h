@@ -69,7 +69,7 @@ namespace geocone
   private:
     std::vector<std::string>               names;
     std::vector<std::string>               types;
-    std::vector<std::unique_ptr<Material>> list;
+    std::vector<std::unique_ptr<Material>> list, unused;
   };
 } // namespace geocone
 

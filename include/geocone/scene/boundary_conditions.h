@@ -48,6 +48,10 @@ namespace geocone
     std::string
     parameter(const std::string &entry) const;
 
+    /** The part of the boundary as text, for messages. */
+    std::string
+    part() const;
+
     const std::string name;
 
     /** Names of the sides. */
@@ -83,7 +87,8 @@ namespace geocone
     std::vector<std::unique_ptr<BoundaryCondition>> list;
 
   private:
-    std::vector<std::string> names;
+    std::vector<std::string>                        names;
+    std::vector<std::unique_ptr<BoundaryCondition>> unused;
   };
 } // namespace geocone
 

@@ -107,7 +107,7 @@ namespace geocone
       std::vector<dealii::Point<dim>> polygon;
       int                             id = -1;
     };
-    std::vector<std::unique_ptr<Region>> regions;
+    std::vector<std::unique_ptr<Region>> regions, unused;
   };
 } // namespace geocone
 

@@ -54,7 +54,8 @@ namespace geocone
     std::vector<std::unique_ptr<Stage>> stages;
 
   private:
-    std::vector<std::string> names;
+    std::vector<std::string>            names;
+    std::vector<std::unique_ptr<Stage>> unused;
   };
 
   /** Gravity g(t), at once or ramped up linearly over a duration. */
