@@ -146,6 +146,14 @@ namespace geocone
     const double       sign        = observation.factor < 0. ? -1. : 1.;
     double             t           = 0.;
     unsigned int       step        = 0;
+    double initial_energy = 0.;
+    for (unsigned int p = 0; p < points.n_points(); ++p)
+      initial_energy +=
+        points.weight[p] / 2. *
+        points.stress[p].dot(
+          scene.materials[points.material[p]].elasticity().strain(
+            points.stress[p]));
+    run_output.set_initial_energy(Utilities::MPI::sum(initial_energy, comm));
     run_output.write_summary("running", size(), cost());
     try
       {

@@ -45,9 +45,10 @@ namespace geocone
                   "hold at the end, else the exit code is 1: TOPIC/NAME <= "
                   "NUMBER or >= NUMBER, e.g. newton/iterations_mean <= 7.");
     add_parameter("Report for tests",
-                  report_for_test,
-                  "Writes a file 'output' with the load of each step into the "
-                  "folder of the call.");
+                  report_for_tests,
+                  "none | loads | expectations: writes a file 'output' into "
+                  "the folder of the call, with the load of each step and the "
+                  "expectations, or the latter only.");
   }
 
   void
@@ -63,6 +64,12 @@ namespace geocone
       throw InputError("Output/If folder exists",
                        if_exists,
                        "number | refuse | overwrite",
+                       "choose one of them");
+    if (report_for_tests != "none" && report_for_tests != "loads" &&
+        report_for_tests != "expectations")
+      throw InputError("Output/Report for tests",
+                       report_for_tests,
+                       "none | loads | expectations",
                        "choose one of them");
     for (const std::string &statement : expectations)
       {
@@ -219,8 +226,13 @@ namespace geocone
   {
     const StepReport &report = record.last;
     const Energies   &e      = report.energies;
+    const double step_loss = energy_n + e.external_work - e.kinetic -
+                             e.elastic - e.dissipation;
+    energy_n = e.kinetic + e.elastic;
     work += e.external_work;
     dissipation += e.dissipation;
+    loss += step_loss;
+    least_loss = std::min(least_loss, step_loss);
     records.push_back(record);
     records.back().last.residual.reinit(0); // only the numbers are kept
     records.back().last.newton.table.clear();
@@ -248,7 +260,7 @@ namespace geocone
           e.elastic,
           dissipation,
           work,
-          initial_energy + work - e.kinetic - e.elastic - dissipation})
+          loss})
       line.push_back(value);
     statistics.add_line(line);
   }
@@ -321,6 +333,21 @@ namespace geocone
                        {"complementarity_max", complementarity},
                        {"cone_violation_max", cone},
                        {"dual_cone_violation_max", dual}};
+    if (!records.empty())
+      {
+        const Energies &e = records.back().last.energies;
+        // Scale of the rounding in the least loss of a step.
+        const double scale = std::max({std::abs(work),
+                                       e.elastic,
+                                       e.kinetic,
+                                       std::numeric_limits<double>::min()});
+        json["energy"]     = {{"external_work_J_per_m", work},
+                              {"elastic_J_per_m", e.elastic},
+                              {"kinetic_J_per_m", e.kinetic},
+                              {"dissipation_J_per_m", dissipation},
+                              {"numerical_loss_J_per_m", loss},
+                              {"least_step_loss_relative", least_loss / scale}};
+      }
     return json;
   }
 
@@ -385,7 +412,9 @@ namespace geocone
       log.print(format("relative L2 errors: displacement %.3e, stress %.3e",
                        field_errors->displacement,
                        field_errors->stress));
-    if (report_for_test)
+    if (report_for_tests == "expectations")
+      write_file("output", [](std::ostream &) {});
+    else if (report_for_tests == "loads")
       write_file("output", [&](std::ostream &out) {
         out << "time [s]  displacement [mm]  load [N/m]\n";
         for (const StepRecord &record : records)
@@ -412,6 +441,10 @@ namespace geocone
                       100. * e.elastic / scale,
                       100. * dissipation / scale,
                       100. * e.kinetic / scale);
+        if (field_errors)
+          out << format("field errors: displacement %.4g %%, stress %.4g %%\n",
+                        100. * field_errors->displacement,
+                        100. * field_errors->stress);
         out << "unknowns " << summary["size"]["dofs"] << " points "
             << summary["size"]["points"] << "\n";
       });
@@ -445,7 +478,7 @@ namespace geocone
             log.print(line);
           else
             log.warn(line);
-          if (report_for_test)
+          if (report_for_tests != "none")
             {
               std::ofstream out("output", std::ios::app);
               out << "expected " << statement << ": " << (holds ? "yes" : "NO")

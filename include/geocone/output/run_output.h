@@ -56,6 +56,13 @@ namespace geocone
             const std::string &folder_of_call,
             const Scene       &scene);
 
+    /** The energy that the losses start from. */
+    void
+    set_initial_energy(const double elastic)
+    {
+      energy_n = elastic;
+    }
+
     /** Adds a tried (sub)step to newton.csv. */
     void
     add_newton_table(const unsigned int step,
@@ -124,7 +131,7 @@ namespace geocone
     std::string              if_exists       = "number";
     bool                     with_fields     = true;
     bool                     pictures        = true;
-    bool                     report_for_test = false;
+    std::string              report_for_tests = "none";
     std::vector<std::string> expectations;
 
     const Scene            *scene = nullptr;
@@ -135,7 +142,9 @@ namespace geocone
     Json                    summary;
     std::optional<FieldErrors> field_errors;
 
-    double work = 0., dissipation = 0., initial_energy = 0.;
+    /** Sums since the start (J/m), and the least loss of a step. */
+    double work = 0., dissipation = 0., loss = 0., least_loss = 0.;
+    double energy_n = 0.; ///< kinetic and elastic, at the last step
   };
 } // namespace geocone
 
