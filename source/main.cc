@@ -104,7 +104,7 @@ namespace
   }
 
   int
-  run(const int argc, char **argv, std::string &folder_to_draw)
+  run(const int argc, char **argv, std::string &drawing_command)
   {
     const bool first =
       dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
@@ -146,7 +146,9 @@ namespace
       simulation.run(std::filesystem::path(call.file).stem().string(),
                      call.folder);
     if (first && simulation.output().wants_pictures())
-      folder_to_draw = simulation.output().folder();
+      drawing_command = "'" GEOCONE_SOURCE_DIR "/scripts/plot' '" +
+                        simulation.output().folder() + "'" +
+                        (call.quiet ? " >/dev/null" : "");
     return ok ? 0 : 1;
   }
 } // namespace
@@ -154,7 +156,7 @@ namespace
 int
 main(int argc, char **argv)
 {
-  std::string folder_to_draw;
+  std::string drawing_command;
   int         status = 1;
   {
     // One thread per rank: the parallelism is MPI's. Cholmod asks for a fixed
@@ -171,7 +173,7 @@ main(int argc, char **argv)
       dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     try
       {
-        status = run(argc, argv, folder_to_draw);
+        status = run(argc, argv, drawing_command);
       }
     catch (const InputError &error)
       {
@@ -186,14 +188,9 @@ main(int argc, char **argv)
           MPI_Abort(MPI_COMM_WORLD, 1);
       }
   }
-  if (!folder_to_draw.empty())
-    {
-      const std::string command =
-        std::string("'" GEOCONE_SOURCE_DIR "/scripts/plot' '") +
-        folder_to_draw + "'";
-      if (std::system(command.c_str()) != 0)
-        std::cerr << "warning: no pictures: " << command << " failed"
-                  << std::endl;
-    }
+  // After the end of MPI, which does not like its processes to be copied.
+  if (!drawing_command.empty() && std::system(drawing_command.c_str()) != 0)
+    std::cerr << "warning: no pictures: " << drawing_command << " failed"
+              << std::endl;
   return status;
 }

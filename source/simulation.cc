@@ -86,14 +86,18 @@ namespace geocone
           stepper.advance(kinematics, points, newton, timer, t + done, size);
         run_output.add_newton_table(step, t + done + size, size, report);
         record.iterations += report.newton.iterations;
-        n_factorisations += report.newton.iterations;
+        n_factorisations += report.newton.factorisations;
+        record.regularised += report.newton.regularised;
         if (report.converged)
           {
             done = size == left ? h : done + size;
             ++record.substeps;
-            // Works add up over the substeps.
+            // Works add up over the substeps, and the worst of them counts.
             report.energies.external_work += record.last.energies.external_work;
             report.energies.dissipation += record.last.energies.dissipation;
+            report.quality.take_worse(record.last.quality);
+            report.newton.residual =
+              std::max(report.newton.residual, record.last.newton.residual);
             record.last = std::move(report);
             if (record.last.newton.iterations <= step_control.easy_iterations)
               substep = std::min(h, 1.5 * substep);
@@ -178,6 +182,7 @@ namespace geocone
                 step_loop.start();
                 StepRecord record =
                   advance(kinematics, step, t, sizes[i], substep);
+                record.resets = i == 0 && stage->reset_displacement;
                 step_loop.stop();
                 t += sizes[i];
 

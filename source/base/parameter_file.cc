@@ -141,6 +141,7 @@ namespace geocone
 
   ParameterFile::ParameterFile(const std::string              &file_name,
                                const std::vector<std::string> &overrides)
+    : folder_of_file(std::filesystem::path(file_name).parent_path().string())
   {
     read(file_name, "'" + file_name + "'", 0);
     for (const std::string &override_text : overrides)

@@ -309,7 +309,7 @@ namespace geocone
   {
     // Two passes: the scales of all ranks first.
     const MPI_Comm comm         = layout->get_mpi_communicator();
-    double         stress_scale = 0., k_scale = 0., y_scale = 0.;
+    double stress_scale = 0., k_scale = 0., y_scale = 0., compliance = 0.;
     const auto     y_at         = [&](const FlowCone    &cone,
                             const Elasticity  &elasticity,
                             const unsigned int p) {
@@ -320,7 +320,9 @@ namespace geocone
     for (const Run &run : runs)
       if (const auto cone = materials[run.material].flow_cone())
         {
-          k_scale = std::max(k_scale, cone->k);
+          k_scale    = std::max(k_scale, cone->k);
+          compliance = std::max(
+            compliance, 1. / materials[run.material].elasticity().two_G);
           for (unsigned int p = run.begin; p < run.end; ++p)
             {
               stress_scale = std::max(stress_scale, stress[p].norm());
@@ -331,7 +333,8 @@ namespace geocone
         }
     stress_scale = Utilities::MPI::max(stress_scale, comm) +
                    Utilities::MPI::max(k_scale, comm);
-    y_scale = Utilities::MPI::max(y_scale, comm);
+    y_scale = std::max(Utilities::MPI::max(y_scale, comm),
+                       stress_scale * Utilities::MPI::max(compliance, comm));
 
     Quality worst;
     for (const Run &run : runs)

@@ -10,14 +10,53 @@ namespace geocone
 {
   namespace
   {
+    /**
+     * The branch of the curve, between two reversals of the displacement, that
+     * takes the most work: the loading, not a rest, an unloading or a reloading
+     * that is cut short. Its displacements count from its beginning.
+     */
+    std::vector<LoadPoint>
+    main_branch(const std::vector<LoadPoint> &curve)
+    {
+      std::vector<LoadPoint> best, branch;
+      double                 best_work = 0., work = 0., start = 0., previous = 0.;
+      for (const LoadPoint &point : curve)
+        {
+          const double change    = point.displacement - previous;
+          const double direction = branch.empty() ?
+                                     change :
+                                     branch.back().displacement - start;
+          if (change == 0. || change * direction < 0.)
+            {
+              branch.clear();
+              work  = 0.;
+              start = previous;
+            }
+          if (change != 0.)
+            {
+              branch.push_back(point);
+              work += change * point.load;
+              if (work > best_work)
+                {
+                  best_work = work;
+                  best      = branch;
+                  for (LoadPoint &p : best)
+                    p.displacement = std::abs(p.displacement - start);
+                }
+            }
+          previous = point.displacement;
+        }
+      return best;
+    }
+
     /** Mean load over displacements from begin to end, each load over its step. */
     double
-    mean_load(const std::vector<LoadPoint> &curve,
+    mean_load(const std::vector<LoadPoint> &branch,
               const double                  begin,
               const double                  end)
     {
       double sum = 0., length = 0., previous = 0.;
-      for (const LoadPoint &point : curve)
+      for (const LoadPoint &point : branch)
         {
           const double overlap = std::max(0.,
                                           std::min(end, point.displacement) -
@@ -34,60 +73,41 @@ namespace geocone
   find_limit_load(const std::vector<LoadPoint> &points, const double tolerance)
   {
     LimitLoad limit;
-    if (points.empty())
+    for (const LoadPoint &point : points)
+      if (std::abs(point.load) > std::abs(limit.peak))
+        limit.peak = point.load;
+    const std::vector<LoadPoint> branch = main_branch(points);
+    if (branch.size() < 2)
       return limit;
 
-    // Downward or upward, the displacement counts as its distance. Unloading
-    // ends a curve: what comes after it is no plateau of this loading.
-    std::vector<LoadPoint> curve = points;
-    limit.peak                   = curve.front().load;
-    for (LoadPoint &point : curve)
-      {
-        point.displacement = std::abs(point.displacement);
-        if (std::abs(point.load) > std::abs(limit.peak))
-          limit.peak = point.load;
-      }
-    for (std::size_t i = 1; i < curve.size(); ++i)
-      if (curve[i].displacement <= curve[i - 1].displacement)
-        {
-          curve.resize(i);
-          break;
-        }
-    if (curve.size() < 2)
-      return limit;
-
-    const double end = curve.back().displacement;
+    const double end = branch.back().displacement;
     for (const double fraction : {0.5, 0.25, 0.125})
       {
-        const double begin   = end * (1. - fraction);
-        const double mean    = mean_load(curve, begin, end);
-        const bool one_step  = curve[curve.size() - 2].displacement <= begin;
+        const double begin    = end * (1. - fraction);
+        const double mean     = mean_load(branch, begin, end);
+        const bool   one_step = branch[branch.size() - 2].displacement <= begin;
         const double change =
-          one_step ?
-            curve.back().load - curve[curve.size() - 2].load :
-            mean_load(curve, (begin + end) / 2., end) -
-              mean_load(curve, begin, (begin + end) / 2.);
+          one_step ? branch.back().load - branch[branch.size() - 2].load :
+                     mean_load(branch, (begin + end) / 2., end) -
+                       mean_load(branch, begin, (begin + end) / 2.);
         limit.drift     = mean != 0. ? change / mean : 0.;
         limit.value     = mean;
         limit.begins_at = begin;
-        if (mean != 0. && std::abs(limit.drift) <= tolerance)
+        if (mean == 0. || std::abs(limit.drift) > tolerance)
           {
-            limit.found    = true;
-            limit.band_low = limit.band_high = curve.back().load;
-            double previous                  = 0.;
-            for (const LoadPoint &point : curve)
-              {
-                if (previous >= begin)
-                  {
-                    limit.band_low  = std::min(limit.band_low, point.load);
-                    limit.band_high = std::max(limit.band_high, point.load);
-                  }
-                previous = point.displacement;
-              }
-            return limit;
+            if (one_step)
+              break;
+            continue;
           }
-        if (one_step)
-          break;
+        limit.found    = true;
+        limit.band_low = limit.band_high = branch.back().load;
+        for (const LoadPoint &point : branch)
+          if (point.displacement > begin)
+            {
+              limit.band_low  = std::min(limit.band_low, point.load);
+              limit.band_high = std::max(limit.band_high, point.load);
+            }
+        break;
       }
     return limit;
   }

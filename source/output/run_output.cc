@@ -280,12 +280,18 @@ namespace geocone
   RunOutput::results() const
   {
     std::vector<LoadPoint> curve;
-    unsigned int           iterations = 0, most = 0, substeps = 0, failures = 0;
+    double                 offset = 0.;
+    unsigned int iterations = 0, most = 0, substeps = 0, failures = 0,
+                 regularised = 0;
     double                 natural_map = 0., complementarity = 0., cone = 0.,
            dual = 0., residual = 0.;
     for (const StepRecord &record : records)
       {
-        curve.push_back({record.displacement, record.load});
+        // A reset of the displacement is no step of the curve.
+        if (record.resets && !curve.empty())
+          offset = curve.back().displacement;
+        curve.push_back({offset + record.displacement, record.load});
+        regularised += record.regularised;
         iterations += record.iterations;
         most = std::max(most, record.iterations);
         substeps += record.substeps;
@@ -328,6 +334,7 @@ namespace geocone
        records.empty() ? 0. : double(iterations) / records.size()},
       {"iterations_max", most},
       {"failures", failures},
+      {"regularised", regularised},
       {"residual_max", residual}};
     json["quality"] = {{"natural_map_error_max", natural_map},
                        {"complementarity_max", complementarity},

@@ -113,8 +113,9 @@ namespace geocone
                        "the vertices lie on one line");
   }
 
-  Geometry::Geometry()
+  Geometry::Geometry(const ParameterFile &parameter_file)
     : dealii::ParameterAcceptor("/Geometry")
+    , folder_of_parameters(parameter_file.folder())
   {
     add_parameter("Shape", shape_name, "box | polygon | file.");
     add_parameter("Box",
@@ -127,7 +128,8 @@ namespace geocone
                   "vertex i to the next and is called i (0, 1, ...).");
     add_parameter("File",
                   file,
-                  "A gmsh .msh file (relative to the folder of the call) with "
+                  "A gmsh .msh file (relative to the folder of the parameter "
+                  "file, or else to that of the call) with "
                   "triangles or quadrilaterals of first order. Sides have the "
                   "numbers or names of its physical curves.");
   }
@@ -163,12 +165,17 @@ namespace geocone
     else if (shape_name == "file")
       {
         shape = Shape::file;
-        if (!std::filesystem::is_regular_file(file))
+        // Relative names: beside the parameter file first.
+        const std::filesystem::path beside =
+          std::filesystem::path(folder_of_parameters) / file;
+        if (std::filesystem::is_regular_file(beside))
+          file = beside.string();
+        else if (!std::filesystem::is_regular_file(file))
           throw InputError("Geometry/File",
                            file,
                            "an existing gmsh .msh file",
-                           "check the name; it is relative to the folder in "
-                           "which the program is called");
+                           "check the name; it is relative to the folder of the "
+                           "parameter file, or else to that of the call");
       }
     else
       throw InputError("Geometry/Shape",
@@ -248,6 +255,15 @@ namespace geocone
       if (!region->polygon.empty())
         all.push_back(region->polygon);
     return all;
+  }
+
+  bool
+  Regions::have_numbers() const
+  {
+    for (const auto &region : regions)
+      if (region->id >= 0)
+        return true;
+    return false;
   }
 
   unsigned int

@@ -157,7 +157,9 @@ namespace geocone
   }
 
   void
-  InitialStress::prepare(const Gravity &gravity, const Geometry &geometry)
+  InitialStress::prepare(const Gravity  &gravity,
+                         const Geometry &geometry,
+                         const Regions  &regions)
   {
     if (type == "given")
       {
@@ -182,19 +184,53 @@ namespace geocone
                            "> 0",
                            "1 - sin(phi) is usual");
         g = -full[1];
-        for (const dealii::Point<dim> &x : geometry.outline)
-          if (x[1] > surface + 1e-9)
-            throw InputError("Initial stress/Surface level",
-                             surface,
-                             ">= " + std::to_string(x[1]) +
-                               " m, the top of the domain",
-                             "a geostatic stress needs a level ground surface");
+        if (regions.have_numbers())
+          throw InputError("Initial stress/Type",
+                           type,
+                           "zero | given, where materials are found by their "
+                           "region numbers",
+                           "give the stress by formulas, or the materials by "
+                           "region polygons");
+        check_level_ground(geometry);
       }
     else if (type != "zero")
       throw InputError("Initial stress/Type",
                        type,
                        "zero | given | geostatic",
                        "choose one of them");
+  }
+
+  void
+  InitialStress::check_level_ground(const Geometry &geometry) const
+  {
+    if (geometry.outline.empty())
+      return; // a .msh file: its surface is the user's to know
+    double top = geometry.outline[0][1];
+    for (const dealii::Point<dim> &x : geometry.outline)
+      top = std::max(top, x[1]);
+    // Level ground: the highest vertices span the whole width.
+    double left = 1e300, right = -1e300, left_top = 1e300, right_top = -1e300;
+    for (const dealii::Point<dim> &x : geometry.outline)
+      {
+        left  = std::min(left, x[0]);
+        right = std::max(right, x[0]);
+        if (x[1] > top - 1e-9)
+          {
+            left_top  = std::min(left_top, x[0]);
+            right_top = std::max(right_top, x[0]);
+          }
+      }
+    if (left_top > left + 1e-9 || right_top < right - 1e-9)
+      throw InputError("Initial stress/Type",
+                       type,
+                       "zero | given, where the ground is not level",
+                       "let gravity build up the stress of a slope in a stage "
+                       "of its own");
+    if (surface < top - 1e-9)
+      throw InputError("Initial stress/Surface level",
+                       surface,
+                       ">= " + std::to_string(top) + " m, the top of the domain",
+                       "give the level of the ground");
   }
 
   Mandel

@@ -6,7 +6,8 @@
 namespace geocone
 {
   Scene::Scene(const ParameterFile &file)
-    : materials(file)
+    : geometry(file)
+    , materials(file)
     , regions(file)
     , dirichlet(file,
                 "Boundary conditions",
@@ -34,7 +35,7 @@ namespace geocone
     materials.prepare();
     regions.prepare(geometry);
     gravity.prepare();
-    initial_stress.prepare(gravity, geometry);
+    initial_stress.prepare(gravity, geometry, regions);
     dirichlet.prepare();
     tractions.prepare();
     loading.prepare();

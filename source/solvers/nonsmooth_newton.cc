@@ -149,12 +149,15 @@ namespace geocone
           blend && !first ? std::min(0.5, report.residual) : 0.;
         for (const double least : {0., 1e-6, 1e-3, 0.1})
           {
+            if (least > 0. && least <= wanted)
+              continue;
             {
               TimerOutput::Scope scope(timer, "assemble");
               problem.linearise(matrix, std::max(wanted, least));
             }
             TimerOutput::Scope scope(timer, "factorise");
             regular = linear_solver.factorise(matrix);
+            ++report.factorisations;
             if (regular)
               {
                 report.regularised += least > 0.;

@@ -62,6 +62,13 @@ namespace geocone
     void
     parse() const;
 
+    /** The folder that the file lies in; empty: that of the call. */
+    const std::string &
+    folder() const
+    {
+      return folder_of_file;
+    }
+
     /** Prints all declared parameters with their present values. */
     static void
     print(std::ostream &out, const bool with_documentation);
@@ -86,6 +93,7 @@ namespace geocone
     text() const;
 
     std::vector<Line> lines;
+    std::string       folder_of_file;
   };
 
   /**

@@ -64,9 +64,10 @@ namespace geocone
 
     /**
      * (a - b)/a between 0 (associated: the tangent is symmetric) and 1 (no
-     * dilatancy).
+     * dilatancy). A law without a cone whose tangent is not symmetric must
+     * override this with a positive value.
      */
-    double
+    virtual double
     non_associativity() const;
 
     double

@@ -9,6 +9,7 @@
 #include <geocone/materials/material_library.h>
 #include <geocone/mechanics/constraints.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace geocone
@@ -26,14 +27,24 @@ namespace geocone
   /**
    * How well a computed state satisfies the cone law, whatever solver made it:
    * maxima over all points, with z = S (s - s_n) - h B v recomputed from the
-   * state, y = Psi(z), and the stress scale max |s| + max k.
+   * state, y = Psi(z), the stress scale max |s| + max k, and the strain scale
+   * max |y|, at least stress scale/2G (y is rounding where nothing flows).
    */
   struct Quality
   {
     double natural_map     = 0.; ///< |s - P_C(s - 2G y)| / stress scale
     double cone_violation  = 0.; ///< max(0, |s_t| - a s_n - k) / stress scale
-    double dual_violation  = 0.; ///< max(0, a |y_t| - y_n) / max |y|
-    double complementarity = 0.; ///< |<y, s + (k/a) n>| / (max |y| stress scale)
+    double dual_violation  = 0.; ///< max(0, a |y_t| - y_n) / strain scale
+    double complementarity = 0.; ///< |<y, s + (k/a) n>| / (both scales)
+
+    void
+    take_worse(const Quality &other)
+    {
+      natural_map     = std::max(natural_map, other.natural_map);
+      cone_violation  = std::max(cone_violation, other.cone_violation);
+      dual_violation  = std::max(dual_violation, other.dual_violation);
+      complementarity = std::max(complementarity, other.complementarity);
+    }
   };
 
   /**

@@ -28,6 +28,8 @@ namespace geocone
     unsigned int        substeps = 0; ///< accepted
     unsigned int        failures = 0; ///< substeps tried in vain
     unsigned int        iterations = 0; ///< of all substeps, failed ones too
+    unsigned int        regularised = 0; ///< Jacobians that needed a blend
+    bool                resets = false; ///< displacements count from here
     double              time         = 0.;
     double              displacement = 0.;
     double              load         = 0.;

@@ -53,7 +53,7 @@ namespace geocone
       file
     };
 
-    Geometry();
+    explicit Geometry(const ParameterFile &file);
 
     void
     prepare();
@@ -74,6 +74,7 @@ namespace geocone
     side_of(const dealii::Point<dim> &x) const;
 
   private:
+    const std::string               folder_of_parameters;
     std::string                     shape_name = "box";
     std::vector<dealii::Point<dim>> box        = {{-1., -2.}, {1., 0.}};
     std::vector<dealii::Point<dim>> polygon    = {{0., 0.}, {1., 0.}, {1., 1.}};
@@ -94,6 +95,10 @@ namespace geocone
     /** The polygons, to be respected by mesh generators. */
     std::vector<Polygon>
     polygons() const;
+
+    /** Whether a material is found by the number of a physical surface. */
+    bool
+    have_numbers() const;
 
     /** The material at x in a cell of a physical surface @p id. */
     unsigned int

@@ -93,7 +93,9 @@ namespace geocone
     InitialStress();
 
     void
-    prepare(const Gravity &gravity, const Geometry &geometry);
+    prepare(const Gravity  &gravity,
+            const Geometry &geometry,
+            const Regions  &regions);
 
     /** Stress at a point x (Pa). */
     Mandel
@@ -102,6 +104,9 @@ namespace geocone
        const Regions            &regions) const;
 
   private:
+    void
+    check_level_ground(const Geometry &geometry) const;
+
     std::string                  type  = "zero";
     std::array<std::string, 3>   texts = {{"0", "0", "0"}};
     std::array<Expression, 3>    components;

@@ -30,7 +30,8 @@ namespace geocone
   {
     bool                         converged    = false;
     unsigned int                 iterations   = 0; ///< linear systems solved
-    unsigned int                 regularised  = 0; ///< of them, with a blend
+    unsigned int                 factorisations = 0;
+    unsigned int regularised = 0; ///< systems made regular by a blend
     double                       residual     = 0.; ///< relative, at the end
     std::vector<NewtonIteration> table;
     std::string                  reason; ///< why it did not converge

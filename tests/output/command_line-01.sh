@@ -1,0 +1,31 @@
+# The command line: help with all parameters, version, defaults that can be read
+# back, and wrong calls that are refused.
+program=$1 root=$2 folder=$3
+rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
+"$program" --version | grep -q '^geocone [0-9]'
+"$program" --help >help
+for word in 'Friction angle' 'Cell size' 'Growth factor' 'Expectations' \
+  'Globalisation' 'Velocity x' 'Traction y'; do
+  grep -q "$word" help || { echo "no $word in --help"; exit 1; }
+done
+"$program" --defaults new.prm
+grep -q '^ *# .*degrees' new.prm
+"$program" new.prm --quiet --set 'Boundary conditions/footing/Velocity y = 0' \
+  --set 'Boundary conditions/footing/Velocity x = 0' \
+  --set 'Boundary conditions/footing/Sides = bottom' \
+  --set 'Tractions/Names =' --set 'Output/Pictures = false'
+[ -s results/new/summary.json ]
+refuse() {
+  if "$program" "$@" >out 2>err; then
+    echo "not refused: $*"
+    exit 1
+  fi
+  grep -q '^error: ' err
+}
+refuse
+refuse no_such_file.prm
+refuse --no-such-option
+refuse new.prm --set
+refuse new.prm --set 'no equals sign'
+refuse new.prm --set 'Mesh/No such entry = 1'
+grep -q -- "--set 'Mesh/No such entry = 1'" err
