@@ -18,34 +18,33 @@ namespace geocone
     std::vector<LoadPoint>
     main_branch(const std::vector<LoadPoint> &curve)
     {
-      std::vector<LoadPoint> best, branch;
-      double                 best_work = 0., work = 0., start = 0., previous = 0.;
-      for (const LoadPoint &point : curve)
+      std::size_t first = 0, best_first = 0, best_end = 0;
+      double      work = 0., best_work = 0., start = 0., best_start = 0.;
+      double      previous = 0.;
+      for (std::size_t i = 0; i < curve.size(); ++i)
         {
-          const double change    = point.displacement - previous;
-          const double direction = branch.empty() ?
-                                     change :
-                                     branch.back().displacement - start;
+          const double change    = curve[i].displacement - previous;
+          const double direction = i == first ? change : previous - start;
           if (change == 0. || change * direction < 0.)
             {
-              branch.clear();
+              first = change == 0. ? i + 1 : i;
               work  = 0.;
               start = previous;
             }
-          if (change != 0.)
+          work += change * curve[i].load;
+          if (work > best_work)
             {
-              branch.push_back(point);
-              work += change * point.load;
-              if (work > best_work)
-                {
-                  best_work = work;
-                  best      = branch;
-                  for (LoadPoint &p : best)
-                    p.displacement = std::abs(p.displacement - start);
-                }
+              best_work  = work;
+              best_first = first;
+              best_end   = i + 1;
+              best_start = start;
             }
-          previous = point.displacement;
+          previous = curve[i].displacement;
         }
+      std::vector<LoadPoint> best(curve.begin() + best_first,
+                                  curve.begin() + best_end);
+      for (LoadPoint &point : best)
+        point.displacement = std::abs(point.displacement - best_start);
       return best;
     }
 

@@ -2,17 +2,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/output/run_folder.h>
 #include <geocone/output/run_output.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <filesystem>
-#include <iostream>
 
 namespace geocone
 {
-  using dealii::Utilities::MPI::broadcast;
-
   RunOutput::RunOutput(const MPI_Comm comm, Log &log)
     : dealii::ParameterAcceptor("/Output")
     , comm(comm)
@@ -40,7 +37,7 @@ namespace geocone
                   "0: results only, 1: progress, 2: also the table of every "
                   "Newton iteration.");
     add_parameter("Expectations",
-                  expectations,
+                  expectation_texts,
                   "Comma-separated statements about summary.json that must "
                   "hold at the end, else the exit code is 1: TOPIC/NAME <= "
                   "NUMBER or >= NUMBER, e.g. newton/iterations_mean <= 7.");
@@ -56,9 +53,8 @@ namespace geocone
                      const std::string &folder_of_call,
                      const Scene       &scene_)
   {
-    namespace fs = std::filesystem;
-    scene        = &scene_;
-    name         = default_name;
+    scene = &scene_;
+    name  = default_name;
     if (if_exists != "number" && if_exists != "refuse" &&
         if_exists != "overwrite")
       throw InputError("Output/If folder exists",
@@ -71,77 +67,13 @@ namespace geocone
                        report_for_tests,
                        "none | loads | expectations",
                        "choose one of them");
-    for (const std::string &statement : expectations)
-      {
-        double            bound;
-        char              topic[200];
-        char              relation[3];
-        if (std::sscanf(statement.c_str(), "%199s %2s %lf", topic, relation, &bound) !=
-              3 ||
-            (std::string(relation) != "<=" && std::string(relation) != ">="))
-          throw InputError("Output/Expectations",
-                           statement,
-                           "TOPIC/NAME <= NUMBER or TOPIC/NAME >= NUMBER",
-                           "e.g. newton/iterations_mean <= 7");
-      }
+    for (const std::string &text : expectation_texts)
+      expectations.emplace_back(text, "Output/Expectations");
     if (!folder_of_call.empty())
       path = folder_of_call;
     if (path.empty())
       path = "results/" + default_name;
-
-    // Rank 0 makes the folder; all learn its name, or why there is none.
-    std::string refusal;
-    if (writes)
-      {
-        std::error_code error;
-        const auto      is_used = [&](const std::string &folder) {
-          return fs::exists(folder) &&
-                 (!fs::is_directory(folder) || !fs::is_empty(folder, error));
-        };
-        const std::string wanted = path;
-        if (is_used(path) && if_exists == "number")
-          for (unsigned int i = 2; is_used(path); ++i)
-            path = wanted + "-" + std::to_string(i);
-        if (is_used(path) && if_exists == "refuse")
-          refusal = "it exists and is not empty";
-        else if (is_used(path) && fs::is_directory(path))
-          {
-            // Only what a run writes, never anything else.
-            for (const auto &entry : fs::directory_iterator(path, error))
-              {
-                const std::string file = entry.path().filename().string();
-                const std::string end  = entry.path().extension().string();
-                if (file == "parameters.prm" || file == "statistics.csv" ||
-                    file == "newton.csv" || file == "summary.json" ||
-                    file == "log.txt" || end == ".vtu" || end == ".pvtu" ||
-                    end == ".pvd" || end == ".part" || end == ".png" ||
-                    end == ".svg")
-                  fs::remove(entry.path(), error);
-              }
-          }
-        if (refusal.empty())
-          {
-            fs::create_directories(path, error);
-            if (!fs::is_directory(path))
-              refusal = "it cannot be made";
-            else
-              {
-                std::ofstream probe(path + "/parameters.prm");
-                if (probe)
-                  ParameterFile::print(probe, false);
-                probe.close();
-                if (!probe)
-                  refusal = "it cannot be written";
-              }
-          }
-      }
-    path    = broadcast(comm, path);
-    refusal = broadcast(comm, refusal);
-    if (!refusal.empty())
-      throw InputError("Output/Folder",
-                       path,
-                       "a folder that can be written",
-                       refusal + "; name another one with --output");
+    path = make_run_folder(comm, path, if_exists);
 
     if (!writes)
       return;
@@ -462,36 +394,21 @@ namespace geocone
   {
     bool hold = true;
     if (writes)
-      for (const std::string &statement : expectations)
+      for (const Expectation &expectation : expectations)
         {
-          double bound;
-          char   topic[200];
-          char   relation[3];
-          std::sscanf(statement.c_str(), "%199s %2s %lf", topic, relation, &bound);
-          const Json::json_pointer pointer("/" + std::string(topic));
-          const bool known = summary.contains(pointer) &&
-                             summary[pointer].is_number();
-          const double value =
-            known ? summary[pointer].get<double>() :
-                    std::numeric_limits<double>::quiet_NaN();
-          const bool holds = std::string(relation) == "<=" ? value <= bound :
-                                                             value >= bound;
-          hold             = hold && holds;
-          const std::string line = format("expected %s: %s (%.6g)",
-                                          statement.c_str(),
-                                          holds ? "yes" : "NO",
-                                          value);
+          const bool        holds  = expectation.holds(summary);
+          const std::string answer = "expected " + expectation.text + ": " +
+                                     (holds ? "yes" : "NO");
+          const std::string line =
+            answer + " (" + expectation.found(summary) + ")";
+          hold = hold && holds;
           if (holds)
             log.print(line);
           else
             log.warn(line);
           if (report_for_tests != "none")
-            {
-              std::ofstream out("output", std::ios::app);
-              out << "expected " << statement << ": " << (holds ? "yes" : "NO")
-                  << "\n";
-            }
+            std::ofstream("output", std::ios::app) << answer << "\n";
         }
-    return broadcast(comm, hold);
+    return dealii::Utilities::MPI::broadcast(comm, hold);
   }
 } // namespace geocone

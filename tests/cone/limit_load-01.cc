@@ -105,14 +105,15 @@ main()
     point = { -point.displacement, -point.load };
   print("downward", downward);
 
-  // Back from 1 to 0.9, elastic: not a part of the plateau.
+  // Back from 1 to 0.9, elastic, in more steps than the loading had: not a
+  // part of the plateau.
   Curve unloading = sample(20, plateau);
-  for (unsigned int i = 1; i <= 10; ++i)
-    unloading.push_back({ 1. - 0.01 * i, 100. - 20. * i });
+  for (unsigned int i = 1; i <= 40; ++i)
+    unloading.push_back({ 1. - 0.0025 * i, 100. - 5. * i });
   print("unloading", unloading);
   // ... and half of the way forth again.
-  for (unsigned int i = 1; i <= 5; ++i)
-    unloading.push_back({ 0.9 + 0.01 * i, -100. + 20. * i });
+  for (unsigned int i = 1; i <= 20; ++i)
+    unloading.push_back({ 0.9 + 0.0025 * i, -100. + 5. * i });
   print("reloading", unloading);
 
   // A stage of gravity before the loading: with the footing held, with it

@@ -154,10 +154,11 @@ namespace geocone
     const double H = two_G + cone.a * cone.b * K;
     const double g = f / H;
     // q = T - 2G g, written such that the cone is met to the last digit also
-    // where the trial value is many orders of magnitude larger.
+    // where the trial value is many orders of magnitude larger. At the tip
+    // either form may be rounding of either sign: then it is the tip.
     const double s_n = t[0] + K * cone.b * g;
-    const double q   = cone.a * s_n + cone.k;
-    if (q >= 0. || cone.a == 0.)
+    const double q   = std::min(cone.a * s_n + cone.k, T);
+    if ((q >= 0. && T - two_G * g >= 0.) || cone.a == 0.)
       {
         const auto u = (t.template tail<n_tangential>() / T).eval();
         s[0]         = s_n;

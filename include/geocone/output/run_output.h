@@ -8,19 +8,16 @@
 #include <geocone/base/log.h>
 #include <geocone/base/parameter_file.h>
 #include <geocone/output/exact_solution.h>
+#include <geocone/output/expectations.h>
 #include <geocone/output/fields.h>
 #include <geocone/output/limit_load.h>
 #include <geocone/time_stepping/implicit_fem.h>
-
-#include <nlohmann/json.hpp>
 
 #include <string>
 #include <vector>
 
 namespace geocone
 {
-  using Json = nlohmann::ordered_json;
-
   /** An accepted step of the loading programme, with all its substeps. */
   struct StepRecord
   {
@@ -134,7 +131,8 @@ namespace geocone
     bool                     with_fields     = true;
     bool                     pictures        = true;
     std::string              report_for_tests = "none";
-    std::vector<std::string> expectations;
+    std::vector<std::string> expectation_texts;
+    std::vector<Expectation> expectations;
 
     const Scene            *scene = nullptr;
     CsvFile                 statistics, newton;

@@ -30,7 +30,7 @@ namespace geocone
   {
     double x  = 1.;
     double Gx = G(x);
-    if (G0 >= 0. || Gx <= reduction * std::abs(G0))
+    if (G0 >= 0. || (std::isfinite(Gx) && Gx <= reduction * std::abs(G0)))
       return x;
     double a = 0., Ga = G0, b = 1., Gb = Gx;
     for (unsigned int n = 1; n < max_evaluations; ++n)
@@ -40,7 +40,7 @@ namespace geocone
         Gx = G(x);
         if (std::abs(Gx) < reduction * std::abs(G0))
           break;
-        if (Gx < 0.)
+        if (std::isfinite(Gx) && Gx < 0.)
           {
             a  = x;
             Ga = Gx;

@@ -1,0 +1,46 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_output_expectations_h
+#define geocone_output_expectations_h
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  using Json = nlohmann::ordered_json;
+
+  /**
+   * A statement about a number of summary.json, "TOPIC/NAME <= NUMBER" or
+   * ">= NUMBER": so a parameter file carries its own acceptance.
+   */
+  class Expectation
+  {
+  public:
+    /**
+     * @param parameter for messages
+     * @throws InputError if the text is not of that form
+     */
+    Expectation(const std::string &text, const std::string &parameter);
+
+    /** Whether it holds; not if the summary has no such number. */
+    bool
+    holds(const Json &summary) const;
+
+    /** The number that it speaks of, as text. */
+    std::string
+    found(const Json &summary) const;
+
+    const std::string text;
+
+  private:
+    Json::json_pointer place;
+    bool               at_most;
+    double             bound;
+  };
+} // namespace geocone
+
+#endif
