@@ -175,9 +175,14 @@ main(int argc, char **argv)
       {
         status = run(argc, argv, drawing_command);
       }
+    // All ranks find these two together, and end without waiting for each other.
     catch (const InputError &error)
       {
-        // All ranks find the same, and end without waiting for each other.
+        if (first)
+          std::cerr << "error: " << error.what() << std::endl;
+      }
+    catch (const StepFailure &error)
+      {
         if (first)
           std::cerr << "error: " << error.what() << std::endl;
       }

@@ -109,7 +109,7 @@ namespace geocone
             if (run_output.verbosity >= 2)
               log.print("    cut: " + report.newton.reason);
             if (substep < smallest * (1. - 1e-6))
-              throw RunError(
+              throw StepFailure(
                 format("the step %u failed at t = %.6g s, also when cut to "
                        "%.3g s ('Time stepping/Maximum halvings' = %u):\n  ",
                        step,

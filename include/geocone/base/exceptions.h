@@ -56,6 +56,13 @@ namespace geocone
   public:
     using std::runtime_error::runtime_error;
   };
+
+  /** A RunError that all ranks find together, so that they can end together. */
+  class StepFailure : public RunError
+  {
+  public:
+    using RunError::RunError;
+  };
 } // namespace geocone
 
 #endif

@@ -50,7 +50,9 @@ namespace geocone
    *    w = min(1/2, |R_free| / |B'V s|), which vanishes with the residual;
    *  - none: full Newton steps;
    *  - automatic: the elastic blend for theta < phi/2 without inertia, the line
-   *    search otherwise (doc/performance.md has the measurements).
+   *    search otherwise; where that fails the other one from the same start,
+   *    but for associated flow and for theta < phi/2 with inertia, where a
+   *    shorter step is the better cure (doc/performance.md).
    */
   class NonsmoothNewton : public dealii::ParameterAcceptor
   {
@@ -87,6 +89,24 @@ namespace geocone
     }
 
   private:
+    enum class Globalisation
+    {
+      line_search,
+      elastic_blend,
+      none
+    };
+
+    /** solve() with one globalisation; what it spends is added to the report. */
+    void
+    attempt(const Globalisation  globalisation,
+            IncrementalProblem  &problem,
+            SparseMatrix        &matrix,
+            LinearSolver        &linear_solver,
+            dealii::TimerOutput &timer,
+            Vector              &v,
+            Vector              &residual,
+            SolverReport        &report) const;
+
     double       relative_tolerance  = 1e-10;
     double       absolute_tolerance  = 1e-12;
     unsigned int max_iterations      = 0;
