@@ -39,11 +39,13 @@ namespace
     "  --output FOLDER      folder of the results (default: results/NAME)\n"
     "  --set 'S/P = value'  overrides a parameter of the file; repeatable\n"
     "  --quiet              nothing on the screen but errors and warnings\n"
-    "  --defaults NEW.prm   writes all parameters with their defaults, commented\n"
+    "  --defaults NEW.prm   writes all parameters with their defaults, "
+    "commented\n"
     "  --help               this text and all parameters\n"
     "  --version            versions of geocone and its libraries\n"
     "\n"
-    "The exit code is 0 if the run has finished and its expectations hold, and\n"
+    "The exit code is 0 if the run has finished and its expectations hold, "
+    "and\n"
     "1 otherwise.\n";
 
   CommandLine
@@ -112,8 +114,8 @@ namespace
     if (call.version)
       {
         if (first)
-          std::cout << "geocone " << version << " (deal.II " << DEAL_II_PACKAGE_VERSION
-                    << ")" << std::endl;
+          std::cout << "geocone " << version << " (deal.II "
+                    << DEAL_II_PACKAGE_VERSION << ")" << std::endl;
         return 0;
       }
     if (call.help)
@@ -142,9 +144,8 @@ namespace
     Log                 log(MPI_COMM_WORLD, call.quiet);
     Simulation          simulation(MPI_COMM_WORLD, file, log);
     file.parse();
-    const bool ok =
-      simulation.run(std::filesystem::path(call.file).stem().string(),
-                     call.folder);
+    const bool ok = simulation.run(
+      std::filesystem::path(call.file).stem().string(), call.folder);
     if (first && simulation.output().wants_pictures())
       drawing_command = "'" GEOCONE_SOURCE_DIR "/scripts/plot' '" +
                         simulation.output().folder() + "'" +

@@ -22,10 +22,11 @@ namespace geocone
     add_parameter("Maximum halvings",
                   max_halvings,
                   "How often a step may be halved before the run gives up.");
-    add_parameter("Easy iterations",
-                  easy_iterations,
-                  "After a substep with at most so many iterations the next one "
-                  "is half as long again, up to the whole step.");
+    add_parameter(
+      "Easy iterations",
+      easy_iterations,
+      "After a substep with at most so many iterations the next one "
+      "is half as long again, up to the whole step.");
   }
 
   void
@@ -72,8 +73,8 @@ namespace geocone
                       double            &substep)
   {
     StepRecord record;
-    record.step    = step;
-    record.time    = t + h;
+    record.step           = step;
+    record.time           = t + h;
     const double smallest = h * std::pow(0.5, step_control.max_halvings);
     double       done     = 0.;
     substep               = std::min(substep, h);
@@ -146,11 +147,11 @@ namespace geocone
     Kinematics kinematics;
     kinematics.velocity.reinit(space.partitioner());
     kinematics.displacement.reinit(space.partitioner());
-    const Observation &observation = scene.observation;
-    const double       sign        = observation.factor < 0. ? -1. : 1.;
-    double             t           = 0.;
-    unsigned int       step        = 0;
-    double initial_energy = 0.;
+    const Observation &observation    = scene.observation;
+    const double       sign           = observation.factor < 0. ? -1. : 1.;
+    double             t              = 0.;
+    unsigned int       step           = 0;
+    double             initial_energy = 0.;
     for (unsigned int p = 0; p < points.n_points(); ++p)
       initial_energy +=
         points.weight[p] / 2. *
@@ -217,8 +218,7 @@ namespace geocone
                      (i + 1) % stage->output_every == 0))
                   {
                     TimerOutput::Scope scope(timer, "output");
-                    run_output.write_fields(
-                      t, mesh, space, points, kinematics);
+                    run_output.write_fields(t, mesh, space, points, kinematics);
                     run_output.write_summary("running", size(), cost());
                   }
               }
@@ -226,15 +226,14 @@ namespace geocone
       }
     catch (const RunError &error)
       {
-        run_output.write_summary(std::string("failed: ") + error.what(),
-                                 size(),
-                                 cost());
+        run_output.write_summary(
+          std::string("failed: ") + error.what(), size(), cost());
         run_output.write_fields(t, mesh, space, points, kinematics);
         throw;
       }
     if (exact_solution.is_given())
-      run_output.set_field_errors(exact_solution.errors(
-        mesh, space, points, kinematics.displacement, t));
+      run_output.set_field_errors(
+        exact_solution.errors(mesh, space, points, kinematics.displacement, t));
     run_output.write_summary("finished", size(), cost());
     run_output.print_result();
     const Json costs = cost();
@@ -243,9 +242,9 @@ namespace geocone
       "%.0f MB at most",
       costs["total_s"].get<double>(),
       costs["step_loop_s"].get<double>(),
-      costs["ratio_to_factorise_and_solve"].is_null() ?
-        0. :
-        costs["ratio_to_factorise_and_solve"].get<double>(),
+      costs["ratio_to_factorise_and_solve"].is_null()
+        ? 0.
+        : costs["ratio_to_factorise_and_solve"].get<double>(),
       costs["peak_memory_MB"].get<double>()));
     return run_output.expectations_hold();
   }
@@ -254,8 +253,7 @@ namespace geocone
   Simulation::size() const
   {
     return {{"element", space.element()},
-            {"cells",
-             mesh.triangulation().n_global_active_cells()},
+            {"cells", mesh.triangulation().n_global_active_cells()},
             {"dofs", constraints->n_rows},
             {"points", Utilities::MPI::sum(points.n_points(), comm)},
             {"nonzeros", Utilities::MPI::sum(stepper.n_nonzeros(), comm)},
@@ -267,8 +265,8 @@ namespace geocone
   {
     std::map<std::string, double> seconds =
       timer.get_summary_data(TimerOutput::total_wall_time);
-    const double linear = seconds["factorise"] + seconds["solve"];
-    const double steps  = step_loop.wall_time();
+    const double  linear = seconds["factorise"] + seconds["solve"];
+    const double  steps  = step_loop.wall_time();
     struct rusage usage;
     getrusage(RUSAGE_SELF, &usage);
     const double megabytes =

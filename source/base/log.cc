@@ -77,9 +77,9 @@ namespace geocone
       {
         // Pad with blanks what a longer line before left on the screen.
         std::cout << '\r' << text
-                  << std::string(progress_width > text.size() ?
-                                   progress_width - text.size() :
-                                   0,
+                  << std::string(progress_width > text.size()
+                                   ? progress_width - text.size()
+                                   : 0,
                                  ' ')
                   << std::flush;
         progress_width = text.size();

@@ -8,7 +8,6 @@
 #include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/utilities.h>
 
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -49,12 +48,12 @@ namespace geocone
           for (std::size_t j = 1; j <= b.size(); ++j)
             {
               const unsigned int previous = row[j];
-              row[j] = std::min({row[j] + 1,
-                                 row[j - 1] + 1,
-                                 diagonal + (std::tolower(a[i - 1]) ==
-                                                 std::tolower(b[j - 1]) ?
-                                               0U :
-                                               1U)});
+              row[j]                      = std::min(
+                {row[j] + 1,
+                                      row[j - 1] + 1,
+                                      diagonal + (std::tolower(a[i - 1]) == std::tolower(b[j - 1])
+                                                    ? 0U
+                                                    : 1U)});
               diagonal = previous;
             }
         }
@@ -171,8 +170,7 @@ namespace geocone
                       const int          depth)
   {
     if (depth > 20)
-      throw InputError("the parameter file " + shown_name +
-                       " includes itself");
+      throw InputError("the parameter file " + shown_name + " includes itself");
     std::ifstream in(file_name);
     if (!in || std::filesystem::is_directory(file_name))
       throw InputError("the parameter file " + shown_name +
@@ -209,9 +207,9 @@ namespace geocone
             read(included.string(), shown, depth + 1);
             continue;
           }
-        open_sections += line.compare(0, 11, "subsection ") == 0 ? 1 :
-                         line == "end"                           ? -1 :
-                                                                   0;
+        open_sections += line.compare(0, 11, "subsection ") == 0 ? 1
+                         : line == "end"                         ? -1
+                                                                 : 0;
         if (open_sections < 0)
           throw InputError("file '" + file_name + "', line " +
                            std::to_string(first_number) +
@@ -219,8 +217,8 @@ namespace geocone
         lines.push_back({line, file_name, first_number});
       }
     if (open_sections != 0)
-      throw InputError("file '" + file_name + "': " +
-                       std::to_string(open_sections) +
+      throw InputError("file '" + file_name +
+                       "': " + std::to_string(open_sections) +
                        " subsection(s) without 'end'");
   }
 
@@ -304,10 +302,10 @@ namespace geocone
     for (const Line &line : lines)
       {
         const std::string where =
-          line.number == 0 ?
-            line.file + ": " :
-            "file '" + std::filesystem::path(line.file).filename().string() +
-              "', line " + std::to_string(line.number) + ": ";
+          line.number == 0
+            ? line.file + ": "
+            : "file '" + std::filesystem::path(line.file).filename().string() +
+                "', line " + std::to_string(line.number) + ": ";
         if (line.text.compare(0, 11, "subsection ") == 0)
           {
             const std::string    name  = trim(line.text.substr(11));
@@ -319,11 +317,10 @@ namespace geocone
                   known.push_back(section.first);
                 throw InputError(
                   where + "unknown section '" + joined(path, name) + "'" +
-                  (known.empty() ?
-                     "\n  remedy:  this section has no subsections" :
-                     "\n  remedy:  did you mean '" +
-                       joined(path, nearest(name, known)) +
-                       "'?"));
+                  (known.empty()
+                     ? "\n  remedy:  this section has no subsections"
+                     : "\n  remedy:  did you mean '" +
+                         joined(path, nearest(name, known)) + "'?"));
               }
             stack.push_back(below);
             path.push_back(name);
@@ -340,13 +337,12 @@ namespace geocone
               trim(line.text.substr(4, line.text.find('=') - 4));
             const auto &known = stack.back()->entries;
             if (std::find(known.begin(), known.end(), name) == known.end())
-              throw InputError(where + "unknown parameter '" +
-                               joined(path, name) + "'" +
-                               (known.empty() ?
-                                  "\n  remedy:  this section has no entries" :
-                                  "\n  remedy:  did you mean '" +
-                                    joined(path, nearest(name, known)) +
-                                    "'? 'geocone --help' lists all"));
+              throw InputError(
+                where + "unknown parameter '" + joined(path, name) + "'" +
+                (known.empty() ? "\n  remedy:  this section has no entries"
+                               : "\n  remedy:  did you mean '" +
+                                   joined(path, nearest(name, known)) +
+                                   "'? 'geocone --help' lists all"));
           }
         else
           throw InputError(where + "cannot be understood: '" + line.text +
@@ -368,26 +364,29 @@ namespace geocone
         // The library's message holds the line, the value and the pattern.
         std::ostringstream out;
         exception.print_info(out);
-        std::string       message = trim(out.str());
-        std::smatch       match;
-        const std::regex  line_number("[Ll]ine <?(\\d+)>?( of|, | in)");
+        std::string      message = trim(out.str());
+        std::smatch      match;
+        const std::regex line_number("[Ll]ine <?(\\d+)>?( of|, | in)");
         if (std::regex_search(message, match, line_number))
           {
             const int i = std::stoi(match[1]) - 1;
             if (i >= 0 && i < static_cast<int>(lines.size()))
               message =
-                (lines[i].number == 0 ?
-                   lines[i].file :
-                   "file '" +
-                     std::filesystem::path(lines[i].file).filename().string() +
-                     "', line " + std::to_string(lines[i].number)) +
+                (lines[i].number == 0
+                   ? lines[i].file
+                   : "file '" +
+                       std::filesystem::path(lines[i].file)
+                         .filename()
+                         .string() +
+                       "', line " + std::to_string(lines[i].number)) +
                 ": '" + lines[i].text + "'\n  " +
                 std::regex_replace(message,
                                    std::regex("^[^:]*:\\s*"),
                                    "",
                                    std::regex_constants::format_first_only);
           }
-        throw InputError(std::regex_replace(message, std::regex("\\s*\n\\s+"), " "));
+        throw InputError(
+          std::regex_replace(message, std::regex("\\s*\n\\s+"), " "));
       }
     ParameterAcceptor::parse_all_parameters();
   }
@@ -397,8 +396,8 @@ namespace geocone
   {
     ParameterAcceptor::prm.print_parameters(
       out,
-      (with_documentation ? ParameterHandler::PRM :
-                            ParameterHandler::PRM | ParameterHandler::Short) |
+      (with_documentation ? ParameterHandler::PRM
+                          : ParameterHandler::PRM | ParameterHandler::Short) |
         ParameterHandler::KeepDeclarationOrder);
   }
 } // namespace geocone

@@ -40,12 +40,11 @@ namespace geocone
       mesh = read_msh(geometry.file, scene.regions);
     else
       {
-        mesh = parameters.type == "unstructured" ?
-                 unstructured_mesh(parameters, geometry, scene.regions) :
-                 structured_mesh(parameters, geometry);
+        mesh = parameters.type == "unstructured"
+                 ? unstructured_mesh(parameters, geometry, scene.regions)
+                 : structured_mesh(parameters, geometry);
         for (auto &cell : mesh.cells)
-          cell.material_id =
-            scene.regions.material_at(mesh.centre(cell), -1);
+          cell.material_id = scene.regions.material_at(mesh.centre(cell), -1);
         mesh.sides = geometry.sides;
         for (const auto &edge : mesh.outer_edges())
           {
@@ -156,10 +155,8 @@ namespace geocone
             std::string known = "all";
             for (const auto &entry : sides)
               known += ", " + entry.first;
-            throw InputError(condition.parameter("Sides"),
-                             name,
-                             known,
-                             "choose some of them");
+            throw InputError(
+              condition.parameter("Sides"), name, known, "choose some of them");
           }
         ids.insert(side->second);
       }

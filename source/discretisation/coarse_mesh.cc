@@ -39,9 +39,9 @@ namespace geocone
 
     std::map<std::array<unsigned int, 2>, unsigned int> n_cells;
     for (const auto &cell : cells)
-      for (const auto &edge : cell.vertices.size() == 3 ?
-                                edges_of_triangle :
-                                edges_of_quadrilateral)
+      for (const auto &edge : cell.vertices.size() == 3
+                                ? edges_of_triangle
+                                : edges_of_quadrilateral)
         {
           const unsigned int a = cell.vertices[edge[0]];
           const unsigned int b = cell.vertices[edge[1]];
@@ -75,9 +75,8 @@ namespace geocone
                   grading_points,
                   "Points x, y; x, y; ... (m) around which graded and "
                   "unstructured meshes are fine. Each becomes a vertex.");
-    add_parameter("Smallest size",
-                  smallest,
-                  "Cell size at the grading points (m).");
+    add_parameter(
+      "Smallest size", smallest, "Cell size at the grading points (m).");
     add_parameter("Largest size", largest, "Largest cell size (m).");
     add_parameter("Growth factor",
                   growth,
@@ -104,10 +103,7 @@ namespace geocone
       for (const std::string &choice : choices)
         allowed += (allowed.empty() ? "" : " | ") + choice;
       if (std::find(choices.begin(), choices.end(), value) == choices.end())
-        throw InputError("Mesh/" + entry,
-                         value,
-                         allowed,
-                         "choose one of them");
+        throw InputError("Mesh/" + entry, value, allowed, "choose one of them");
     };
     const auto positive = [](const std::string &entry, const double value) {
       if (!(value > 0.))
@@ -145,12 +141,12 @@ namespace geocone
         {
           double distance = 1e300;
           for (std::size_t i = 0; i < geometry.outline.size(); ++i)
-            distance = std::min(
-              distance,
-              distance_to_segment(x,
-                                  geometry.outline[i],
-                                  geometry.outline[(i + 1) %
-                                                   geometry.outline.size()]));
+            distance =
+              std::min(distance,
+                       distance_to_segment(
+                         x,
+                         geometry.outline[i],
+                         geometry.outline[(i + 1) % geometry.outline.size()]));
           if (distance > 1e-9 && !contains(geometry.outline, x))
             throw InputError("Mesh/Grading points",
                              dealii::Patterns::Tools::to_string(x),
@@ -184,8 +180,8 @@ namespace geocone
       for (double h = parameters.smallest; sum < length * (1. - 1e-9);
            h        = std::min(h * parameters.growth, parameters.largest))
         {
-          sizes.push_back(h);
-          sum += h;
+                 sizes.push_back(h);
+                 sum += h;
         }
       for (double &size : sizes)
         size *= length / sum;
@@ -214,7 +210,7 @@ namespace geocone
       std::vector<double> x = {begin};
       for (std::size_t i = 0; i + 1 < knots.size(); ++i)
         {
-          const double left = knots[i], right = knots[i + 1];
+          const double        left = knots[i], right = knots[i + 1];
           std::vector<double> sizes;
           if (is_fine(left) && is_fine(right))
             {

@@ -24,9 +24,9 @@ namespace geocone
     BarycentricPolynomials<2>
     cubic_polynomials()
     {
-      const Polynomial l[3] = {Polynomial::monomial(0),
-                               Polynomial::monomial(1),
-                               Polynomial::monomial(2)};
+      const Polynomial        l[3] = {Polynomial::monomial(0),
+                                      Polynomial::monomial(1),
+                                      Polynomial::monomial(2)};
       std::vector<Polynomial> polynomials;
       for (const Polynomial &li : l)
         polynomials.push_back(0.5 * li * (3. * li - 1.) * (3. * li - 2.));
@@ -63,21 +63,26 @@ namespace geocone
     {
     public:
       CubicSimplex()
-        : FE_SimplexPoly<2>(
-            cubic_polynomials(),
-            FiniteElementData<2>({1, 2, 1},
-                                 ReferenceCells::Triangle,
-                                 1,
-                                 3,
-                                 FiniteElementData<2>::H1),
-            cubic_support_points(),
-            {{{Point<1>(0.), Point<1>(1.), Point<1>(1. / 3.), Point<1>(2. / 3.)},
-              {Point<1>(0.), Point<1>(1.), Point<1>(1. / 3.), Point<1>(2. / 3.)},
-              {Point<1>(0.),
-               Point<1>(1.),
-               Point<1>(1. / 3.),
-               Point<1>(2. / 3.)}}},
-            FullMatrix<double>())
+        : FE_SimplexPoly<2>(cubic_polynomials(),
+                            FiniteElementData<2>({1, 2, 1},
+                                                 ReferenceCells::Triangle,
+                                                 1,
+                                                 3,
+                                                 FiniteElementData<2>::H1),
+                            cubic_support_points(),
+                            {{{Point<1>(0.),
+                               Point<1>(1.),
+                               Point<1>(1. / 3.),
+                               Point<1>(2. / 3.)},
+                              {Point<1>(0.),
+                               Point<1>(1.),
+                               Point<1>(1. / 3.),
+                               Point<1>(2. / 3.)},
+                              {Point<1>(0.),
+                               Point<1>(1.),
+                               Point<1>(1. / 3.),
+                               Point<1>(2. / 3.)}}},
+                            FullMatrix<double>())
       {}
 
       std::unique_ptr<FiniteElement<2>>

@@ -66,11 +66,10 @@ namespace geocone
       double            worst = 1e300;
       const std::size_t n     = around.size();
       for (std::size_t i = 0; i < n; ++i)
-        worst = std::min(worst,
-                         signed_area(points,
-                                     {around[i],
-                                      around[(i + 1) % n],
-                                      around[(i + 2) % n]}));
+        worst = std::min(
+          worst,
+          signed_area(points,
+                      {around[i], around[(i + 1) % n], around[(i + 2) % n]}));
       return worst;
     }
 
@@ -116,8 +115,7 @@ namespace geocone
             {
               // gmsh's element types: 2 and 3 are the linear cells.
               if (types[t] != 2 && types[t] != 3)
-                throw InputError(what +
-                                 " holds cells of gmsh's type " +
+                throw InputError(what + " holds cells of gmsh's type " +
                                  std::to_string(types[t]) +
                                  "\n  allowed: triangles and quadrilaterals of "
                                  "first order\n  remedy:  write it with "
@@ -131,9 +129,9 @@ namespace geocone
                   around.push_back(vertices);
                   tags.push_back(elements[t][e]);
                   dealii::CellData<dim> cell(n);
-                  cell.material_id = groups.empty() ?
-                                       dealii::numbers::invalid_material_id :
-                                       groups[0];
+                  cell.material_id = groups.empty()
+                                       ? dealii::numbers::invalid_material_id
+                                       : groups[0];
                   mesh.cells.push_back(cell);
                 }
             }
@@ -156,7 +154,8 @@ namespace geocone
           if (!(worst_corner(mesh.points, v) > 0.))
             throw InputError(
               what + ": the cell " + std::to_string(tags[c]) +
-              format(" at (%g, %g)", mesh.points[v[0]][0], mesh.points[v[0]][1]) +
+              format(
+                " at (%g, %g)", mesh.points[v[0]][0], mesh.points[v[0]][1]) +
               " is inverted or not convex\n  allowed: cells with positive area "
               "at every corner\n  remedy:  reorder its nodes, or mesh anew");
           if (v.size() == 4)
@@ -218,14 +217,15 @@ namespace geocone
               if (distance_to_segment(mesh.points[v], a, b) <
                   1e-9 * a.distance(b))
                 throw InputError(
-                  what + format(": the node at (%g, %g) hangs on the edge from "
-                                "(%g, %g) to (%g, %g)",
-                                mesh.points[v][0],
-                                mesh.points[v][1],
-                                a[0],
-                                a[1],
-                                b[0],
-                                b[1]) +
+                  what +
+                  format(": the node at (%g, %g) hangs on the edge from "
+                         "(%g, %g) to (%g, %g)",
+                         mesh.points[v][0],
+                         mesh.points[v][1],
+                         a[0],
+                         a[1],
+                         b[0],
+                         b[1]) +
                   "\n  allowed: conforming meshes without double nodes\n"
                   "  remedy:  in gmsh, Coherence before meshing, or "
                   "Mesh.RemoveDuplicateNodes");
@@ -259,12 +259,11 @@ namespace geocone
     CoarseMesh mesh = copy_model({}, what);
     check_hanging_nodes(mesh, what);
     for (auto &cell : mesh.cells)
-      cell.material_id =
-        regions.material_at(mesh.centre(cell),
-                            cell.material_id ==
-                                dealii::numbers::invalid_material_id ?
-                              -1 :
-                              static_cast<int>(cell.material_id));
+      cell.material_id = regions.material_at(
+        mesh.centre(cell),
+        cell.material_id == dealii::numbers::invalid_material_id
+          ? -1
+          : static_cast<int>(cell.material_id));
     order_quadrilaterals(mesh);
     return mesh;
   }

@@ -19,15 +19,15 @@ namespace geocone
     if (!mesh.is_simplicial())
       return QGauss<dim>(p + 1);
     if (p < 3)
-      return QGaussSimplex<dim>(p); // 1 and 3 points, degree 1 and 2
+      return QGaussSimplex<dim>(p);          // 1 and 3 points, degree 1 and 2
     return QWitherdenVincentSimplex<dim>(3); // 7 points, degree 5
   }
 
   struct CellValues::Geometry
   {
     Geometry(const BackgroundMesh &mesh, const Quadrature<dim> &quadrature)
-      : nothing(mesh.is_simplicial() ? ReferenceCells::Triangle :
-                                       ReferenceCells::Quadrilateral)
+      : nothing(mesh.is_simplicial() ? ReferenceCells::Triangle
+                                     : ReferenceCells::Quadrilateral)
       , fe_values(mesh.mapping(),
                   nothing,
                   quadrature,
@@ -96,10 +96,8 @@ namespace geocone
               points.weight.push_back(values.weight[q]);
               points.position.push_back(values.position[q]);
               points.material.push_back(cell->material_id());
-              points.stress.push_back(
-                scene.initial_stress.at(values.position[q],
-                                        scene.materials,
-                                        scene.regions));
+              points.stress.push_back(scene.initial_stress.at(
+                values.position[q], scene.materials, scene.regions));
               for (unsigned int c = 0; c < dim; ++c)
                 for (unsigned int i = 0; i < points.n_nodes; ++i)
                   points.gradients.push_back(values.gradient(i, q)[c]);

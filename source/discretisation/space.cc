@@ -27,11 +27,11 @@ namespace geocone
   {
     if (name == "automatic")
       name = mesh.is_simplicial() ? "P3" : "Q3";
-    const std::string cells = mesh.is_simplicial() ? "triangles" :
-                                                     "quadrilaterals";
+    const std::string cells =
+      mesh.is_simplicial() ? "triangles" : "quadrilaterals";
     const std::string allowed =
-      mesh.is_simplicial() ? "automatic | P1 | P2 | P3 on triangles" :
-                             "automatic | Q1 | Q2 | Q3 on quadrilaterals";
+      mesh.is_simplicial() ? "automatic | P1 | P2 | P3 on triangles"
+                           : "automatic | Q1 | Q2 | Q3 on quadrilaterals";
     if (name.size() != 2 || name[0] != (mesh.is_simplicial() ? 'P' : 'Q') ||
         name[1] < '1' || name[1] > '3')
       throw InputError("Discretisation/Element",
@@ -125,9 +125,9 @@ namespace geocone
     const auto on_face = [&](const Point<dim> &x, const unsigned int f) {
       const double distances_triangle[] = {x[1], 1. - x[0] - x[1], x[0]};
       const double distances_square[]   = {x[0], 1. - x[0], x[1], 1. - x[1]};
-      return std::abs(fe->reference_cell() == ReferenceCells::Triangle ?
-                        distances_triangle[f] :
-                        distances_square[f]) < 1e-10;
+      return std::abs(fe->reference_cell() == ReferenceCells::Triangle
+                        ? distances_triangle[f]
+                        : distances_square[f]) < 1e-10;
     };
     std::set<unsigned int>               found;
     std::vector<types::global_dof_index> nodes;

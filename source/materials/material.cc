@@ -26,10 +26,11 @@ namespace geocone
   Material::prepare()
   {
     if (!(rho > 0.))
-      throw InputError(parameter("Density"),
-                       rho,
-                       "rho > 0 kg/m^3",
-                       "without inertia and gravity any positive value will do");
+      throw InputError(
+        parameter("Density"),
+        rho,
+        "rho > 0 kg/m^3",
+        "without inertia and gravity any positive value will do");
     if (!(young_modulus > 0.))
       throw InputError(parameter("Young modulus"),
                        young_modulus,

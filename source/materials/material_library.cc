@@ -64,10 +64,8 @@ namespace geocone
                   "Names of the materials, comma-separated; each has a "
                   "subsection of that name.");
     if (names.empty())
-      throw InputError("Materials/Names",
-                       "",
-                       "at least one name",
-                       "set Names = soil");
+      throw InputError(
+        "Materials/Names", "", "at least one name", "set Names = soil");
     std::size_t n_listed;
     const auto  all =
       file.named_sections("Materials", "Names", "soil", n_listed);

@@ -35,18 +35,16 @@ namespace geocone
                        "0 <= phi < 90 degrees",
                        "give the angle in degrees; soils have 0 to 45");
     if (!(theta >= 0. && theta <= phi))
-      throw InputError(parameter("Dilatancy angle"),
-                       theta,
-                       "0 <= theta <= phi = " +
-                         std::to_string(phi).substr(0, 6) + " degrees",
-                       "theta = phi is associated flow, theta = 0 flow without "
-                       "dilatancy; more dilatancy than friction would create "
-                       "energy");
+      throw InputError(
+        parameter("Dilatancy angle"),
+        theta,
+        "0 <= theta <= phi = " + std::to_string(phi).substr(0, 6) + " degrees",
+        "theta = phi is associated flow, theta = 0 flow without "
+        "dilatancy; more dilatancy than friction would create "
+        "energy");
     if (!(c >= 0.))
-      throw InputError(parameter("Cohesion"),
-                       c,
-                       "c >= 0 Pa",
-                       "give the cohesion in Pa");
+      throw InputError(
+        parameter("Cohesion"), c, "c >= 0 Pa", "give the cohesion in Pa");
     if (c == 0. && phi == 0.)
       throw InputError(parameter("Cohesion"),
                        c,
@@ -62,9 +60,9 @@ namespace geocone
   MohrCoulomb::update(const Increment &increment,
                       const Response  &response) const
   {
-    const double K      = elasticity().normal_stiffness();
-    const double two_G  = elasticity().two_G;
-    const bool   linear = response.tangent.size() > 0;
+    const double       K               = elasticity().normal_stiffness();
+    const double       two_G           = elasticity().two_G;
+    const bool         linear          = response.tangent.size() > 0;
     const MandelMatrix elastic_tangent = elasticity().stiffness();
     for (std::size_t p = 0; p < increment.strain.size(); ++p)
       {

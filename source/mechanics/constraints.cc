@@ -114,9 +114,8 @@ namespace geocone
         s[2] += x[1];
         s[3] += x.norm_square();
       }
-    Utilities::MPI::sum(ArrayView<const double>(sums),
-                        comm,
-                        ArrayView<double>(sums));
+    Utilities::MPI::sum(
+      ArrayView<const double>(sums), comm, ArrayView<double>(sums));
 
     // Rigid velocities (1,0), (0,1) and (-(y - y_c), x - x_c)/size: a motion is
     // free if it moves no prescribed dof.
@@ -127,28 +126,26 @@ namespace geocone
         const double *s = &sums[4 * p];
         xc[p]           = s[1] / s[0];
         yc[p]           = s[2] / s[0];
-        size[p] =
-          std::sqrt(std::max(1e-300, s[3] / s[0] - xc[p] * xc[p] - yc[p] * yc[p]));
+        size[p]         = std::sqrt(
+          std::max(1e-300, s[3] / s[0] - xc[p] * xc[p] - yc[p] * yc[p]));
       }
     for (const Prescribed &dof : prescribed)
       {
         const unsigned int node = dof.local_dof / dim;
         if (node >= space.n_owned_nodes())
           continue;
-        const int         p = part_of_node[node];
-        const Point<dim> &x = space.node_positions()[node];
-        const double      row[3] = {dof.component == 0 ? 1. : 0.,
-                                    dof.component == 0 ? 0. : 1.,
-                                    (dof.component == 0 ? -(x[1] - yc[p]) :
-                                                          x[0] - xc[p]) /
-                                      size[p]};
+        const int         p      = part_of_node[node];
+        const Point<dim> &x      = space.node_positions()[node];
+        const double      row[3] = {
+               dof.component == 0 ? 1. : 0.,
+          dof.component == 0 ? 0. : 1.,
+          (dof.component == 0 ? -(x[1] - yc[p]) : x[0] - xc[p]) / size[p]};
         for (unsigned int i = 0; i < 3; ++i)
           for (unsigned int j = 0; j < 3; ++j)
             gram[9 * p + 3 * i + j] += row[i] * row[j];
       }
-    Utilities::MPI::sum(ArrayView<const double>(gram),
-                        comm,
-                        ArrayView<double>(gram));
+    Utilities::MPI::sum(
+      ArrayView<const double>(gram), comm, ArrayView<double>(gram));
     for (unsigned int p = 0; p < n_parts; ++p)
       {
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(
@@ -157,17 +154,17 @@ namespace geocone
           continue;
         const Eigen::Vector3d m = eigen.eigenvectors().col(0);
         const std::string     which =
-          n_parts == 1 ?
-                std::string("the body") :
-                format("the part of the body around (%g, %g)", xc[p], yc[p]);
+          n_parts == 1
+                ? std::string("the body")
+                : format("the part of the body around (%g, %g)", xc[p], yc[p]);
         std::string motion;
         if (std::abs(m[2]) < 1e-6)
           motion = format("translate along (%.3g, %.3g)", m[0], m[1]) +
-                   (std::abs(m[1]) < 1e-6 ?
-                      ": no node of it has its velocity x prescribed" :
-                    std::abs(m[0]) < 1e-6 ?
-                      ": no node of it has its velocity y prescribed" :
-                      "");
+                   (std::abs(m[1]) < 1e-6
+                      ? ": no node of it has its velocity x prescribed"
+                    : std::abs(m[0]) < 1e-6
+                      ? ": no node of it has its velocity y prescribed"
+                      : "");
         else
           {
             const auto rounded = [&](const double x) {
@@ -179,7 +176,8 @@ namespace geocone
                      ": too few nodes are prescribed to stop it";
           }
         throw InputError("singular system (rigid body motion): " + which +
-                         " can " + motion + format(" (%.0f nodes)", sums[4 * p]) +
+                         " can " + motion +
+                         format(" (%.0f nodes)", sums[4 * p]) +
                          "\n  remedy:  add a boundary condition that holds it, "
                          "or switch the inertia on "
                          "('Time stepping/Inertia')");

@@ -14,11 +14,11 @@ namespace geocone
   using namespace kernels;
 
   IncrementalProblem::IncrementalProblem(
-    const MaterialPoints                                      &points,
-    const Materials                                           &materials,
-    const Constraints                                         &constraints,
+    const MaterialPoints                                     &points,
+    const Materials                                          &materials,
+    const Constraints                                        &constraints,
     const std::shared_ptr<const Utilities::MPI::Partitioner> &layout,
-    const Vector                                              *lumped_mass)
+    const Vector                                             *lumped_mass)
     : points(points)
     , materials(materials)
     , constraints(constraints)
@@ -58,12 +58,11 @@ namespace geocone
         const Increment    increment{
           ArrayView<const Mandel>(&strain[run.begin], n),
           ArrayView<const Mandel>(&points.stress[run.begin], n)};
-        const Response response{ArrayView<Mandel>(&stress[run.begin], n),
-                                ArrayView<Mode>(&mode[run.begin], n),
-                                with_tangent ?
-                                  ArrayView<MandelMatrix>(&tangent[run.begin],
-                                                          n) :
-                                  ArrayView<MandelMatrix>()};
+        const Response response{
+          ArrayView<Mandel>(&stress[run.begin], n),
+          ArrayView<Mode>(&mode[run.begin], n),
+          with_tangent ? ArrayView<MandelMatrix>(&tangent[run.begin], n)
+                       : ArrayView<MandelMatrix>()};
         materials[run.material].update(increment, response);
       }
   }
@@ -148,8 +147,8 @@ namespace geocone
     Assert(!one_triangle_ || is_symmetric(), ExcInternalError());
     one_triangle = one_triangle_;
 
-    const unsigned int     n      = points.n_nodes;
-    const unsigned int     n_dofs = dim * n;
+    const unsigned int      n      = points.n_nodes;
+    const unsigned int      n_dofs = dim * n;
     const std::vector<int> &row_of = constraints.free_row;
 
     SparseMatrix matrix;
@@ -160,15 +159,14 @@ namespace geocone
     matrix.global_index = constraints.global_row;
 
     // Which cells a node has, then which nodes it meets there.
-    const unsigned int n_local_nodes = row_of.size() / dim;
+    const unsigned int                     n_local_nodes = row_of.size() / dim;
     std::vector<std::vector<unsigned int>> neighbours(n_local_nodes);
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       for (unsigned int i = 0; i < n; ++i)
         {
           auto &list = neighbours[points.nodes[c * n + i]];
-          list.insert(list.end(),
-                      &points.nodes[c * n],
-                      &points.nodes[c * n] + n);
+          list.insert(
+            list.end(), &points.nodes[c * n], &points.nodes[c * n] + n);
         }
     for (unsigned int node = 0; node < n_local_nodes; ++node)
       {
@@ -200,11 +198,10 @@ namespace geocone
             rows[dim * i + d] = row_of[dim * points.nodes[c * n + i] + d];
         for (unsigned int i = 0; i < n_dofs; ++i)
           for (unsigned int j = one_triangle ? i : 0; j < n_dofs; ++j)
-            scatter.push_back(rows[i] < 0 || rows[j] < 0 ? -1 :
-                              one_triangle && rows[i] < rows[j] ?
-                                                   matrix.entry(rows[j], rows[i]) :
-                                                   matrix.entry(rows[i],
-                                                                rows[j]));
+            scatter.push_back(rows[i] < 0 || rows[j] < 0 ? -1
+                              : one_triangle && rows[i] < rows[j]
+                                ? matrix.entry(rows[j], rows[i])
+                                : matrix.entry(rows[i], rows[j]));
       }
     diagonal.resize(matrix.n_rows());
     for (int row = 0; row < matrix.n_rows(); ++row)
@@ -282,7 +279,8 @@ namespace geocone
     dst.compress(VectorOperation::add);
     if (mass != nullptr)
       for (unsigned int i = 0; i < dst.locally_owned_size(); ++i)
-        dst.local_element(i) += mass->local_element(i) / h * dv.local_element(i);
+        dst.local_element(i) +=
+          mass->local_element(i) / h * dv.local_element(i);
   }
 
   double
@@ -308,11 +306,11 @@ namespace geocone
   IncrementalProblem::quality() const
   {
     // Two passes: the scales of all ranks first.
-    const MPI_Comm comm         = layout->get_mpi_communicator();
-    double stress_scale = 0., k_scale = 0., y_scale = 0., compliance = 0.;
-    const auto     y_at         = [&](const FlowCone    &cone,
-                            const Elasticity  &elasticity,
-                            const unsigned int p) {
+    const MPI_Comm comm     = layout->get_mpi_communicator();
+    double     stress_scale = 0., k_scale = 0., y_scale = 0., compliance = 0.;
+    const auto y_at = [&](const FlowCone    &cone,
+                          const Elasticity  &elasticity,
+                          const unsigned int p) {
       const Mandel z =
         elasticity.strain(Mandel(stress[p] - points.stress[p])) - strain[p];
       return cone.psi(to_cone_axes(z));
@@ -344,17 +342,15 @@ namespace geocone
             const Elasticity &elasticity = materials[run.material].elasticity();
             const Mandel      y          = y_at(*cone, elasticity, p);
             const Mandel      s          = to_cone_axes(stress[p]);
-            worst.natural_map = std::max(
+            worst.natural_map            = std::max(
               worst.natural_map,
               natural_map(*cone, s, y, elasticity.two_G).norm() / stress_scale);
-            worst.cone_violation =
-              std::max(worst.cone_violation,
-                       cone->yield_function(s) / stress_scale);
+            worst.cone_violation = std::max(
+              worst.cone_violation, cone->yield_function(s) / stress_scale);
             if (y_scale > 0.)
               {
-                worst.dual_violation =
-                  std::max(worst.dual_violation,
-                           cone->dual_violation(y) / y_scale);
+                worst.dual_violation = std::max(
+                  worst.dual_violation, cone->dual_violation(y) / y_scale);
                 worst.complementarity =
                   std::max(worst.complementarity,
                            std::abs(cone->complementarity_product(y, s)) /

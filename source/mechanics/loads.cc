@@ -22,11 +22,10 @@ namespace geocone
     // Degree 2p of N_i^2 on triangles up to P2, p of N_i for P3.
     CellValues values(space,
                       mesh,
-                      mesh.is_simplicial() ?
-                        Quadrature<dim>(QWitherdenVincentSimplex<dim>(3)) :
-                        Quadrature<dim>(QGauss<dim>(space.degree() + 1)));
-    const bool scaled_diagonal =
-      mesh.is_simplicial() && space.degree() == 2;
+                      mesh.is_simplicial()
+                        ? Quadrature<dim>(QWitherdenVincentSimplex<dim>(3))
+                        : Quadrature<dim>(QGauss<dim>(space.degree() + 1)));
+    const bool scaled_diagonal = mesh.is_simplicial() && space.degree() == 2;
     weight_per_g.reinit(space.partitioner());
     lumped_mass.reinit(space.partitioner());
     std::vector<types::global_dof_index> nodes;
@@ -69,14 +68,14 @@ namespace geocone
     : scene(scene)
   {
     // Unit vertices of the faces, in the numbering of the reference cells.
-    const std::vector<std::array<Point<dim>, 2>> faces_triangle =
-      {{{{0., 0.}, {1., 0.}}}, {{{1., 0.}, {0., 1.}}}, {{{0., 1.}, {0., 0.}}}};
+    const std::vector<std::array<Point<dim>, 2>> faces_triangle = {
+      {{{0., 0.}, {1., 0.}}}, {{{1., 0.}, {0., 1.}}}, {{{0., 1.}, {0., 0.}}}};
     const std::vector<std::array<Point<dim>, 2>> faces_square = {
       {{{0., 0.}, {0., 1.}}},
       {{{1., 0.}, {1., 1.}}},
       {{{0., 0.}, {1., 0.}}},
       {{{0., 1.}, {1., 1.}}}};
-    const QGauss<1> rule(space.degree() + 2);
+    const QGauss<1>                      rule(space.degree() + 2);
     std::vector<types::global_dof_index> nodes;
     for (unsigned int c = 0; c < scene.tractions.list.size(); ++c)
       {
@@ -92,8 +91,8 @@ namespace geocone
                 {
                   ++n_faces;
                   space.cell_nodes(cell, nodes);
-                  const auto  &ends = mesh.is_simplicial() ? faces_triangle[f] :
-                                                             faces_square[f];
+                  const auto &ends =
+                    mesh.is_simplicial() ? faces_triangle[f] : faces_square[f];
                   const double length = cell->face(f)->measure();
                   for (unsigned int q = 0; q < rule.size(); ++q)
                     {

@@ -14,20 +14,24 @@ namespace geocone
 {
   namespace
   {
-    const std::array<const char *, 5> names = {
-      {"Displacement x", "Displacement y", "Stress xx", "Stress yy", "Stress xy"}};
+    const std::array<const char *, 5> names = {{"Displacement x",
+                                                "Displacement y",
+                                                "Stress xx",
+                                                "Stress yy",
+                                                "Stress xy"}};
   }
 
   ExactSolution::ExactSolution()
     : dealii::ParameterAcceptor("/Exact solution")
   {
     for (unsigned int i = 0; i < names.size(); ++i)
-      add_parameter(names[i],
-                    texts[i],
-                    std::string("Formula in x, y (m) and t (s) for the exact ") +
-                      (i < dim ? "displacement (m)" : "stress (Pa)") +
-                      " at the end of the run, or none. All five or none are "
-                      "given; the relative L2 errors go to summary.json.");
+      add_parameter(
+        names[i],
+        texts[i],
+        std::string("Formula in x, y (m) and t (s) for the exact ") +
+          (i < dim ? "displacement (m)" : "stress (Pa)") +
+          " at the end of the run, or none. All five or none are "
+          "given; the relative L2 errors go to summary.json.");
   }
 
   void
@@ -56,13 +60,12 @@ namespace geocone
     std::array<double, 4> sums = {};
     Vector                u    = displacement;
     u.update_ghost_values();
-    CellValues values(space,
-                      mesh,
-                      mesh.is_simplicial() ?
-                        dealii::Quadrature<dim>(
-                          dealii::QWitherdenVincentSimplex<dim>(4)) :
-                        dealii::Quadrature<dim>(
-                          dealii::QGauss<dim>(space.degree() + 2)));
+    CellValues values(
+      space,
+      mesh,
+      mesh.is_simplicial()
+        ? dealii::Quadrature<dim>(dealii::QWitherdenVincentSimplex<dim>(4))
+        : dealii::Quadrature<dim>(dealii::QGauss<dim>(space.degree() + 2)));
     std::vector<dealii::types::global_dof_index> nodes;
     for (const auto &cell : space.dof_handler().active_cell_iterators())
       if (cell->is_locally_owned())
@@ -89,10 +92,9 @@ namespace geocone
         sums[2] += points.weight[p] * (points.stress[p] - exact).squaredNorm();
         sums[3] += points.weight[p] * exact.squaredNorm();
       }
-    dealii::Utilities::MPI::sum(
-      dealii::ArrayView<const double>(sums.data(), 4),
-      displacement.get_mpi_communicator(),
-      dealii::ArrayView<double>(sums.data(), 4));
+    dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums.data(), 4),
+                                displacement.get_mpi_communicator(),
+                                dealii::ArrayView<double>(sums.data(), 4));
     return {std::sqrt(sums[0] / sums[1]), std::sqrt(sums[2] / sums[3])};
   }
 } // namespace geocone

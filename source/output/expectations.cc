@@ -38,8 +38,8 @@ namespace geocone
   std::string
   Expectation::found(const Json &summary) const
   {
-    return summary.contains(place) && summary[place].is_number() ?
-             format("%.6g", summary[place].get<double>()) :
-             "none";
+    return summary.contains(place) && summary[place].is_number()
+             ? format("%.6g", summary[place].get<double>())
+             : "none";
   }
 } // namespace geocone

@@ -59,17 +59,16 @@ namespace geocone
             const MPI_Comm                               comm,
             std::vector<std::pair<double, std::string>> &series)
       {
-        const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
-        const unsigned int rank    = Utilities::MPI::this_mpi_process(comm);
+        const unsigned int    n_ranks = Utilities::MPI::n_mpi_processes(comm);
+        const unsigned int    rank    = Utilities::MPI::this_mpi_process(comm);
         DataOutBase::VtkFlags flags;
         flags.time  = time;
         flags.cycle = number;
         this->set_flags(flags);
 
-        const std::string stem = base + format("-%04u", number);
+        const std::string stem  = base + format("-%04u", number);
         const auto        piece = [&](const unsigned int r) {
-          return n_ranks == 1 ? stem + ".vtu" :
-                                       stem + format(".%03u.vtu", r);
+          return n_ranks == 1 ? stem + ".vtu" : stem + format(".%03u.vtu", r);
         };
         write_file(folder + "/" + piece(rank),
                    [&](std::ostream &out) { this->write_vtu(out); });
@@ -122,7 +121,7 @@ namespace geocone
     {
       std::vector<std::vector<Point<dim>>> cells;
       const double                         d = 1. / p;
-      const auto x = [&](const int i, const int j) {
+      const auto                           x = [&](const int i, const int j) {
         return Point<dim>(i * d, j * d);
       };
       for (int j = 0; j < static_cast<int>(p); ++j)
@@ -238,14 +237,14 @@ namespace geocone
         patch.data.reinit(on_points.names.size(), 1);
         const Mandel &s = points.stress[p], &e = points.plastic_strain[p];
         const double  values[] = {static_cast<double>(points.material[p]),
-                                 s[0],
-                                 s[1],
-                                 s[2] / sqrt2,
-                                 e[0],
-                                 e[1],
-                                 e[2] / sqrt2,
-                                 points.plastic_strain_rate[p],
-                                 points.cumulative_plastic_strain[p]};
+                                  s[0],
+                                  s[1],
+                                  s[2] / sqrt2,
+                                  e[0],
+                                  e[1],
+                                  e[2] / sqrt2,
+                                  points.plastic_strain_rate[p],
+                                  points.cumulative_plastic_strain[p]};
         for (unsigned int i = 0; i < on_points.names.size(); ++i)
           patch.data(i, 0) = values[i];
         on_points.patches.push_back(patch);

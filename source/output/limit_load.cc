@@ -57,9 +57,8 @@ namespace geocone
       double sum = 0., length = 0., previous = 0.;
       for (const LoadPoint &point : branch)
         {
-          const double overlap = std::max(0.,
-                                          std::min(end, point.displacement) -
-                                            std::max(begin, previous));
+          const double overlap = std::max(
+            0., std::min(end, point.displacement) - std::max(begin, previous));
           sum += overlap * point.load;
           length += overlap;
           previous = point.displacement;
@@ -86,8 +85,8 @@ namespace geocone
         const double mean     = mean_load(branch, begin, end);
         const bool   one_step = branch[branch.size() - 2].displacement <= begin;
         const double change =
-          one_step ? branch.back().load - branch[branch.size() - 2].load :
-                     mean_load(branch, (begin + end) / 2., end) -
+          one_step ? branch.back().load - branch[branch.size() - 2].load
+                   : mean_load(branch, (begin + end) / 2., end) -
                        mean_load(branch, begin, (begin + end) / 2.);
         limit.drift     = mean != 0. ? change / mean : 0.;
         limit.value     = mean;

@@ -7,7 +7,6 @@
 
 #include <deal.II/base/mpi.h>
 
-
 namespace geocone
 {
   RunOutput::RunOutput(const MPI_Comm comm, Log &log)
@@ -78,10 +77,8 @@ namespace geocone
     if (!writes)
       return;
     log.open(path + "/log.txt");
-    std::vector<std::string> columns = {"step",
-                                        "time (s)",
-                                        "displacement (m)",
-                                        "load (N/m)"};
+    std::vector<std::string> columns = {
+      "step", "time (s)", "displacement (m)", "load (N/m)"};
     for (const unsigned int c : scene->observation.conditions)
       for (const char *direction : {" x", " y"})
         columns.push_back("reaction " + scene->dirichlet.list[c]->name +
@@ -158,8 +155,8 @@ namespace geocone
   {
     const StepReport &report = record.last;
     const Energies   &e      = report.energies;
-    const double step_loss = energy_n + e.external_work - e.kinetic -
-                             e.elastic - e.dissipation;
+    const double      step_loss =
+      energy_n + e.external_work - e.kinetic - e.elastic - e.dissipation;
     energy_n = e.kinetic + e.elastic;
     work += e.external_work;
     dissipation += e.dissipation;
@@ -171,28 +168,25 @@ namespace geocone
     if (!writes)
       return;
 
-    std::vector<double> line = {double(record.step),
-                                record.time,
-                                record.displacement,
-                                record.load};
+    std::vector<double> line = {
+      double(record.step), record.time, record.displacement, record.load};
     line.insert(line.end(), record.reactions.begin(), record.reactions.end());
     const NewtonIteration last = report.newton.table.back();
-    for (const double value :
-         {double(record.iterations),
-          double(record.substeps),
-          double(record.failures),
-          report.newton.residual,
-          report.quality.natural_map,
-          report.quality.cone_violation,
-          report.quality.dual_violation,
-          report.quality.complementarity,
-          double(last.n_cone + last.n_apex),
-          double(last.n_apex),
-          e.kinetic,
-          e.elastic,
-          dissipation,
-          work,
-          loss})
+    for (const double value : {double(record.iterations),
+                               double(record.substeps),
+                               double(record.failures),
+                               report.newton.residual,
+                               report.quality.natural_map,
+                               report.quality.cone_violation,
+                               report.quality.dual_violation,
+                               report.quality.complementarity,
+                               double(last.n_cone + last.n_apex),
+                               double(last.n_apex),
+                               e.kinetic,
+                               e.elastic,
+                               dissipation,
+                               work,
+                               loss})
       line.push_back(value);
     statistics.add_line(line);
   }
@@ -212,11 +206,11 @@ namespace geocone
   RunOutput::results() const
   {
     std::vector<LoadPoint> curve;
-    double                 offset = 0.;
-    unsigned int iterations = 0, most = 0, substeps = 0, failures = 0,
+    double                 offset     = 0.;
+    unsigned int           iterations = 0, most = 0, substeps = 0, failures = 0,
                  regularised = 0;
-    double                 natural_map = 0., complementarity = 0., cone = 0.,
-           dual = 0., residual = 0.;
+    double natural_map = 0., complementarity = 0., cone = 0., dual = 0.,
+           residual = 0.;
     for (const StepRecord &record : records)
       {
         // A reset of the displacement is no step of the curve.
@@ -229,7 +223,7 @@ namespace geocone
         substeps += record.substeps;
         failures += record.failures;
         const Quality &quality = record.last.quality;
-        natural_map     = std::max(natural_map, quality.natural_map);
+        natural_map            = std::max(natural_map, quality.natural_map);
         complementarity = std::max(complementarity, quality.complementarity);
         cone            = std::max(cone, quality.cone_violation);
         dual            = std::max(dual, quality.dual_violation);
@@ -248,9 +242,9 @@ namespace geocone
         topic["reference"] = reference ? Json(*reference) : nothing;
         topic["reference_name"] =
           reference ? Json(scene->observation.reference_name) : nothing;
-        topic["relative_error"] = limit.found && reference ?
-                                    Json(limit.value / *reference - 1.) :
-                                    nothing;
+        topic["relative_error"] = limit.found && reference
+                                    ? Json(limit.value / *reference - 1.)
+                                    : nothing;
         topic["band_low"]       = limit.found ? Json(limit.band_low) : nothing;
         topic["band_high"]      = limit.found ? Json(limit.band_high) : nothing;
         topic["plateau_begins_at"] =
@@ -333,8 +327,8 @@ namespace geocone
                            100. * limit["drift"].get<double>()));
         else
           {
-            std::string line = format("limit load %.2f N/m",
-                                      limit["value"].get<double>());
+            std::string line =
+              format("limit load %.2f N/m", limit["value"].get<double>());
             if (limit["band_high"] != limit["band_low"])
               line += format(" (band %.2f to %.2f)",
                              limit["band_low"].get<double>(),
@@ -396,9 +390,9 @@ namespace geocone
     if (writes)
       for (const Expectation &expectation : expectations)
         {
-          const bool        holds  = expectation.holds(summary);
-          const std::string answer = "expected " + expectation.text + ": " +
-                                     (holds ? "yes" : "NO");
+          const bool        holds = expectation.holds(summary);
+          const std::string answer =
+            "expected " + expectation.text + ": " + (holds ? "yes" : "NO");
           const std::string line =
             answer + " (" + expectation.found(summary) + ")";
           hold = hold && holds;

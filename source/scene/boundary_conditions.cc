@@ -46,8 +46,8 @@ namespace geocone
                        "one or more sides of the domain, or all",
                        "of a box: bottom, right, top, left; of a polygon: 0, "
                        "1, ...; of a file: its physical curves");
-    if (!box.empty() && (box.size() != 2 || box[0][0] > box[1][0] ||
-                         box[0][1] > box[1][1]))
+    if (!box.empty() &&
+        (box.size() != 2 || box[0][0] > box[1][0] || box[0][1] > box[1][1]))
       throw InputError(parameter("Box"),
                        dealii::Patterns::Tools::to_string(box),
                        "empty, or lower left; upper right corner",
@@ -70,8 +70,7 @@ namespace geocone
   std::string
   BoundaryCondition::part() const
   {
-    return "Sides = " + dealii::Patterns::Tools::to_string(sides) +
-           ", Box = " +
+    return "Sides = " + dealii::Patterns::Tools::to_string(sides) + ", Box = " +
            (box.empty() ? "" : dealii::Patterns::Tools::to_string(box));
   }
 

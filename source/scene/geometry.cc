@@ -107,10 +107,8 @@ namespace geocone
     for (std::size_t i = 0; i < n; ++i)
       area += cross(polygon[0], polygon[i], polygon[(i + 1) % n]) / 2.;
     if (std::abs(area) < 1e-9 * size * size)
-      throw InputError(parameter,
-                       text(polygon),
-                       allowed,
-                       "the vertices lie on one line");
+      throw InputError(
+        parameter, text(polygon), allowed, "the vertices lie on one line");
   }
 
   Geometry::Geometry(const ParameterFile &parameter_file)
@@ -148,11 +146,9 @@ namespace geocone
                            text(box),
                            "lower left; upper right corner",
                            "for a box of 2 m x 2 m: -1, -2; 1, 0");
-        outline = {box[0],
-                   {box[1][0], box[0][1]},
-                   box[1],
-                   {box[0][0], box[1][1]}};
-        sides   = {{"bottom", 0}, {"right", 1}, {"top", 2}, {"left", 3}};
+        outline = {
+          box[0], {box[1][0], box[0][1]}, box[1], {box[0][0], box[1][1]}};
+        sides = {{"bottom", 0}, {"right", 1}, {"top", 2}, {"left", 3}};
       }
     else if (shape_name == "polygon")
       {
@@ -171,11 +167,12 @@ namespace geocone
         if (std::filesystem::is_regular_file(beside))
           file = beside.string();
         else if (!std::filesystem::is_regular_file(file))
-          throw InputError("Geometry/File",
-                           file,
-                           "an existing gmsh .msh file",
-                           "check the name; it is relative to the folder of the "
-                           "parameter file, or else to that of the call");
+          throw InputError(
+            "Geometry/File",
+            file,
+            "an existing gmsh .msh file",
+            "check the name; it is relative to the folder of the "
+            "parameter file, or else to that of the call");
       }
     else
       throw InputError("Geometry/Shape",
@@ -190,8 +187,8 @@ namespace geocone
     std::size_t nearest  = 0;
     double      distance = std::numeric_limits<double>::max();
     for (std::size_t i = 0; i < outline.size(); ++i)
-      if (const double d =
-            distance_to_segment(x, outline[i], outline[(i + 1) % outline.size()]);
+      if (const double d = distance_to_segment(
+            x, outline[i], outline[(i + 1) % outline.size()]);
           d < distance)
         {
           distance = d;
@@ -203,11 +200,12 @@ namespace geocone
   Regions::Region::Region(const std::string &name)
     : dealii::ParameterAcceptor("/Materials/" + name)
   {
-    add_parameter("Region polygon",
-                  polygon,
-                  "Vertices x, y; x, y; ... (m) of the part of the domain that "
-                  "this material fills. Empty: the first material fills what no "
-                  "other one does.");
+    add_parameter(
+      "Region polygon",
+      polygon,
+      "Vertices x, y; x, y; ... (m) of the part of the domain that "
+      "this material fills. Empty: the first material fills what no "
+      "other one does.");
     add_parameter("Region number",
                   id,
                   "Number of the physical surface of the .msh file that this "

@@ -49,10 +49,8 @@ namespace geocone
                        ">= 0 s",
                        "0 stands for the step size");
     if (!(growth >= 1.))
-      throw InputError(section + "Growth factor",
-                       growth,
-                       ">= 1",
-                       "1 keeps the step size");
+      throw InputError(
+        section + "Growth factor", growth, ">= 1", "1 keeps the step size");
     if (first_step_size > 0. && first_step_size < step_size && growth == 1.)
       throw InputError(section + "Growth factor",
                        growth,
@@ -65,8 +63,8 @@ namespace geocone
   {
     std::vector<double> steps;
     double              t = 0.;
-    double h = first_step_size > 0. ? std::min(first_step_size, step_size) :
-                                      step_size;
+    double              h =
+      first_step_size > 0. ? std::min(first_step_size, step_size) : step_size;
     while (duration - t > 1e-9 * duration)
       {
         const double left = duration - t;
@@ -88,8 +86,7 @@ namespace geocone
                   "Names of the stages in order, comma-separated; each has a "
                   "subsection of that name.");
     std::size_t n_listed;
-    const auto  all =
-      file.named_sections("Loading", "Stages", "push", n_listed);
+    const auto all = file.named_sections("Loading", "Stages", "push", n_listed);
     for (std::size_t i = 0; i < all.size(); ++i)
       (i < n_listed ? stages : unused)
         .push_back(std::make_unique<Stage>(all[i]));
@@ -99,10 +96,8 @@ namespace geocone
   LoadingProgramme::prepare()
   {
     if (stages.empty())
-      throw InputError("Loading/Stages",
-                       "",
-                       "at least one name",
-                       "set Stages = push");
+      throw InputError(
+        "Loading/Stages", "", "at least one name", "set Stages = push");
     for (const auto &stage : stages)
       stage->prepare();
   }
@@ -132,8 +127,8 @@ namespace geocone
   dealii::Tensor<1, dim>
   Gravity::at(const double t) const
   {
-    return ramp_duration > 0. ? std::min(1., t / ramp_duration) * acceleration :
-                                acceleration;
+    return ramp_duration > 0. ? std::min(1., t / ramp_duration) * acceleration
+                              : acceleration;
   }
 
   InitialStress::InitialStress()
@@ -145,9 +140,8 @@ namespace geocone
                   "For 'given': formula in x, y (Pa, tension positive).");
     add_parameter("Stress yy", texts[1], "As Stress xx.");
     add_parameter("Stress xy", texts[2], "As Stress xx.");
-    add_parameter("K0",
-                  k0,
-                  "For 'geostatic': horizontal over vertical stress (-), > 0.");
+    add_parameter(
+      "K0", k0, "For 'geostatic': horizontal over vertical stress (-), > 0.");
     add_parameter("Surface level",
                   surface,
                   "For 'geostatic': y of the ground surface (m).");
@@ -179,10 +173,8 @@ namespace geocone
                            "stress",
                            "give the initial stress by formulas instead");
         if (!(k0 > 0.))
-          throw InputError("Initial stress/K0",
-                           k0,
-                           "> 0",
-                           "1 - sin(phi) is usual");
+          throw InputError(
+            "Initial stress/K0", k0, "> 0", "1 - sin(phi) is usual");
         g = -full[1];
         if (regions.have_numbers())
           throw InputError("Initial stress/Type",
@@ -229,7 +221,8 @@ namespace geocone
     if (surface < top - 1e-9)
       throw InputError("Initial stress/Surface level",
                        surface,
-                       ">= " + std::to_string(top) + " m, the top of the domain",
+                       ">= " + std::to_string(top) +
+                         " m, the top of the domain",
                        "give the level of the ground");
   }
 
@@ -253,8 +246,7 @@ namespace geocone
     for (unsigned int i = 0; i < n; ++i)
       {
         const dealii::Point<dim> above(x[0], x[1] + depth * (i + 0.5) / n);
-        mass +=
-          materials[regions.material_at(above, -1)].density() * depth / n;
+        mass += materials[regions.material_at(above, -1)].density() * depth / n;
       }
     const double vertical = -(surcharge + g * mass);
     return {k0 * vertical, vertical, 0.};

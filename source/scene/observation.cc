@@ -21,9 +21,9 @@ namespace geocone
   {
     // Below a thousandth of a degree the difference Nq - 1 loses its digits;
     // the limit is then closer than they are.
-    return phi < 1e-3 ?
-             2. + pi :
-             (bearing_capacity_factor_q(phi) - 1.) / std::tan(radians(phi));
+    return phi < 1e-3
+             ? 2. + pi
+             : (bearing_capacity_factor_q(phi) - 1.) / std::tan(radians(phi));
   }
 
   Observation::Observation()
@@ -48,9 +48,8 @@ namespace geocone
                   material,
                   "Material whose c and phi enter Prandtl's load; empty: the "
                   "first one.");
-    add_parameter("Reference width",
-                  width,
-                  "Width of the whole footing (m), for Prandtl.");
+    add_parameter(
+      "Reference width", width, "Width of the whole footing (m), for Prandtl.");
     add_parameter("Reference surcharge",
                   surcharge,
                   "Pressure beside the footing (Pa), for Prandtl.");
@@ -61,7 +60,8 @@ namespace geocone
   }
 
   void
-  Observation::prepare(const BoundaryConditions &all, const Materials &materials)
+  Observation::prepare(const BoundaryConditions &all,
+                       const Materials          &materials)
   {
     conditions.clear();
     for (const std::string &name : names)
@@ -77,10 +77,8 @@ namespace geocone
                            "check the spelling");
       }
     if (component_name != "x" && component_name != "y")
-      throw InputError("Observation/Component",
-                       component_name,
-                       "x | y",
-                       "choose one of them");
+      throw InputError(
+        "Observation/Component", component_name, "x | y", "choose one of them");
     component = component_name == "x" ? 0 : 1;
     if (!(plateau_tolerance > 0.))
       throw InputError("Observation/Plateau tolerance",
@@ -104,9 +102,9 @@ namespace geocone
           if (materials.name(i) == material || (material.empty() && i == 0))
             index = i;
         const auto *law =
-          index < materials.size() ?
-            dynamic_cast<const MohrCoulomb *>(&materials[index]) :
-            nullptr;
+          index < materials.size()
+            ? dynamic_cast<const MohrCoulomb *>(&materials[index])
+            : nullptr;
         if (law == nullptr)
           throw InputError("Observation/Reference material",
                            material,

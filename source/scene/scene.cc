@@ -9,22 +9,24 @@ namespace geocone
     : geometry(file)
     , materials(file)
     , regions(file)
-    , dirichlet(file,
-                "Boundary conditions",
-                "Velocity",
-                "Prescribed velocity (m/s)",
-                "free",
-                "Names of the conditions with prescribed velocities, "
-                "comma-separated; each has a subsection of that name. Where two "
-                "of them prescribe the same component of a node, the later one "
-                "holds.")
-    , tractions(file,
-                "Tractions",
-                "Traction",
-                "Traction (Pa)",
-                "none",
-                "Names of the conditions with given tractions, comma-separated; "
-                "each has a subsection of that name. They add up.")
+    , dirichlet(
+        file,
+        "Boundary conditions",
+        "Velocity",
+        "Prescribed velocity (m/s)",
+        "free",
+        "Names of the conditions with prescribed velocities, "
+        "comma-separated; each has a subsection of that name. Where two "
+        "of them prescribe the same component of a node, the later one "
+        "holds.")
+    , tractions(
+        file,
+        "Tractions",
+        "Traction",
+        "Traction (Pa)",
+        "none",
+        "Names of the conditions with given tractions, comma-separated; "
+        "each has a subsection of that name. They add up.")
     , loading(file)
   {}
 

@@ -23,7 +23,7 @@ namespace geocone
       Cholmod()
       {
         cholmod_start(&common);
-        common.print = 0;
+        common.print                      = 0;
         common.quick_return_if_not_posdef = 1;
         // Nested dissection by Metis: 25 % less time per factorisation than
         // AMD on the meshes of doc/performance.md.
@@ -209,9 +209,9 @@ namespace geocone
       check(const int status)
       {
         if (status < 0)
-          throw RunError(status == UMFPACK_ERROR_out_of_memory ?
-                           std::string("Umfpack: out of memory") :
-                           "Umfpack: error " + std::to_string(status));
+          throw RunError(status == UMFPACK_ERROR_out_of_memory
+                           ? std::string("Umfpack: out of memory")
+                           : "Umfpack: error " + std::to_string(status));
       }
 
       const SparseMatrix *matrix   = nullptr;
@@ -373,11 +373,11 @@ namespace geocone
                      const MPI_Comm     comm,
                      const bool         symmetric)
   {
-    const bool        serial = dealii::Utilities::MPI::n_mpi_processes(comm) == 1;
-    const std::string chosen = name != "automatic" ? name :
-                               !serial             ? "Mumps" :
-                               symmetric           ? "Cholmod" :
-                                                     "Umfpack";
+    const bool serial = dealii::Utilities::MPI::n_mpi_processes(comm) == 1;
+    const std::string chosen = name != "automatic" ? name
+                               : !serial           ? "Mumps"
+                               : symmetric         ? "Cholmod"
+                                                   : "Umfpack";
     if (chosen != "Cholmod" && chosen != "Umfpack" && chosen != "Mumps")
       throw InputError("Linear solver/Name",
                        name,

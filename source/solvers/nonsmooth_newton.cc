@@ -22,35 +22,39 @@ namespace geocone
   NonsmoothNewton::SolverName::SolverName()
     : dealii::ParameterAcceptor("/Linear solver")
   {
-    add_parameter("Name",
-                  value,
-                  "automatic | Cholmod | Umfpack | Mumps. Automatic: Cholmod "
-                  "for associated flow and Umfpack otherwise on one rank, Mumps "
-                  "on several.");
+    add_parameter(
+      "Name",
+      value,
+      "automatic | Cholmod | Umfpack | Mumps. Automatic: Cholmod "
+      "for associated flow and Umfpack otherwise on one rank, Mumps "
+      "on several.");
   }
 
   NonsmoothNewton::NonsmoothNewton()
     : dealii::ParameterAcceptor("/Newton")
   {
-    add_parameter("Tolerance",
-                  relative_tolerance,
-                  "A step is solved when the norm of the free residual is below "
-                  "this times the norm of the internal (or external) forces.");
+    add_parameter(
+      "Tolerance",
+      relative_tolerance,
+      "A step is solved when the norm of the free residual is below "
+      "this times the norm of the internal (or external) forces.");
     add_parameter("Absolute tolerance",
                   absolute_tolerance,
                   "... or below this (N/m), which ends steps without load.");
-    add_parameter("Maximum iterations",
-                  max_iterations,
-                  "Linear systems to solve before the step is given up and cut. "
-                  "0: 150 for associated flow (slow starts are worth waiting "
-                  "for), 60 for theta >= phi/2, otherwise 15 with the line "
-                  "search and 30 with the elastic blend.");
-    add_parameter("Globalisation",
-                  globalisation,
-                  "automatic | line search | elastic blend | none. Automatic: "
-                  "the elastic blend for theta < phi/2 without inertia, the "
-                  "line search otherwise; where that fails the other one, but "
-                  "for theta < phi/2 with inertia. None: plastic steps often fail.");
+    add_parameter(
+      "Maximum iterations",
+      max_iterations,
+      "Linear systems to solve before the step is given up and cut. "
+      "0: 150 for associated flow (slow starts are worth waiting "
+      "for), 60 for theta >= phi/2, otherwise 15 with the line "
+      "search and 30 with the elastic blend.");
+    add_parameter(
+      "Globalisation",
+      globalisation,
+      "automatic | line search | elastic blend | none. Automatic: "
+      "the elastic blend for theta < phi/2 without inertia, the "
+      "line search otherwise; where that fails the other one, but "
+      "for theta < phi/2 with inertia. None: plastic steps often fail.");
   }
 
   void
@@ -84,30 +88,29 @@ namespace geocone
   {
     SolverReport report;
     const auto   solve_with = [&](const Globalisation kind) {
-      attempt(
-        kind, problem, matrix, linear_solver, timer, v, residual, report);
+      attempt(kind, problem, matrix, linear_solver, timer, v, residual, report);
     };
     if (globalisation != "automatic")
       {
-        solve_with(globalisation == "line search" ? Globalisation::line_search :
-                   globalisation == "none"        ? Globalisation::none :
-                                                    Globalisation::elastic_blend);
+        solve_with(globalisation == "line search" ? Globalisation::line_search
+                   : globalisation == "none"      ? Globalisation::none
+                                             : Globalisation::elastic_blend);
         return report;
       }
 
-    const bool hard        = problem.non_associativity() > hard_flow;
-    const bool blend_first = hard && !problem.has_inertia();
-    const Vector start = v;
-    solve_with(blend_first ? Globalisation::elastic_blend :
-                             Globalisation::line_search);
+    const bool   hard        = problem.non_associativity() > hard_flow;
+    const bool   blend_first = hard && !problem.has_inertia();
+    const Vector start       = v;
+    solve_with(blend_first ? Globalisation::elastic_blend
+                           : Globalisation::line_search);
     // With mass a shorter step makes the hard flow easy, for less than a second
     // attempt costs.
     const bool cut_at_once = hard && problem.has_inertia();
     if (!report.converged && !problem.is_symmetric() && !cut_at_once)
       {
         v = start;
-        solve_with(blend_first ? Globalisation::line_search :
-                                 Globalisation::elastic_blend);
+        solve_with(blend_first ? Globalisation::line_search
+                               : Globalisation::elastic_blend);
       }
     return report;
   }
@@ -124,15 +127,14 @@ namespace geocone
   {
     const Constraints &constraints = problem.free_dofs();
     const unsigned int n_owned     = v.locally_owned_size();
-    const bool blend  = globalisation == Globalisation::elastic_blend;
-    const bool search = globalisation == Globalisation::line_search;
-    const unsigned int allowed =
-      max_iterations > 0                         ? max_iterations :
-      problem.is_symmetric()                     ? 150 :
-      problem.non_associativity() <= hard_flow   ? 60 :
-      blend                                      ? 30 :
-                                                   15;
-    const unsigned int limit = report.iterations + allowed;
+    const bool         blend   = globalisation == Globalisation::elastic_blend;
+    const bool         search  = globalisation == Globalisation::line_search;
+    const unsigned int allowed = max_iterations > 0       ? max_iterations
+                                 : problem.is_symmetric() ? 150
+                                 : problem.non_associativity() <= hard_flow ? 60
+                                 : blend                                    ? 30
+                                         : 15;
+    const unsigned int limit   = report.iterations + allowed;
 
     Vector         direction = problem.make_vector();
     Vector         start     = problem.make_vector();
@@ -145,8 +147,8 @@ namespace geocone
     };
     const auto record = [&](const double length) {
       report.residual =
-        state.norm / std::max(state.force_norm,
-                              std::numeric_limits<double>::min());
+        state.norm /
+        std::max(state.force_norm, std::numeric_limits<double>::min());
       report.table.push_back({report.residual,
                               length,
                               state.n_cone,
@@ -236,9 +238,9 @@ namespace geocone
         ++report.iterations;
         for (unsigned int i = 0; i < n_owned; ++i)
           direction.local_element(i) =
-            constraints.is_free(i) ?
-              rhs[constraints.free_row[i]] :
-              (first && jumps ? jump.local_element(i) : 0.);
+            constraints.is_free(i)
+              ? rhs[constraints.free_row[i]]
+              : (first && jumps ? jump.local_element(i) : 0.);
 
         double length = 1.;
         if ((first && jumps) || !search)
@@ -248,16 +250,15 @@ namespace geocone
           }
         else
           {
-            start     = v;
-            length    = line_search(problem.free_dot(residual, direction),
-                                 [&](const double x) {
-                                   for (unsigned int i = 0; i < n_owned; ++i)
-                                     v.local_element(i) =
-                                       start.local_element(i) +
-                                       x * direction.local_element(i);
-                                   evaluate();
-                                   return problem.free_dot(residual, direction);
-                                 });
+            start  = v;
+            length = line_search(
+              problem.free_dot(residual, direction), [&](const double x) {
+                for (unsigned int i = 0; i < n_owned; ++i)
+                  v.local_element(i) =
+                    start.local_element(i) + x * direction.local_element(i);
+                evaluate();
+                return problem.free_dot(residual, direction);
+              });
           }
         record(length);
       }

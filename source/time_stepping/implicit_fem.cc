@@ -40,13 +40,13 @@ namespace geocone
       integrate_density(*scene, mesh, space, weight_per_g, lumped_mass);
     if (loads->exist())
       force.reinit(space.partitioner());
-    problem = std::make_unique<IncrementalProblem>(points,
-                                                   scene->materials,
-                                                   *constraints,
-                                                   space.partitioner(),
-                                                   inertia ? &lumped_mass :
-                                                             nullptr);
-    matrix  = problem->make_pattern(linear_solver->wants_one_triangle());
+    problem =
+      std::make_unique<IncrementalProblem>(points,
+                                           scene->materials,
+                                           *constraints,
+                                           space.partitioner(),
+                                           inertia ? &lumped_mass : nullptr);
+    matrix = problem->make_pattern(linear_solver->wants_one_triangle());
     TimerOutput::Scope scope(timer, "analyse");
     linear_solver->analyse(matrix);
   }
@@ -61,10 +61,8 @@ namespace geocone
   {
     if (loads->exist())
       loads->evaluate(force, weight_per_g, t + h);
-    problem->begin_step(h,
-                        t + h,
-                        loads->exist() ? &force : nullptr,
-                        kinematics.velocity);
+    problem->begin_step(
+      h, t + h, loads->exist() ? &force : nullptr, kinematics.velocity);
 
     StepReport report;
     report.residual = problem->make_vector();
@@ -120,10 +118,9 @@ namespace geocone
       }
     std::array<double, 4> sums = {
       {e.kinetic, e.elastic, e.external_work, e.dissipation}};
-    dealii::Utilities::MPI::sum(
-      dealii::ArrayView<const double>(sums.data(), 4),
-      v.get_mpi_communicator(),
-      dealii::ArrayView<double>(sums.data(), 4));
+    dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums.data(), 4),
+                                v.get_mpi_communicator(),
+                                dealii::ArrayView<double>(sums.data(), 4));
     return {sums[0], sums[1], sums[2], sums[3]};
   }
 } // namespace geocone

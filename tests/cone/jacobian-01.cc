@@ -44,7 +44,7 @@ check_smooth(const double a, const double k)
 {
   constexpr int m = V::RowsAtCompileTime;
   Random        random;
-  unsigned int  counts[3] = { 0, 0, 0 };
+  unsigned int  counts[3] = {0, 0, 0};
   Largest       difference, asymmetry, beyond;
   for (unsigned int i = 0; i < 500; ++i)
     {
@@ -53,13 +53,8 @@ check_smooth(const double a, const double k)
         continue;
       MatrixOf<V> J = jacobian(a, k, x), differences;
       V           p;
-      ++counts[static_cast<int>(
-        geocone::return_map(FlowCone{ a, a, k },
-                            1.,
-                            1.,
-                            x,
-                            p,
-                            static_cast<MatrixOf<V> *>(nullptr)))];
+      ++counts[static_cast<int>(geocone::return_map(
+        FlowCone{a, a, k}, 1., 1., x, p, static_cast<MatrixOf<V> *>(nullptr)))];
       const double h = 1e-5;
       for (int j = 0; j < m; ++j)
         {
@@ -99,7 +94,7 @@ check_kinks()
   constexpr int m = V::RowsAtCompileTime;
   std::cout << "kinks for m = " << m << std::endl;
   Random       random;
-  unsigned int n_points[2] = { 0, 0 }, n_no_limit[2] = { 0, 0 };
+  unsigned int n_points[2] = {0, 0}, n_no_limit[2] = {0, 0};
   Largest      remainder, gap;
   for (unsigned int i = 0; i < 300; ++i)
     {
@@ -126,7 +121,7 @@ check_kinks()
       // The two limits differ, or else these were no kinks.
       gap.add(1. / (above - below).norm());
 
-      for (const double size : { 1e-3, 1e-5 })
+      for (const double size : {1e-3, 1e-5})
         {
           V d = random.vector<V>(1.);
           d *= size / d.norm();
@@ -155,8 +150,8 @@ main()
 {
   std::cout.precision(3);
   const double degree = std::acos(-1.) / 180.;
-  for (const double a : { 0., 0.1, std::sin(25. * degree), 0.99 })
-    for (const double k : { 0., 1. })
+  for (const double a : {0., 0.1, std::sin(25. * degree), 0.99})
+    for (const double k : {0., 1.})
       {
         check_smooth<Vector3>(a, k);
         check_smooth<Vector6>(a, k);

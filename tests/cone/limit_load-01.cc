@@ -27,7 +27,7 @@ sample(const unsigned int n, const std::function<double(double)> &load)
   for (unsigned int i = 1; i <= n; ++i)
     {
       const double u = i / double(n);
-      curve.push_back({ u, load(u) });
+      curve.push_back({u, load(u)});
     }
   return curve;
 }
@@ -58,7 +58,7 @@ main()
   print("flat", sample(20, plateau));
   // The same with the elastic part up to 0.6 (1/4 of the curve remains) and to
   // 0.8 (1/8), and to 0.97 (nothing).
-  for (const double knee : { 0.6, 0.8, 0.97 })
+  for (const double knee : {0.6, 0.8, 0.97})
     print("flat from " + std::to_string(knee).substr(0, 4),
           sample(100, [knee](const double u) {
             return 100. * std::fmin(1., u / knee);
@@ -91,38 +91,36 @@ main()
   // Steps growing by 3: the last half is within the last step, which is
   // compared with the load before.
   const Curve growing = {
-    { 1., 60. }, { 3., 90. }, { 9., 98. }, { 27., 100. }, { 81., 100.5 }
-  };
+    {1., 60.}, {3., 90.}, {9., 98.}, {27., 100.}, {81., 100.5}};
   print("growing steps", growing);
   print("growing steps, small tolerance", growing, 0.004);
-  print(
-    "growing steps, rising",
-    { { 1., 60. }, { 3., 90. }, { 9., 98. }, { 27., 100. }, { 81., 105. } });
+  print("growing steps, rising",
+        {{1., 60.}, {3., 90.}, {9., 98.}, {27., 100.}, {81., 105.}});
 
   // Pushed along -y and counted so: both signs change, and the work does not.
   Curve downward = sample(20, plateau);
   for (LoadPoint &point : downward)
-    point = { -point.displacement, -point.load };
+    point = {-point.displacement, -point.load};
   print("downward", downward);
 
   // Back from 1 to 0.9, elastic, in more steps than the loading had: not a
   // part of the plateau.
   Curve unloading = sample(20, plateau);
   for (unsigned int i = 1; i <= 40; ++i)
-    unloading.push_back({ 1. - 0.0025 * i, 100. - 5. * i });
+    unloading.push_back({1. - 0.0025 * i, 100. - 5. * i});
   print("unloading", unloading);
   // ... and half of the way forth again.
   for (unsigned int i = 1; i <= 20; ++i)
-    unloading.push_back({ 0.9 + 0.0025 * i, -100. + 5. * i });
+    unloading.push_back({0.9 + 0.0025 * i, -100. + 5. * i});
   print("reloading", unloading);
 
   // A stage of gravity before the loading: with the footing held, with it
   // settling, and with the displacement counted from zero again after that.
-  for (const std::string kind : { "held", "settling", "reset" })
+  for (const std::string kind : {"held", "settling", "reset"})
     {
       Curve curve;
       for (unsigned int i = 1; i <= 5; ++i)
-        curve.push_back({ kind == "held" ? 0. : 0.01 * i, 0. });
+        curve.push_back({kind == "held" ? 0. : 0.01 * i, 0.});
       for (LoadPoint point : sample(20, plateau))
         {
           point.displacement += kind == "settling" ? 0.05 : 0.;
@@ -132,7 +130,7 @@ main()
     }
 
   print("empty", {});
-  print("one point", { { 1., 100. } });
-  print("two points", { { 1., 100. }, { 2., 100.2 } });
+  print("one point", {{1., 100.}});
+  print("two points", {{1., 100.}, {2., 100.2}});
   print("no load", sample(20, [](double) { return 0.; }));
 }

@@ -77,7 +77,7 @@ main()
   print_search("quadratic, 1000 times too long",
                [](double x) { return 1000. * x - 1.; });
   // Like a point that starts to yield: bracketed and met within 6 evaluations.
-  for (const double slope : { 10., 40., 80. })
+  for (const double slope : {10., 40., 80.})
     print_search("kink at 0.1, slopes 1/2 and " +
                    std::to_string(static_cast<int>(slope)),
                  [slope](double x) {
@@ -98,7 +98,7 @@ main()
             << (lost.state_is_at_length() ? "yes" : "no") << std::endl;
 
   // The bound, with a root that is out of reach.
-  for (const unsigned int n : { 1, 2, 4, 6, 10 })
+  for (const unsigned int n : {1, 2, 4, 6, 10})
     print_search(
       "root at 1e-12, at most " + std::to_string(n),
       [](double x) { return x > 1e-12 ? 1. : -1.; },

@@ -25,11 +25,11 @@ update(const Material &material,
 {
   Mode mode;
   material.update(
-    { dealii::ArrayView<const Mandel>(&strain, 1),
-      dealii::ArrayView<const Mandel>(&stress_n, 1) },
-    { dealii::ArrayView<Mandel>(&stress, 1),
-      dealii::ArrayView<Mode>(&mode, 1),
-      dealii::ArrayView<MandelMatrix>(tangent, tangent != nullptr) });
+    {dealii::ArrayView<const Mandel>(&strain, 1),
+     dealii::ArrayView<const Mandel>(&stress_n, 1)},
+    {dealii::ArrayView<Mandel>(&stress, 1),
+     dealii::ArrayView<Mode>(&mode, 1),
+     dealii::ArrayView<MandelMatrix>(tangent, tangent != nullptr)});
   return mode;
 }
 
@@ -66,7 +66,7 @@ check_strength(const Material &material, const double phi)
   const double p = 3. * c, shear = p * std::sin(phi) + c * std::cos(phi);
   std::cout << "  strength/c: uniaxial " << uniaxial / c << ", shear "
             << shear / c << "; just below and above:";
-  for (const double factor : { 1. - 1e-9, 1. + 1e-9 })
+  for (const double factor : {1. - 1e-9, 1. + 1e-9})
     {
       Mandel s;
       std::cout << " "
@@ -157,16 +157,15 @@ check_batches(const Material &material)
     }
   const Increment increment = {
     dealii::ArrayView<const Mandel>(strain.data(), n),
-    dealii::ArrayView<const Mandel>(stress_n.data(), n)
-  };
+    dealii::ArrayView<const Mandel>(stress_n.data(), n)};
   material.update(increment,
-                  { dealii::ArrayView<Mandel>(stress.data(), n),
-                    dealii::ArrayView<Mode>(mode.data(), n),
-                    dealii::ArrayView<MandelMatrix>(tangent.data(), n) });
+                  {dealii::ArrayView<Mandel>(stress.data(), n),
+                   dealii::ArrayView<Mode>(mode.data(), n),
+                   dealii::ArrayView<MandelMatrix>(tangent.data(), n)});
   material.update(increment,
-                  { dealii::ArrayView<Mandel>(stress_only.data(), n),
-                    dealii::ArrayView<Mode>(mode_only.data(), n),
-                    dealii::ArrayView<MandelMatrix>() });
+                  {dealii::ArrayView<Mandel>(stress_only.data(), n),
+                   dealii::ArrayView<Mode>(mode_only.data(), n),
+                   dealii::ArrayView<MandelMatrix>()});
 
   unsigned int counts[3] = {};
   bool    same = true, without = true, exact = true, elastic_tangent = true;
@@ -256,10 +255,10 @@ main()
     Material   &material;
     double      phi, theta;
   };
-  for (const Case &test : { Case{ "friction", *friction, 20., 5. },
-                            Case{ "associated", *associated, 10., 10. },
-                            Case{ "cohesive", *cohesive, 0., 0. },
-                            Case{ "tresca", *tresca, 0., 0. } })
+  for (const Case &test : {Case{"friction", *friction, 20., 5.},
+                           Case{"associated", *associated, 10., 10.},
+                           Case{"cohesive", *cohesive, 0., 0.},
+                           Case{"tresca", *tresca, 0., 0.}})
     {
       test.material.prepare();
       const double phi = radians(test.phi), theta = radians(test.theta);

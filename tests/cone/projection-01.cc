@@ -97,7 +97,7 @@ check_limits()
       const V x = any_point<V>(0., 1., random);
       cylinder.add((project(0., 1., x) - onto_cylinder(1., x)).norm());
       nearly_cylinder.add((project(1e-9, 1., x) - onto_cylinder(1., x)).norm());
-      for (const double scale : { 1e-8, 1e8 })
+      for (const double scale : {1e-8, 1e8})
         scaling.add(
           (project(0.5, scale, V(scale * x)) / scale - project(0.5, 1., x))
             .norm());
@@ -109,8 +109,8 @@ check_limits()
   // The tip is met to the last digit, also from points on the axis, where
   // s_t/|s_t| means nothing, and from the tip itself.
   bool exact = true;
-  for (const double a : { 1e-3, 0.1, 0.3, 0.99 })
-    for (const double k : { 0., 0.7, 1., 3e4 })
+  for (const double a : {1e-3, 0.1, 0.3, 0.99})
+    for (const double k : {0., 0.7, 1., 3e4})
       {
         V tip   = V::Zero();
         tip[0]  = -k / a;
@@ -137,8 +137,8 @@ main()
 
   const double degree = std::acos(-1.) / 180.;
   for (const double a :
-       { 0., 0.1, std::sin(25. * degree), std::sin(45. * degree), 0.99 })
-    for (const double k : { 0., 1. })
+       {0., 0.1, std::sin(25. * degree), std::sin(45. * degree), 0.99})
+    for (const double k : {0., 1.})
       {
         check<Vector3>(a, k, 1000);
         check<Vector6>(a, k, 1000);

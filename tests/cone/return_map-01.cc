@@ -112,7 +112,7 @@ check_law(const FlowCone &cone,
       const V z = compliance(K, two_G, V(s - t));
       const V y = cone.psi(z);
       errors.infeasible.add(cone.yield_function(s));
-      for (const double rho : { 0.01, 1., 100. })
+      for (const double rho : {0.01, 1., 100.})
         errors.map.add(natural_map(cone, s, y, rho).norm());
       errors.dual.add(cone.dual_violation(y));
       errors.product.add(std::abs(cone.complementarity_product(y, s)));
@@ -125,9 +125,12 @@ check_law(const FlowCone &cone,
     }
 }
 
-const char *const wrong_states[6] = { "flow inside",   "not returned",
-                                      "stress inside", "stress outside",
-                                      "flow turned",   "dilatancy a" };
+const char *const wrong_states[6] = {"flow inside",
+                                     "not returned",
+                                     "stress inside",
+                                     "stress outside",
+                                     "flow turned",
+                                     "dilatancy a"};
 
 /** Counts wrong states, and those of them that are taken for solutions. */
 template <typename V>
@@ -183,17 +186,17 @@ main()
   const double degree = std::acos(-1.) / 180.;
   std::cout.precision(3);
   for (const double a :
-       { 0., std::sin(25. * degree), std::sin(45. * degree), 0.99 })
-    for (const double ratio : { 1., 0.5, 0. })
+       {0., std::sin(25. * degree), std::sin(45. * degree), 0.99})
+    for (const double ratio : {1., 0.5, 0.})
       {
         if (a == 0. && ratio < 1.)
           continue;
         unsigned int counts[3] = {}, tried[6] = {}, unnoticed[6] = {};
         Errors       errors;
-        for (const double k : { 0., 1. })
-          for (const double K : { 2.5, 50. }) // Poisson's ratio 0.3 and 0.49
+        for (const double k : {0., 1.})
+          for (const double K : {2.5, 50.}) // Poisson's ratio 0.3 and 0.49
             {
-              const FlowCone cone{ a, ratio * a, k };
+              const FlowCone cone{a, ratio * a, k};
               check_law<Vector3>(cone, K, counts, errors);
               check_law<Vector6>(cone, K, counts, errors);
               count_unnoticed<Vector3>(cone, K, tried, unnoticed);

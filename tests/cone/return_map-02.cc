@@ -29,15 +29,15 @@ main()
       const double k   = random(0., 2.);
       const double K   = random(1., 50.);
       const Mandel tip = geocone::from_cone_axes(Mandel(-k / a, 0., 0.));
-      for (const int digits : { -3, -1, 0, 1, 3 })
-        for (const double T : { 0., 1e-300, 1e-17 })
+      for (const int digits : {-3, -1, 0, 1, 3})
+        for (const double T : {0., 1e-300, 1e-17})
           {
             Mandel t = geocone::to_cone_axes(tip);
             t[0] *= 1. + digits * std::numeric_limits<double>::epsilon();
             t[1] = T;
             Mandel       s;
             MandelMatrix C;
-            geocone::return_map(FlowCone{ a, b, k }, K, 1., t, s, &C);
+            geocone::return_map(FlowCone{a, b, k}, K, 1., t, s, &C);
             ++n_points;
             // No part of a tangent is larger than K >= 2G.
             n_stresses += !((s - t).norm() < 1e-12 * (1. + k / a));

@@ -35,7 +35,7 @@ near_kink(const FlowCone &cone, const double K, const double two_G, const V &t)
 
 struct Result
 {
-  unsigned int counts[3] = { 0, 0, 0 };
+  unsigned int counts[3] = {0, 0, 0};
   Largest      difference, asymmetry;
   double       least_cone_asymmetry = 1e10;
 
@@ -204,15 +204,15 @@ main()
 
   std::cout.precision(3);
   const double a25 = std::sin(std::acos(-1.) / 180. * 25.);
-  for (const FlowCone &cone : { FlowCone{ 0., 0., 1. },
-                                FlowCone{ 0.1, 0.1, 1. },
-                                FlowCone{ a25, a25, 1. },
-                                FlowCone{ a25, a25 / 2., 1. },
-                                FlowCone{ a25, 0., 1. },
-                                FlowCone{ 0.9, 0.9, 0. },
-                                FlowCone{ 0.9, 0.45, 0. },
-                                FlowCone{ 0.9, 0., 0. } })
-    for (const double nu : { 0.3, 0.49 })
+  for (const FlowCone &cone : {FlowCone{0., 0., 1.},
+                               FlowCone{0.1, 0.1, 1.},
+                               FlowCone{a25, a25, 1.},
+                               FlowCone{a25, a25 / 2., 1.},
+                               FlowCone{a25, 0., 1.},
+                               FlowCone{0.9, 0.9, 0.},
+                               FlowCone{0.9, 0.45, 0.},
+                               FlowCone{0.9, 0., 0.}})
+    for (const double nu : {0.3, 0.49})
       {
         std::cout << "nu = " << nu << std::endl;
         const Elasticity elasticity(1. + nu, nu); // 2G = 1

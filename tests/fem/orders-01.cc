@@ -15,7 +15,7 @@ int
 main(int argc, char **argv)
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const std::string plate =
+  const std::string                        plate =
     GEOCONE_SOURCE_DIR "/prm/verification/elastic_plate.prm";
 
   for (const std::string element : {"P1", "P2", "P3", "Q1", "Q2", "Q3"})
@@ -42,16 +42,16 @@ main(int argc, char **argv)
       std::printf("%s patch test exact: %s\n",
                   element.c_str(),
                   errors["displacement"].get<double>() < 1e-12 &&
-                      errors["stress"].get<double>() < 1e-12 ?
-                    "yes" :
-                    "NO");
+                      errors["stress"].get<double>() < 1e-12
+                    ? "yes"
+                    : "NO");
 
       double previous[2] = {};
       for (const char *size : {"0.25", "0.125"})
         {
           std::vector<std::string> uniform = kind;
           uniform.push_back(std::string("Mesh/Cell size = ") + size);
-          const auto e = simulate(plate, uniform)["field_errors"];
+          const auto   e      = simulate(plate, uniform)["field_errors"];
           const double now[2] = {e["displacement"].get<double>(),
                                  e["stress"].get<double>()};
           if (previous[0] > 0.)

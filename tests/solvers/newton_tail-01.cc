@@ -41,9 +41,10 @@ main(int argc, char **argv)
           last      = residual;
           last_step = step;
         }
-      std::printf("theta = %s: at least 6 pairs checked: %s, all quadratic: %s\n",
-                  dilatancy,
-                  n_checked >= 6 ? "yes" : "NO",
-                  n_quadratic == n_checked ? "yes" : "NO");
+      std::printf(
+        "theta = %s: at least 6 pairs checked: %s, all quadratic: %s\n",
+        dilatancy,
+        n_checked >= 6 ? "yes" : "NO",
+        n_quadratic == n_checked ? "yes" : "NO");
     }
 }

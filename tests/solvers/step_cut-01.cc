@@ -20,7 +20,8 @@ struct Parts
   explicit Parts(const ParameterFile &file)
     : scene(file)
     , mesh(MPI_COMM_WORLD)
-    , timer(std::cout, dealii::TimerOutput::never, dealii::TimerOutput::wall_times)
+    , timer(
+        std::cout, dealii::TimerOutput::never, dealii::TimerOutput::wall_times)
   {}
 
   void
@@ -68,9 +69,9 @@ main(int argc, char **argv)
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   // At most 15 iterations: the long step fails, its halves do not.
-  const ParameterFile file(GEOCONE_SOURCE_DIR "/tests/footing_coarse.prm",
-                           {"Newton/Maximum iterations = 15",
-                            "Time stepping/Inertia = true"});
+  const ParameterFile file(
+    GEOCONE_SOURCE_DIR "/tests/footing_coarse.prm",
+    {"Newton/Maximum iterations = 15", "Time stepping/Inertia = true"});
 
   const auto make = [&]() {
     dealii::ParameterAcceptor::clear();
@@ -89,9 +90,8 @@ main(int argc, char **argv)
 
   for (const auto &parts : {failing.get(), smooth.get()})
     for (int i = 0; i < 3; ++i)
-      std::printf("step %d converged: %d\n",
-                  i,
-                  int(parts->advance(0.01 * i, 0.01)));
+      std::printf(
+        "step %d converged: %d\n", i, int(parts->advance(0.01 * i, 0.01)));
 
   const Vector         velocity     = failing->kinematics.velocity;
   const Vector         displacement = failing->kinematics.displacement;
@@ -109,8 +109,8 @@ main(int argc, char **argv)
   for (const auto &parts : {failing.get(), smooth.get()})
     std::printf("the short step converged: %d\n",
                 int(parts->advance(0.03, 0.01)));
-  std::printf("as if nothing had failed: %d\n",
-              int(same(smooth->kinematics.velocity,
-                       failing->kinematics.velocity) &&
-                  smooth->points.stress == failing->points.stress));
+  std::printf(
+    "as if nothing had failed: %d\n",
+    int(same(smooth->kinematics.velocity, failing->kinematics.velocity) &&
+        smooth->points.stress == failing->points.stress));
 }

@@ -29,7 +29,8 @@ namespace geocone
   using Mandel = Eigen::Matrix<double, n_mandel, 1>;
 
   /** Linear map between Mandel vectors, e.g. a tangent stiffness (Pa). */
-  using MandelMatrix = Eigen::Matrix<double, n_mandel, n_mandel, Eigen::RowMajor>;
+  using MandelMatrix =
+    Eigen::Matrix<double, n_mandel, n_mandel, Eigen::RowMajor>;
 
   constexpr double pi    = 3.14159265358979323846;
   constexpr double sqrt2 = 1.41421356237309504880;

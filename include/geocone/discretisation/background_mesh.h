@@ -70,10 +70,10 @@ namespace geocone
     std::string    kind = "automatic";
 
     std::unique_ptr<dealii::parallel::TriangulationBase<dim>> tria;
-    std::unique_ptr<dealii::Mapping<dim>>                      map;
+    std::unique_ptr<dealii::Mapping<dim>>                     map;
     std::map<std::string, dealii::types::boundary_id>         sides;
-    bool                                                       simplicial = false;
-    std::vector<unsigned int>                                  part_of_vertex;
+    bool                      simplicial = false;
+    std::vector<unsigned int> part_of_vertex;
   };
 } // namespace geocone
 

@@ -20,9 +20,9 @@ namespace geocone
   /** Vertices, cells with material ids, and boundary edges with side ids. */
   struct CoarseMesh
   {
-    std::vector<dealii::Point<dim>>                    points;
-    std::vector<dealii::CellData<dim>>                 cells;
-    dealii::SubCellData                                boundary;
+    std::vector<dealii::Point<dim>>                   points;
+    std::vector<dealii::CellData<dim>>                cells;
+    dealii::SubCellData                               boundary;
     std::map<std::string, dealii::types::boundary_id> sides;
 
     bool

@@ -83,7 +83,7 @@ namespace geocone
 
     /** Global numbers of the nodes of a cell, in the order of N. */
     void
-    cell_nodes(const Cell                                    &cell,
+    cell_nodes(const Cell                                   &cell,
                std::vector<dealii::types::global_dof_index> &nodes) const;
 
     /** Number of nodes of all ranks. */
@@ -134,9 +134,9 @@ namespace geocone
     nodes_on_sides(const std::set<dealii::types::boundary_id> &ids) const;
 
   private:
-    std::string                                                name = "automatic";
-    std::unique_ptr<dealii::FiniteElement<dim>>                fe;
-    std::unique_ptr<dealii::DoFHandler<dim>>                   dofs;
+    std::string                                 name = "automatic";
+    std::unique_ptr<dealii::FiniteElement<dim>> fe;
+    std::unique_ptr<dealii::DoFHandler<dim>>    dofs;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
     std::vector<dealii::Point<dim>>                            positions;
   };

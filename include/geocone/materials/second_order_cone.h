@@ -137,7 +137,7 @@ namespace geocone
   {
     constexpr int n_tangential = V::RowsAtCompileTime - 1;
     const double  radius       = cone.a * t[0] + cone.k;
-    const double  T2 = t.template tail<n_tangential>().squaredNorm();
+    const double  T2           = t.template tail<n_tangential>().squaredNorm();
     if (radius >= 0. && T2 <= radius * radius) // most points: no root needed
       {
         s = t;
@@ -191,9 +191,9 @@ namespace geocone
    * @param[out] jacobian an element of Clarke's generalised Jacobian (paper,
    * appendix C, with the polar cone as the third case), if not null
    */
-  template <typename V, typename M = Eigen::Matrix<double,
-                                                   V::RowsAtCompileTime,
-                                                   V::RowsAtCompileTime>>
+  template <typename V,
+            typename M =
+              Eigen::Matrix<double, V::RowsAtCompileTime, V::RowsAtCompileTime>>
   V
   project(const double a, const double k, const V &x, M *jacobian = nullptr)
   {

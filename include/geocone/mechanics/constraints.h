@@ -75,11 +75,11 @@ namespace geocone
       unsigned int component;
     };
 
-    const Scene                              &scene;
-    const Space                              &space;
-    std::vector<Prescribed>                   prescribed;
-    std::vector<std::vector<unsigned int>>    owned_nodes; ///< per condition
-    std::vector<unsigned int>                 n_nodes;     ///< of all ranks
+    const Scene                           &scene;
+    const Space                           &space;
+    std::vector<Prescribed>                prescribed;
+    std::vector<std::vector<unsigned int>> owned_nodes; ///< per condition
+    std::vector<unsigned int>              n_nodes;     ///< of all ranks
   };
 } // namespace geocone
 

@@ -62,12 +62,12 @@ namespace geocone
     /**
      * @param lumped_mass diagonal of M, or null for a quasi-static problem
      */
-    IncrementalProblem(const MaterialPoints &points,
-                       const Materials      &materials,
-                       const Constraints    &constraints,
-                       const std::shared_ptr<
-                         const dealii::Utilities::MPI::Partitioner> &layout,
-                       const Vector                                 *lumped_mass);
+    IncrementalProblem(
+      const MaterialPoints &points,
+      const Materials      &materials,
+      const Constraints    &constraints,
+      const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &layout,
+      const Vector *lumped_mass);
 
     /**
      * Sets the data of the step from t_n to t = t_n + h.
@@ -184,9 +184,9 @@ namespace geocone
     void
     update_materials(const bool with_tangent) const;
 
-    const MaterialPoints                                            &points;
-    const Materials                                                 &materials;
-    const Constraints                                               &constraints;
+    const MaterialPoints &points;
+    const Materials      &materials;
+    const Constraints    &constraints;
     const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
     const Vector                                                    *mass;
 
@@ -202,11 +202,11 @@ namespace geocone
     };
     std::vector<Run> runs;
 
-    std::vector<Mandel>                       strain;
-    mutable std::vector<Mandel>               stress;
-    mutable std::vector<Mode>                 mode;
-    std::vector<Mode>                         previous_mode;
-    mutable std::vector<MandelMatrix>         tangent;
+    std::vector<Mandel>               strain;
+    mutable std::vector<Mandel>       stress;
+    mutable std::vector<Mode>         mode;
+    std::vector<Mode>                 previous_mode;
+    mutable std::vector<MandelMatrix> tangent;
 
     /**
      * Per cell the places in the matrix of its (dim n_nodes)^2 entries, or of

@@ -37,9 +37,7 @@ namespace geocone
 
     /** F at time t (N/m). */
     void
-    evaluate(Vector       &force,
-             const Vector &weight_per_g,
-             const double  t) const;
+    evaluate(Vector &force, const Vector &weight_per_g, const double t) const;
 
     bool
     exist() const

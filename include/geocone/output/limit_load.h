@@ -25,17 +25,18 @@ namespace geocone
     double drift     = 0.;    ///< relative, over the last part tried
     double begins_at = 0.;    ///< where the plateau begins, from the start of
                               ///< the loading branch (m)
-    double peak      = 0.;    ///< largest load of the whole curve
+    double peak = 0.;         ///< largest load of the whole curve
   };
 
   /**
    * Finds the limit load. Each load holds over the displacement of its step
    * (backward Euler). Of the branches of the curve between reversals of the
    * displacement, the one that takes the most work is the loading. The plateau
-   * is the longest of the last 1/2, 1/4, 1/8 of its displacement over which the load drifts by at most @p tolerance: the
-   * means of the two halves of that part differ by less, relative to its mean.
-   * A part within a single step is compared with the load before. The limit load
-   * is the mean over the plateau, never the peak: peaks are inertia.
+   * is the longest of the last 1/2, 1/4, 1/8 of its displacement over which the
+   * load drifts by at most @p tolerance: the means of the two halves of that
+   * part differ by less, relative to its mean. A part within a single step is
+   * compared with the load before. The limit load is the mean over the plateau,
+   * never the peak: peaks are inertia.
    */
   LimitLoad
   find_limit_load(const std::vector<LoadPoint> &curve, const double tolerance);

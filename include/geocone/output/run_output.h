@@ -21,12 +21,12 @@ namespace geocone
   /** An accepted step of the loading programme, with all its substeps. */
   struct StepRecord
   {
-    unsigned int        step     = 0;
-    unsigned int        substeps = 0; ///< accepted
-    unsigned int        failures = 0; ///< substeps tried in vain
-    unsigned int        iterations = 0; ///< of all substeps, failed ones too
-    unsigned int        regularised = 0; ///< Jacobians that needed a blend
-    bool                resets = false; ///< displacements count from here
+    unsigned int        step         = 0;
+    unsigned int        substeps     = 0; ///< accepted
+    unsigned int        failures     = 0; ///< substeps tried in vain
+    unsigned int        iterations   = 0; ///< of all substeps, failed ones too
+    unsigned int        regularised  = 0; ///< Jacobians that needed a blend
+    bool                resets       = false; ///< displacements count from here
     double              time         = 0.;
     double              displacement = 0.;
     double              load         = 0.;
@@ -83,7 +83,9 @@ namespace geocone
 
     /** Writes summary.json. @param status running | finished | failed: why */
     void
-    write_summary(const std::string &status, const Json &size, const Json &cost);
+    write_summary(const std::string &status,
+                  const Json        &size,
+                  const Json        &cost);
 
     /** Adds the errors against exact fields to the summaries to come. */
     void
@@ -127,19 +129,19 @@ namespace geocone
 
     std::string              path;
     std::string              name;
-    std::string              if_exists       = "number";
-    bool                     with_fields     = true;
-    bool                     pictures        = true;
+    std::string              if_exists        = "number";
+    bool                     with_fields      = true;
+    bool                     pictures         = true;
     std::string              report_for_tests = "none";
     std::vector<std::string> expectation_texts;
     std::vector<Expectation> expectations;
 
-    const Scene            *scene = nullptr;
-    CsvFile                 statistics, newton;
-    Fields                  fields;
-    unsigned int            n_fields = 0;
-    std::vector<StepRecord> records;
-    Json                    summary;
+    const Scene               *scene = nullptr;
+    CsvFile                    statistics, newton;
+    Fields                     fields;
+    unsigned int               n_fields = 0;
+    std::vector<StepRecord>    records;
+    Json                       summary;
     std::optional<FieldErrors> field_errors;
 
     /** Sums since the start (J/m), and the least loss of a step. */

@@ -61,10 +61,10 @@ namespace geocone
     std::array<std::optional<Expression>, dim> components;
 
   private:
-    const std::string                 quantity;
-    const std::string                 unset;
-    std::array<std::string, dim>      texts;
-    std::vector<dealii::Point<dim>>   box;
+    const std::string               quantity;
+    const std::string               unset;
+    std::array<std::string, dim>    texts;
+    std::vector<dealii::Point<dim>> box;
   };
 
   /**

@@ -107,13 +107,13 @@ namespace geocone
     void
     check_level_ground(const Geometry &geometry) const;
 
-    std::string                  type  = "zero";
-    std::array<std::string, 3>   texts = {{"0", "0", "0"}};
-    std::array<Expression, 3>    components;
-    double                       k0              = 0.5;
-    double                       surface         = 0.;
-    double                       surcharge       = 0.;
-    double                       g               = 0.;
+    std::string                type  = "zero";
+    std::array<std::string, 3> texts = {{"0", "0", "0"}};
+    std::array<Expression, 3>  components;
+    double                     k0        = 0.5;
+    double                     surface   = 0.;
+    double                     surcharge = 0.;
+    double                     g         = 0.;
   };
 } // namespace geocone
 

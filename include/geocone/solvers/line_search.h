@@ -35,8 +35,8 @@ namespace geocone
     double a = 0., Ga = G0, b = 1., Gb = Gx;
     for (unsigned int n = 1; n < max_evaluations; ++n)
       {
-        x = std::isfinite(Gb) ? a - Ga * (b - a) / (Gb - Ga) : (a + b) / 2.;
-        x = std::fmin(std::fmax(x, a + 0.1 * (b - a)), b - 0.1 * (b - a));
+        x  = std::isfinite(Gb) ? a - Ga * (b - a) / (Gb - Ga) : (a + b) / 2.;
+        x  = std::fmin(std::fmax(x, a + 0.1 * (b - a)), b - 0.1 * (b - a));
         Gx = G(x);
         if (std::abs(Gx) < reduction * std::abs(G0))
           break;

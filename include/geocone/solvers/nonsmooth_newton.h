@@ -28,11 +28,11 @@ namespace geocone
   /** What a solve came to. */
   struct SolverReport
   {
-    bool                         converged    = false;
-    unsigned int                 iterations   = 0; ///< linear systems solved
-    unsigned int                 factorisations = 0;
-    unsigned int regularised = 0; ///< systems made regular by a blend
-    double                       residual     = 0.; ///< relative, at the end
+    bool         converged      = false;
+    unsigned int iterations     = 0; ///< linear systems solved
+    unsigned int factorisations = 0;
+    unsigned int regularised    = 0;  ///< systems made regular by a blend
+    double       residual       = 0.; ///< relative, at the end
     std::vector<NewtonIteration> table;
     std::string                  reason; ///< why it did not converge
   };
@@ -107,10 +107,10 @@ namespace geocone
             Vector              &residual,
             SolverReport        &report) const;
 
-    double       relative_tolerance  = 1e-10;
-    double       absolute_tolerance  = 1e-12;
-    unsigned int max_iterations      = 0;
-    std::string  globalisation       = "automatic";
+    double       relative_tolerance = 1e-10;
+    double       absolute_tolerance = 1e-12;
+    unsigned int max_iterations     = 0;
+    std::string  globalisation      = "automatic";
 
     /** Has a section of its own. */
     struct SolverName : dealii::ParameterAcceptor

@@ -66,12 +66,12 @@ namespace geocone
 
     /** Tries the step from t to t + h; commits it if it converges. */
     StepReport
-    advance(Kinematics           &kinematics,
-            MaterialPoints       &points,
+    advance(Kinematics            &kinematics,
+            MaterialPoints        &points,
             const NonsmoothNewton &newton,
-            dealii::TimerOutput  &timer,
-            const double          t,
-            const double          h);
+            dealii::TimerOutput   &timer,
+            const double           t,
+            const double           h);
 
     std::string
     linear_solver_name() const
