@@ -224,7 +224,7 @@ namespace geocone
               }
           }
       }
-    catch (const RunError &error)
+    catch (const StepFailure &error)
       {
         run_output.write_summary(
           std::string("failed: ") + error.what(), size(), cost());

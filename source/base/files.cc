@@ -17,12 +17,22 @@ namespace geocone
   {
     const std::string temporary = file_name + ".part";
     std::ofstream     out(temporary);
-    if (out)
-      write(out);
+    try
+      {
+        if (out)
+          write(out);
+      }
+    catch (const dealii::ExceptionBase &)
+      {
+        // The library's writers throw where a stream fails.
+        out.setstate(std::ios::failbit);
+      }
     out.close();
     std::error_code error;
     if (out)
       std::filesystem::rename(temporary, file_name, error);
+    if (!out)
+      std::filesystem::remove(temporary, error);
     if (!out || error)
       throw RunError("the file '" + file_name +
                      "' cannot be written: is the disk full?");
