@@ -4,8 +4,6 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/discretisation/space.h>
 
-#include <deal.II/dofs/dof_tools.h>
-
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_simplex_p.h>
 
@@ -59,8 +57,6 @@ namespace geocone
       set.compress();
       return set;
     };
-    IndexSet relevant;
-    DoFTools::extract_locally_relevant_dofs(*dofs, relevant);
 
     // Only the nodes of own cells are needed, not those of all ghost cells.
     IndexSet                             active(dofs->n_dofs());

@@ -209,8 +209,8 @@ namespace geocone
     double                 offset     = 0.;
     unsigned int           iterations = 0, most = 0, substeps = 0, failures = 0,
                  regularised = 0;
-    double natural_map = 0., complementarity = 0., cone = 0., dual = 0.,
-           residual = 0.;
+    Quality quality;
+    double  residual = 0.;
     for (const StepRecord &record : records)
       {
         // A reset of the displacement is no step of the curve.
@@ -222,12 +222,8 @@ namespace geocone
         most = std::max(most, record.iterations);
         substeps += record.substeps;
         failures += record.failures;
-        const Quality &quality = record.last.quality;
-        natural_map            = std::max(natural_map, quality.natural_map);
-        complementarity = std::max(complementarity, quality.complementarity);
-        cone            = std::max(cone, quality.cone_violation);
-        dual            = std::max(dual, quality.dual_violation);
-        residual        = std::max(residual, record.last.newton.residual);
+        quality.take_worse(record.last.quality);
+        residual = std::max(residual, record.last.newton.residual);
       }
 
     Json json;
@@ -262,10 +258,10 @@ namespace geocone
       {"failures", failures},
       {"regularised", regularised},
       {"residual_max", residual}};
-    json["quality"] = {{"natural_map_error_max", natural_map},
-                       {"complementarity_max", complementarity},
-                       {"cone_violation_max", cone},
-                       {"dual_cone_violation_max", dual}};
+    json["quality"] = {{"natural_map_error_max", quality.natural_map},
+                       {"complementarity_max", quality.complementarity},
+                       {"cone_violation_max", quality.cone_violation},
+                       {"dual_cone_violation_max", quality.dual_violation}};
     if (!records.empty())
       {
         const Energies &e = records.back().last.energies;
