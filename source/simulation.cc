@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
-#include <geocone/discretisation/quadrature_points.h>
 #include <geocone/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -46,27 +45,38 @@ namespace geocone
     , log(log)
     , scene(file)
     , mesh(comm)
+    , implicit_mpm(file)
     , run_output(comm, log)
     , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
   {}
 
   void
-  Simulation::prepare(const std::string &name, const std::string &folder)
+  Simulation::prepare(const std::string &name,
+                      const std::string &folder,
+                      Kinematics        &kinematics,
+                      MaterialPoints    &points)
   {
     scene.prepare();
+    method.prepare();
     newton.prepare();
     step_control.prepare();
     exact_solution.prepare();
-    mesh.prepare(scene);
-    space.prepare(mesh);
-    constraints = std::make_unique<Constraints>(scene, mesh, space);
-    points      = make_quadrature_points(scene, mesh, space);
-    stepper.prepare(scene, mesh, space, *constraints, points, newton, timer);
+    mesh.prepare(scene, method);
+    space.prepare(mesh, method);
+    if (method.is_mpm())
+      stepper = &implicit_mpm;
+    else
+      stepper = &implicit_fem;
+    const std::string warning =
+      stepper->prepare(scene, mesh, space, newton, timer, kinematics, points);
     run_output.prepare(name, folder, scene);
+    if (!warning.empty())
+      log.warn(warning);
   }
 
   StepRecord
   Simulation::advance(Kinematics        &kinematics,
+                      MaterialPoints    &points,
                       const unsigned int step,
                       const double       t,
                       const double       h,
@@ -84,7 +94,7 @@ namespace geocone
         const double left = h - done;
         const double size = left <= substep * (1. + 1e-6) ? left : substep;
         StepReport   report =
-          stepper.advance(kinematics, points, newton, timer, t + done, size);
+          stepper->advance(kinematics, points, newton, timer, t + done, size);
         run_output.add_newton_table(step, t + done + size, size, report);
         record.iterations += report.newton.iterations;
         n_factorisations += report.newton.factorisations;
@@ -96,6 +106,8 @@ namespace geocone
             // Works add up over the substeps, and the worst of them counts.
             report.energies.external_work += record.last.energies.external_work;
             report.energies.dissipation += record.last.energies.dissipation;
+            report.identity_error =
+              std::max(report.identity_error, record.last.identity_error);
             report.quality.take_worse(record.last.quality);
             report.newton.residual =
               std::max(report.newton.residual, record.last.newton.residual);
@@ -128,50 +140,41 @@ namespace geocone
   bool
   Simulation::run(const std::string &name, const std::string &folder)
   {
-    prepare(name, folder);
-    log.print(format("%s: %s, %u unknowns, %u points, %s, %u rank%s, solver %s",
-                     name.c_str(),
-                     space.element().c_str(),
-                     constraints->n_rows,
-                     Utilities::MPI::sum(points.n_points(), comm),
-                     stepper.has_inertia() ? "with inertia" : "quasi-static",
-                     Utilities::MPI::n_mpi_processes(comm),
-                     Utilities::MPI::n_mpi_processes(comm) > 1 ? "s" : "",
-                     stepper.linear_solver_name().c_str()));
+    Kinematics     kinematics;
+    MaterialPoints points;
+    prepare(name, folder, kinematics, points);
+    log.print(
+      format("%s: %s, %s, %u unknowns, %u points, %s, %u rank%s, solver %s",
+             name.c_str(),
+             method.name.c_str(),
+             space.element().c_str(),
+             stepper->n_unknowns(),
+             Utilities::MPI::sum(points.n_points(), comm),
+             stepper->has_inertia() ? "with inertia" : "quasi-static",
+             Utilities::MPI::n_mpi_processes(comm),
+             Utilities::MPI::n_mpi_processes(comm) > 1 ? "s" : "",
+             stepper->linear_solver_name().c_str()));
     log.print("results in " + run_output.folder());
 
     unsigned int n_steps = 0;
     for (const auto &stage : scene.loading.stages)
       n_steps += stage->step_sizes().size();
 
-    Kinematics kinematics;
-    kinematics.velocity.reinit(space.partitioner());
-    kinematics.displacement.reinit(space.partitioner());
-    const Observation &observation    = scene.observation;
-    const double       sign           = observation.factor < 0. ? -1. : 1.;
-    double             t              = 0.;
-    unsigned int       step           = 0;
-    double             initial_energy = 0.;
-    for (unsigned int p = 0; p < points.n_points(); ++p)
-      initial_energy +=
-        points.weight[p] / 2. *
-        points.stress[p].dot(
-          scene.materials[points.material[p]].elasticity().strain(
-            points.stress[p]));
-    run_output.set_initial_energy(Utilities::MPI::sum(initial_energy, comm));
-    run_output.write_summary("running", size(), cost());
+    const Observation &observation = scene.observation;
+    const double       sign        = observation.factor < 0. ? -1. : 1.;
+    double             t           = 0.;
+    unsigned int       step        = 0;
+    run_output.set_initial_energy(
+      stepper->state_energies(kinematics, points, 0.));
+    run_output.write_summary("running", size(points), cost());
+    if (method.is_mpm())
+      run_output.write_fields(0., mesh, space, points, kinematics);
     try
       {
         for (const auto &stage : scene.loading.stages)
           {
             if (stage->reset_displacement)
-              {
-                kinematics.displacement = 0.;
-                for (auto &strain : points.plastic_strain)
-                  strain = Mandel::Zero();
-                for (double &strain : points.cumulative_plastic_strain)
-                  strain = 0.;
-              }
+              stepper->reset(kinematics, points);
             const std::vector<double> sizes   = stage->step_sizes();
             double                    substep = sizes[0];
             for (std::size_t i = 0; i < sizes.size(); ++i)
@@ -182,21 +185,19 @@ namespace geocone
                 ++step;
                 step_loop.start();
                 StepRecord record =
-                  advance(kinematics, step, t, sizes[i], substep);
+                  advance(kinematics, points, step, t, sizes[i], substep);
                 record.resets = i == 0 && stage->reset_displacement;
                 step_loop.stop();
                 t += sizes[i];
 
                 for (const unsigned int c : observation.conditions)
                   for (unsigned int d = 0; d < dim; ++d)
-                    record.reactions.push_back(
-                      constraints->resultant(record.last.residual, c, d));
+                    record.reactions.push_back(record.last.reactions[c][d]);
                 if (!observation.conditions.empty())
                   {
                     record.displacement =
-                      sign * constraints->mean(kinematics.displacement,
-                                               observation.conditions[0],
-                                               observation.component);
+                      sign * kinematics.supports[observation.conditions[0]]
+                                                [observation.component];
                     record.load = observation.factor *
                                   record.reactions[observation.component];
                   }
@@ -219,7 +220,7 @@ namespace geocone
                   {
                     TimerOutput::Scope scope(timer, "output");
                     run_output.write_fields(t, mesh, space, points, kinematics);
-                    run_output.write_summary("running", size(), cost());
+                    run_output.write_summary("running", size(points), cost());
                   }
               }
           }
@@ -227,14 +228,14 @@ namespace geocone
     catch (const StepFailure &error)
       {
         run_output.write_summary(
-          std::string("failed: ") + error.what(), size(), cost());
+          std::string("failed: ") + error.what(), size(points), cost());
         run_output.write_fields(t, mesh, space, points, kinematics);
         throw;
       }
     if (exact_solution.is_given())
       run_output.set_field_errors(
         exact_solution.errors(mesh, space, points, kinematics.displacement, t));
-    run_output.write_summary("finished", size(), cost());
+    run_output.write_summary("finished", size(points), cost());
     run_output.print_result();
     const Json costs = cost();
     log.print(format(
@@ -250,13 +251,15 @@ namespace geocone
   }
 
   Json
-  Simulation::size() const
+  Simulation::size(const MaterialPoints &points) const
   {
-    return {{"element", space.element()},
+    return {{"method", method.name},
+            {"element", space.element()},
             {"cells", mesh.triangulation().n_global_active_cells()},
-            {"dofs", constraints->n_rows},
+            {"dofs", stepper->n_unknowns()},
             {"points", Utilities::MPI::sum(points.n_points(), comm)},
-            {"nonzeros", Utilities::MPI::sum(stepper.n_nonzeros(), comm)},
+            {"lost_points", stepper->n_lost()},
+            {"nonzeros", Utilities::MPI::sum(stepper->n_nonzeros(), comm)},
             {"ranks", Utilities::MPI::n_mpi_processes(comm)}};
   }
 
@@ -279,8 +282,9 @@ namespace geocone
             {"factorise_s", seconds["factorise"]},
             {"solve_s", seconds["solve"]},
             {"commit_s", seconds["commit"]},
+            {"transfer_s", seconds["transfer"]},
             {"output_s", seconds["output"]},
-            {"linear_solver", stepper.linear_solver_name()},
+            {"linear_solver", stepper->linear_solver_name()},
             {"factorisations", n_factorisations},
             {"ratio_to_factorise_and_solve",
              linear > 0. ? Json(steps / linear) : Json()},

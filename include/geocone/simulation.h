@@ -6,6 +6,8 @@
 
 #include <geocone/output/exact_solution.h>
 #include <geocone/output/run_output.h>
+#include <geocone/time_stepping/implicit_fem.h>
+#include <geocone/time_stepping/implicit_mpm.h>
 
 namespace geocone
 {
@@ -27,8 +29,8 @@ namespace geocone
   };
 
   /**
-   * A run: owns everything, in the order in which data flows. Velocities, time
-   * and step number are locals of run().
+   * A run: owns everything, in the order in which data flows. Points, velocities,
+   * time and step number are locals of run().
    */
   class Simulation
   {
@@ -53,18 +55,22 @@ namespace geocone
   private:
     /** Cheap or not, all that can be refused is refused here. */
     void
-    prepare(const std::string &name, const std::string &folder);
+    prepare(const std::string &name,
+            const std::string &folder,
+            Kinematics        &kinematics,
+            MaterialPoints    &points);
 
     /** One step of the programme, from t to t + h. @throws RunError */
     StepRecord
     advance(Kinematics        &kinematics,
+            MaterialPoints    &points,
             const unsigned int step,
             const double       t,
             const double       h,
             double            &substep);
 
     Json
-    size() const;
+    size(const MaterialPoints &points) const;
     Json
     cost() const;
 
@@ -72,19 +78,20 @@ namespace geocone
     Log           &log;
 
     Scene           scene;
+    Method          method;
     BackgroundMesh  mesh;
     Space           space;
     NonsmoothNewton newton;
-    ImplicitFEM     stepper;
+    ImplicitFEM     implicit_fem;
+    ImplicitMPM     implicit_mpm;
+    TimeStepper    *stepper = nullptr; ///< the one of the method
     StepControl     step_control;
     ExactSolution   exact_solution;
     RunOutput       run_output;
 
-    dealii::TimerOutput          timer;
-    dealii::Timer                total, step_loop;
-    std::unique_ptr<Constraints> constraints;
-    MaterialPoints               points;
-    unsigned int                 n_factorisations = 0;
+    dealii::TimerOutput timer;
+    dealii::Timer       total, step_loop;
+    unsigned int        n_factorisations = 0;
   };
 } // namespace geocone
 

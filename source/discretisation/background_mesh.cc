@@ -19,6 +19,32 @@ namespace geocone
 {
   using namespace dealii;
 
+  namespace
+  {
+    const std::map<std::string, types::boundary_id> sides_of_box = {
+      {"bottom", 0},
+      {"right", 1},
+      {"top", 2},
+      {"left", 3}};
+
+    /** The side of a polygon on which x lies (the nearest one). */
+    types::boundary_id
+    nearest_side(const Polygon &outline, const Point<dim> &x)
+    {
+      std::size_t nearest  = 0;
+      double      distance = std::numeric_limits<double>::max();
+      for (std::size_t i = 0; i < outline.size(); ++i)
+        if (const double d = distance_to_segment(
+              x, outline[i], outline[(i + 1) % outline.size()]);
+            d < distance)
+          {
+            distance = d;
+            nearest  = i;
+          }
+      return nearest;
+    }
+  } // namespace
+
   BackgroundMesh::BackgroundMesh(const MPI_Comm comm)
     : ParameterAcceptor("/Mesh")
     , comm(comm)
@@ -30,9 +56,9 @@ namespace geocone
   }
 
   void
-  BackgroundMesh::prepare(const Scene &scene)
+  BackgroundMesh::prepare(const Scene &scene, const Method &method)
   {
-    parameters.prepare(scene.geometry);
+    parameters.prepare(scene.geometry, method);
     const Geometry &geometry = scene.geometry;
 
     CoarseMesh mesh;
@@ -41,22 +67,31 @@ namespace geocone
     else
       {
         mesh = parameters.type == "unstructured"
-                 ? unstructured_mesh(parameters, geometry, scene.regions)
-                 : structured_mesh(parameters, geometry);
+                 ? unstructured_mesh(parameters, scene.regions)
+                 : structured_mesh(parameters);
         for (auto &cell : mesh.cells)
           cell.material_id = scene.regions.material_at(mesh.centre(cell), -1);
-        mesh.sides = geometry.sides;
+        mesh.sides = method.is_mpm() ? sides_of_box : geometry.sides;
         for (const auto &edge : mesh.outer_edges())
           {
             CellData<1> line(2);
             line.vertices    = {edge[0], edge[1]};
-            line.boundary_id = geometry.side_of(
+            line.boundary_id = nearest_side(
+              parameters.outline,
               0.5 * (mesh.points[edge[0]] + mesh.points[edge[1]]));
             mesh.boundary.boundary_lines.push_back(line);
           }
       }
     sides      = mesh.sides;
+    lines      = mesh.grid;
     simplicial = mesh.has_triangles();
+    if (simplicial && method.is_mpm())
+      throw InputError("Geometry/File",
+                       geometry.file,
+                       "quadrilaterals with MPM",
+                       "particles move through quadrilaterals only: recombine "
+                       "the triangles in gmsh, or set Discretisation/Method = "
+                       "FEM");
 
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
     if (simplicial && mesh.cells.size() > 0 &&
@@ -129,6 +164,50 @@ namespace geocone
         for (const unsigned int v : mesh.cells[c].vertices)
           part_of_vertex[v] = p;
       }
+  }
+
+  std::array<unsigned int, dim>
+  BackgroundMesh::place_in_grid(const Cell &cell) const
+  {
+    std::array<unsigned int, dim> place;
+    const Point<dim>              centre = cell->center();
+    for (unsigned int c = 0; c < dim; ++c)
+      place[c] =
+        std::upper_bound(lines[c].begin(), lines[c].end(), centre[c]) -
+        lines[c].begin() - 1;
+    return place;
+  }
+
+  Point<dim>
+  BackgroundMesh::lower_corner() const
+  {
+    Point<dim> corner = tria->get_vertices()[0];
+    for (const Point<dim> &x : tria->get_vertices())
+      for (unsigned int c = 0; c < dim; ++c)
+        corner[c] = std::min(corner[c], x[c]);
+    return corner;
+  }
+
+  Tensor<2, dim>
+  BackgroundMesh::inverse_jacobian(const Cell       &cell,
+                                   const Point<dim> &unit) const
+  {
+    // Vertices 0, 1 below and 2, 3 above; bilinear.
+    const Tensor<1, dim> along_x = (1. - unit[1]) *
+                                     (cell->vertex(1) - cell->vertex(0)) +
+                                   unit[1] *
+                                     (cell->vertex(3) - cell->vertex(2)),
+                         along_y = (1. - unit[0]) *
+                                     (cell->vertex(2) - cell->vertex(0)) +
+                                   unit[0] *
+                                     (cell->vertex(3) - cell->vertex(1));
+    Tensor<2, dim> jacobian;
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        jacobian[c][0] = along_x[c];
+        jacobian[c][1] = along_y[c];
+      }
+    return invert(jacobian);
   }
 
   std::vector<unsigned int>

@@ -61,7 +61,15 @@ namespace geocone
                   type,
                   "uniform | graded (both for boxes) | unstructured (by gmsh). "
                   "Not used where the domain is a .msh file.");
-    add_parameter("Cells", cells, "triangles | quadrilaterals.");
+    add_parameter("Box",
+                  box,
+                  "MPM: lower left and upper right corner x, y; x, y (m) of "
+                  "the background mesh; empty: the smallest box around the "
+                  "body. Leave room for what moves out of it.");
+    add_parameter("Cells",
+                  cells,
+                  "triangles | quadrilaterals | automatic: triangles for FEM, "
+                  "quadrilaterals for MPM.");
     add_parameter("Diagonals",
                   diagonals,
                   "How the rectangles of a uniform or graded mesh are cut into "
@@ -94,7 +102,38 @@ namespace geocone
   }
 
   void
-  MeshParameters::prepare(const Geometry &geometry)
+  MeshParameters::choose_outline(const Geometry &geometry, const Method &method)
+  {
+    if (!method.is_mpm())
+      {
+        if (!box.empty())
+          throw InputError("Mesh/Box",
+                           dealii::Patterns::Tools::to_string(box),
+                           "empty with FEM, whose mesh fits the body",
+                           "give the body in 'Geometry', or set "
+                           "Discretisation/Method = MPM");
+        outline = geometry.outline;
+        return;
+      }
+    const auto [lower, upper] = geometry.bounding_box();
+    if (box.empty())
+      box = {lower, upper};
+    const double tolerance = 1e-9 * lower.distance(upper);
+    if (box.size() != 2 || box[0][0] > lower[0] + tolerance ||
+        box[0][1] > lower[1] + tolerance || box[1][0] < upper[0] - tolerance ||
+        box[1][1] < upper[1] - tolerance)
+      throw InputError("Mesh/Box",
+                       dealii::Patterns::Tools::to_string(box),
+                       "lower left; upper right corner of a box around the "
+                       "body",
+                       "the body reaches from " +
+                         dealii::Patterns::Tools::to_string(lower) + " to " +
+                         dealii::Patterns::Tools::to_string(upper));
+    outline = {box[0], {box[1][0], box[0][1]}, box[1], {box[0][0], box[1][1]}};
+  }
+
+  void
+  MeshParameters::prepare(const Geometry &geometry, const Method &method)
   {
     const auto choose = [](const std::string              &entry,
                            const std::string              &value,
@@ -110,6 +149,8 @@ namespace geocone
         throw InputError("Mesh/" + entry, value, "> 0", "give it in m");
     };
     choose("Type", type, {"uniform", "graded", "unstructured"});
+    if (cells == "automatic")
+      cells = method.is_mpm() ? "quadrilaterals" : "triangles";
     choose("Cells", cells, {"triangles", "quadrilaterals"});
     choose("Diagonals", diagonals, {"alternating", "parallel", "crossed"});
     positive("Cell size", cell_size);
@@ -126,7 +167,24 @@ namespace geocone
                        growth,
                        "> 1",
                        "1.3 is usual; for equal cells take a uniform mesh");
-    if (type != "unstructured" && geometry.shape == Geometry::Shape::polygon)
+    if (geometry.shape == Geometry::Shape::discs && !method.is_mpm())
+      throw InputError("Geometry/Shape",
+                       "discs",
+                       "box | polygon | file with FEM",
+                       "set Discretisation/Method = MPM, or mesh the discs "
+                       "with gmsh");
+    if (method.is_mpm() &&
+        (type == "unstructured" || cells != "quadrilaterals") &&
+        geometry.shape != Geometry::Shape::file)
+      throw InputError(type == "unstructured" ? "Mesh/Type" : "Mesh/Cells",
+                       type == "unstructured" ? type : cells,
+                       "uniform | graded quadrilaterals with MPM",
+                       "particles move through a box of quadrilaterals: set "
+                       "Mesh/Type = uniform, Mesh/Cells = automatic");
+    if (geometry.shape != Geometry::Shape::file)
+      choose_outline(geometry, method);
+    if (type != "unstructured" && !method.is_mpm() &&
+        geometry.shape == Geometry::Shape::polygon)
       throw InputError("Mesh/Type",
                        type,
                        "unstructured, where the domain is a polygon",
@@ -140,14 +198,12 @@ namespace geocone
       for (const Point<dim> &x : grading_points)
         {
           double distance = 1e300;
-          for (std::size_t i = 0; i < geometry.outline.size(); ++i)
-            distance =
-              std::min(distance,
-                       distance_to_segment(
-                         x,
-                         geometry.outline[i],
-                         geometry.outline[(i + 1) % geometry.outline.size()]));
-          if (distance > 1e-9 && !contains(geometry.outline, x))
+          for (std::size_t i = 0; i < outline.size(); ++i)
+            distance = std::min(
+              distance,
+              distance_to_segment(
+                x, outline[i], outline[(i + 1) % outline.size()]));
+          if (distance > 1e-9 && !contains(outline, x))
             throw InputError("Mesh/Grading points",
                              dealii::Patterns::Tools::to_string(x),
                              "points of the domain",
@@ -234,10 +290,11 @@ namespace geocone
   } // namespace
 
   CoarseMesh
-  structured_mesh(const MeshParameters &parameters, const Geometry &geometry)
+  structured_mesh(const MeshParameters &parameters)
   {
-    const Point<dim> lower = geometry.outline[0], upper = geometry.outline[2];
-    std::vector<double> x[dim];
+    const Point<dim> lower = parameters.outline[0],
+                     upper = parameters.outline[2];
+    std::array<std::vector<double>, dim> x;
     for (unsigned int c = 0; c < dim; ++c)
       if (parameters.type == "graded")
         {
@@ -289,6 +346,8 @@ namespace geocone
               add_cell({b, d, c});
             }
         }
+    if (parameters.cells == "quadrilaterals")
+      mesh.grid = x;
     return mesh;
   }
 } // namespace geocone

@@ -269,9 +269,7 @@ namespace geocone
   }
 
   CoarseMesh
-  unstructured_mesh(const MeshParameters &parameters,
-                    const Geometry       &geometry,
-                    const Regions        &regions)
+  unstructured_mesh(const MeshParameters &parameters, const Regions &regions)
   {
     const Session session;
     namespace occ = gmsh::model::occ;
@@ -289,7 +287,7 @@ namespace geocone
 
     // The domain is fragmented by the materials' borders and by the grading
     // points, which so become edges and vertices of the mesh.
-    const gmsh::vectorpair domain = {{2, surface(geometry.outline)}};
+    const gmsh::vectorpair domain = {{2, surface(parameters.outline)}};
     gmsh::vectorpair       tools;
     for (const Polygon &polygon : regions.polygons())
       tools.emplace_back(2, surface(polygon));

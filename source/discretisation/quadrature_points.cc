@@ -44,25 +44,29 @@ namespace geocone
     : quadrature(quadrature)
     , position(quadrature.size())
     , weight(quadrature.size())
+    , space(space)
     , n_nodes(space.nodes_per_cell())
+    , reference_value(quadrature.size() * n_nodes)
+    , reference_gradient(quadrature.size() * n_nodes)
     , geometry(std::make_unique<Geometry>(mesh, quadrature))
-  {
-    for (const Point<dim> &x : quadrature.get_points())
-      for (unsigned int i = 0; i < n_nodes; ++i)
-        {
-          reference_value.push_back(space.finite_element().shape_value(i, x));
-          reference_gradient.push_back(space.finite_element().shape_grad(i, x));
-        }
-  }
+  {}
 
   CellValues::~CellValues() = default;
 
   void
   CellValues::reinit(const Space::Cell &cell)
   {
+    // Splines differ from cell to cell, elements do not.
+    const bool evaluate = space.is_spline() || !is_evaluated;
+    is_evaluated        = true;
     geometry->fe_values.reinit(Triangulation<dim>::cell_iterator(cell));
     for (unsigned int q = 0; q < position.size(); ++q)
       {
+        if (evaluate)
+          space.evaluate(cell,
+                         quadrature.point(q),
+                         &reference_value[q * n_nodes],
+                         &reference_gradient[q * n_nodes]);
         position[q] = geometry->fe_values.quadrature_point(q);
         weight[q]   = geometry->fe_values.JxW(q);
       }
@@ -84,10 +88,10 @@ namespace geocone
     points.n_nodes = space.nodes_per_cell();
     CellValues values(space, mesh, stress_quadrature(space, mesh));
     std::vector<types::global_dof_index> nodes;
-    for (const Space::Cell &cell : space.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
+    for (const auto &cell : mesh.own_cells())
+      {
           values.reinit(cell);
+          points.cells.push_back(cell);
           space.cell_nodes(cell, nodes);
           for (const types::global_dof_index node : nodes)
             points.nodes.push_back(space.local_node(node));

@@ -4,12 +4,34 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/discretisation/space.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/fe/fe_bernstein.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/fe_tools.h>
+
+#include <numeric>
 
 namespace geocone
 {
   using namespace dealii;
+
+  namespace
+  {
+    /** dim dofs per node: the owned nodes are a contiguous range. */
+    IndexSet
+    expand(const IndexSet &nodes)
+    {
+      IndexSet set(dim * nodes.size());
+      for (auto interval = nodes.begin_intervals();
+           interval != nodes.end_intervals();
+           ++interval)
+        set.add_range(dim * *interval->begin(), dim * (interval->last() + 1));
+      set.compress();
+      return set;
+    }
+  } // namespace
 
   Space::Space()
     : ParameterAcceptor("/Discretisation")
@@ -17,117 +39,250 @@ namespace geocone
     add_parameter("Element",
                   name,
                   "P1, P2, P3 on triangles; Q1, Q2, Q3 on quadrilaterals; "
-                  "automatic: the cubic one.");
+                  "B-spline 2, B-spline 3 on uniform and graded grids of them; "
+                  "automatic: P3 or Q3 for FEM, B-spline 3 for MPM (Q1 where "
+                  "the mesh comes from a file).");
+    add_parameter("Basis",
+                  basis,
+                  "Of Q2 and Q3: Lagrange | Bernstein | automatic: Lagrange's "
+                  "for FEM, Bernstein's, which are not negative, for MPM.");
   }
 
   void
-  Space::prepare(const BackgroundMesh &mesh)
+  Space::prepare(const BackgroundMesh &background, const Method &method)
   {
+    mesh                  = &background;
+    const bool simplicial = mesh->is_simplicial();
+    const bool has_grid   = !mesh->grid()[0].empty();
     if (name == "automatic")
-      name = mesh.is_simplicial() ? "P3" : "Q3";
-    const std::string cells =
-      mesh.is_simplicial() ? "triangles" : "quadrilaterals";
-    const std::string allowed =
-      mesh.is_simplicial() ? "automatic | P1 | P2 | P3 on triangles"
-                           : "automatic | Q1 | Q2 | Q3 on quadrilaterals";
-    if (name.size() != 2 || name[0] != (mesh.is_simplicial() ? 'P' : 'Q') ||
-        name[1] < '1' || name[1] > '3')
-      throw InputError("Discretisation/Element",
-                       name,
-                       allowed,
-                       "choose one of them, or change the cells of the mesh");
-    const unsigned int p = name[1] - '0';
+      name = simplicial         ? "P3"
+             : !method.is_mpm() ? "Q3"
+             : has_grid         ? "B-spline 3"
+                                : "Q1";
+    std::vector<std::string> allowed = {"P1", "P2", "P3"};
+    if (!simplicial)
+      allowed = {"Q1", "Q2", "Q3"};
+    if (has_grid)
+      allowed.insert(allowed.end(), {"B-spline 2", "B-spline 3"});
+    if (std::find(allowed.begin(), allowed.end(), name) == allowed.end())
+      {
+        std::string text = "automatic";
+        for (const std::string &element : allowed)
+          text += " | " + element;
+        throw InputError("Discretisation/Element",
+                         name,
+                         text + " on this mesh",
+                         "choose one of them, or change the cells of the mesh");
+      }
+    if (basis == "automatic")
+      basis = method.is_mpm() ? "Bernstein" : "Lagrange";
+    if (basis != "Lagrange" && basis != "Bernstein")
+      throw InputError("Discretisation/Basis",
+                       basis,
+                       "automatic | Lagrange | Bernstein",
+                       "choose one of them");
+    p = name.back() - '0';
+
+    n_nodes_per_cell = simplicial ? (p + 1) * (p + 2) / 2 : (p + 1) * (p + 1);
+    const IndexSet owned =
+      name[0] == 'B' ? prepare_splines(*mesh) : prepare_finite_element(*mesh);
+
+    // Only the nodes of own cells are needed, not those of all ghost cells.
+    IndexSet                             active(owned.size());
+    std::vector<types::global_dof_index> nodes;
+    for (const auto &cell : mesh->own_cells())
+      {
+        cell_nodes(cell, nodes);
+        active.add_indices(nodes.begin(), nodes.end());
+      }
+    active.compress();
+    layout = std::make_shared<Utilities::MPI::Partitioner>(
+      expand(owned),
+      expand(active),
+      mesh->triangulation().get_communicator());
+
+    positions.resize(n_local_nodes());
+    for (const auto &cell : mesh->triangulation().active_cell_iterators())
+      if (!cell->is_artificial())
+        {
+          cell_nodes(cell, nodes);
+          const auto place = is_spline() ? mesh->place_in_grid(cell) :
+                                           std::array<unsigned int, dim>();
+          for (unsigned int i = 0; i < nodes.size(); ++i)
+            if (layout->in_local_range(dim * nodes[i]) ||
+                layout->is_ghost_entry(dim * nodes[i]))
+              {
+                Point<dim> &x = positions[local_node(nodes[i])];
+                if (is_spline())
+                  for (unsigned int c = 0; c < dim; ++c)
+                    x[c] = splines[c].greville(place[c] + lattice[i][c]);
+                else
+                  x = mesh->mapping().transform_unit_to_real_cell(
+                    cell,
+                    basis == "Bernstein" && !simplicial ?
+                      Point<dim>(1. * lattice[i][0] / p,
+                                 1. * lattice[i][1] / p) :
+                      fe->unit_support_point(i));
+              }
+        }
+  }
+
+  IndexSet
+  Space::prepare_finite_element(const BackgroundMesh &mesh)
+  {
     if (!mesh.is_simplicial())
-      fe = std::make_unique<FE_Q<dim>>(p);
+      {
+        if (basis == "Bernstein")
+          fe = std::make_unique<FE_Bernstein<dim>>(p);
+        else
+          fe = std::make_unique<FE_Q<dim>>(p);
+        for (const unsigned int i :
+             FETools::hierarchic_to_lexicographic_numbering<dim>(p))
+          lattice.push_back({{i % (p + 1), i / (p + 1)}});
+      }
     else if (p < 3)
       fe = std::make_unique<FE_SimplexP<dim>>(p);
     else
       fe = make_cubic_simplex();
-
     dofs = std::make_unique<DoFHandler<dim>>(mesh.triangulation());
     dofs->distribute_dofs(*fe);
+    return dofs->locally_owned_dofs();
+  }
 
-    // dim dofs per node: the owned nodes are a contiguous range.
-    const auto expand = [&](const IndexSet &nodes) {
-      IndexSet set(dim * dofs->n_dofs());
-      for (auto interval = nodes.begin_intervals();
-           interval != nodes.end_intervals();
-           ++interval)
-        set.add_range(dim * *interval->begin(), dim * (interval->last() + 1));
-      set.compress();
-      return set;
+  IndexSet
+  Space::prepare_splines(const BackgroundMesh &mesh)
+  {
+    for (unsigned int c = 0; c < dim; ++c)
+      splines.emplace_back(p, mesh.grid()[c]);
+    for (unsigned int i = 0; i < n_nodes_per_cell; ++i)
+      lattice.push_back({{i % (p + 1), i / (p + 1)}});
+
+    // A node belongs to the rank of a cell in the middle of its support. The
+    // ranks of all cells are needed: supports reach beyond the ghost cells.
+    const MPI_Comm     comm    = mesh.triangulation().get_communicator();
+    const int          rank    = Utilities::MPI::this_mpi_process(comm);
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
+    const unsigned int nx      = mesh.grid()[0].size() - 1,
+                       ny      = mesh.grid()[1].size() - 1;
+    std::vector<int> rank_of_cell(nx * ny, -1);
+    for (const auto &cell : mesh.own_cells())
+      {
+        const auto place                    = mesh.place_in_grid(cell);
+        rank_of_cell[place[1] * nx + place[0]] = rank;
+      }
+    Utilities::MPI::max(ArrayView<const int>(rank_of_cell),
+                        comm,
+                        ArrayView<int>(rank_of_cell));
+
+    const auto home = [&](const unsigned int function, const unsigned int n) {
+      return std::min(n - 1, function - std::min(function, p / 2));
     };
-
-    // Only the nodes of own cells are needed, not those of all ghost cells.
-    IndexSet                             active(dofs->n_dofs());
-    std::vector<types::global_dof_index> nodes;
-    for (const Cell &cell : dofs->active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          cell_nodes(cell, nodes);
-          active.add_indices(nodes.begin(), nodes.end());
-        }
-    active.compress();
-    layout = std::make_shared<Utilities::MPI::Partitioner>(
-      expand(dofs->locally_owned_dofs()),
-      expand(active),
-      mesh.triangulation().get_communicator());
-
-    positions.resize(n_local_nodes());
-    for (const Cell &cell : dofs->active_cell_iterators())
-      if (!cell->is_artificial())
-        {
-          cell_nodes(cell, nodes);
-          for (unsigned int i = 0; i < nodes.size(); ++i)
-            if (layout->in_local_range(dim * nodes[i]) ||
-                layout->is_ghost_entry(dim * nodes[i]))
-              positions[local_node(nodes[i])] =
-                mesh.mapping().transform_unit_to_real_cell(
-                  cell, fe->unit_support_point(i));
-        }
+    const unsigned int        mx = splines[0].n_functions();
+    std::vector<unsigned int> rank_of_node;
+    for (unsigned int b = 0; b < splines[1].n_functions(); ++b)
+      for (unsigned int a = 0; a < mx; ++a)
+        rank_of_node.push_back(rank_of_cell[home(b, ny) * nx + home(a, nx)]);
+    std::vector<types::global_dof_index> next(n_ranks + 1, 0);
+    for (const unsigned int r : rank_of_node)
+      ++next[r + 1];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    IndexSet owned(rank_of_node.size());
+    owned.add_range(next[rank], next[rank + 1]);
+    for (const unsigned int r : rank_of_node)
+      spline_number.push_back(next[r]++);
+    return owned;
   }
 
   void
   Space::cell_nodes(const Cell                           &cell,
                     std::vector<types::global_dof_index> &nodes) const
   {
-    nodes.resize(fe->n_dofs_per_cell());
+    nodes.resize(n_nodes_per_cell);
+    if (is_spline())
+      {
+        const auto place = mesh->place_in_grid(cell);
+        for (unsigned int i = 0; i < n_nodes_per_cell; ++i)
+          nodes[i] = spline_number[(place[1] + lattice[i][1]) *
+                                     splines[0].n_functions() +
+                                   place[0] + lattice[i][0]];
+        return;
+      }
+    const DoFHandler<dim>::active_cell_iterator dof_cell(
+      &mesh->triangulation(), cell->level(), cell->index(), dofs.get());
     if (fe->n_dofs_per_line() < 2 || cell->n_vertices() == 4)
       {
-        cell->get_dof_indices(nodes);
+        dof_cell->get_dof_indices(nodes);
         return;
       }
     // The cubic triangle: as the edges store them, turned where the edge runs
     // against the cell.
     unsigned int i = 0;
     for (const unsigned int v : cell->vertex_indices())
-      nodes[i++] = cell->vertex_dof_index(v, 0);
+      nodes[i++] = dof_cell->vertex_dof_index(v, 0);
     for (unsigned int l = 0; l < 3; ++l)
       {
-        const auto line = cell->line(l);
+        const auto line = dof_cell->line(l);
         const bool same_direction =
           line->vertex_index(0) == cell->vertex_index(l);
         nodes[i++] = line->dof_index(same_direction ? 0 : 1);
         nodes[i++] = line->dof_index(same_direction ? 1 : 0);
       }
-    nodes[i] = cell->dof_index(0);
+    nodes[i] = dof_cell->dof_index(0);
+  }
+
+  void
+  Space::evaluate(const Cell       &cell,
+                  const Point<dim> &unit,
+                  double           *N,
+                  Tensor<1, dim>   *gradient) const
+  {
+    if (!is_spline() && (basis == "Lagrange" || lattice.empty()))
+      {
+        for (unsigned int i = 0; i < n_nodes_per_cell; ++i)
+          {
+            N[i] = fe->shape_value(i, unit);
+            if (gradient != nullptr)
+              gradient[i] = fe->shape_grad(i, unit);
+          }
+        return;
+      }
+    double value[dim][max_degree + 1], slope[dim][max_degree + 1];
+    if (is_spline())
+      {
+        const auto place = mesh->place_in_grid(cell);
+        for (unsigned int c = 0; c < dim; ++c)
+          splines[c].evaluate(place[c], unit[c], value[c], slope[c]);
+      }
+    else
+      for (unsigned int c = 0; c < dim; ++c)
+        bernstein(p, unit[c], value[c], slope[c]);
+    for (unsigned int i = 0; i < n_nodes_per_cell; ++i)
+      {
+        const auto [a, b] = lattice[i];
+        N[i]              = value[0][a] * value[1][b];
+        if (gradient != nullptr)
+          {
+            gradient[i][0] = slope[0][a] * value[1][b];
+            gradient[i][1] = value[0][a] * slope[1][b];
+          }
+      }
   }
 
   std::vector<unsigned int>
   Space::nodes_on_sides(const std::set<types::boundary_id> &ids) const
   {
+    const auto on_face = [&](const unsigned int i, const unsigned int f) {
+      if (!lattice.empty())
+        return lattice[i][f / 2] == (f % 2 == 0 ? 0 : p);
+      const Point<dim> x           = fe->unit_support_point(i);
+      const double     distances[] = {x[1], 1. - x[0] - x[1], x[0]};
+      return std::abs(distances[f]) < 1e-10;
+    };
     // The ghost cells are looked at as well: of a node that this rank has, the
     // boundary face may belong to a cell of another rank.
-    const auto on_face = [&](const Point<dim> &x, const unsigned int f) {
-      const double distances_triangle[] = {x[1], 1. - x[0] - x[1], x[0]};
-      const double distances_square[]   = {x[0], 1. - x[0], x[1], 1. - x[1]};
-      return std::abs(fe->reference_cell() == ReferenceCells::Triangle
-                        ? distances_triangle[f]
-                        : distances_square[f]) < 1e-10;
-    };
     std::set<unsigned int>               found;
     std::vector<types::global_dof_index> nodes;
-    for (const Cell &cell : dofs->active_cell_iterators())
+    for (const auto &cell : mesh->triangulation().active_cell_iterators())
       if (!cell->is_artificial())
         for (const unsigned int f : cell->face_indices())
           if (cell->face(f)->at_boundary() &&
@@ -135,7 +290,7 @@ namespace geocone
             {
               cell_nodes(cell, nodes);
               for (unsigned int i = 0; i < nodes.size(); ++i)
-                if (on_face(fe->unit_support_point(i), f) &&
+                if (on_face(i, f) &&
                     (layout->in_local_range(dim * nodes[i]) ||
                      layout->is_ghost_entry(dim * nodes[i])))
                   found.insert(local_node(nodes[i]));

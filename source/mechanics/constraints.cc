@@ -20,16 +20,17 @@ namespace geocone
                            const Space          &space)
     : scene(scene)
     , space(space)
+    , comm(mesh.triangulation().get_communicator())
   {
-    const MPI_Comm     comm    = mesh.triangulation().get_communicator();
-    const auto        &list    = scene.dirichlet.list;
-    const unsigned int n_local = space.n_local_nodes();
-
     // The last condition in the list that prescribes a dof holds it.
+    const auto                        &list = scene.dirichlet.list;
     std::map<unsigned int, Prescribed> of_dof;
     for (unsigned int c = 0; c < list.size(); ++c)
       {
         owned_nodes.emplace_back();
+        n_nodes.push_back(0);
+        if (list[c]->moves())
+          continue;
         for (const unsigned int node :
              space.nodes_on_sides(mesh.side_ids(*list[c])))
           if (list[c]->in_box(space.node_positions()[node]))
@@ -40,7 +41,7 @@ namespace geocone
                 if (list[c]->components[i])
                   of_dof[dim * node + i] = {dim * node + i, c, i};
             }
-        n_nodes.push_back(Utilities::MPI::sum(owned_nodes[c].size(), comm));
+        n_nodes[c] = Utilities::MPI::sum(owned_nodes[c].size(), comm);
         if (n_nodes[c] == 0)
           throw InputError(list[c]->parameter("Box"),
                            list[c]->part(),
@@ -50,12 +51,28 @@ namespace geocone
       }
     for (const auto &entry : of_dof)
       prescribed.push_back(entry.second);
+  }
 
-    // Free rows: owned dofs first, numbered through the ranks; a ghost's number
-    // comes from its owner.
+  void
+  Constraints::number_unknowns(const Vector *mass)
+  {
+    // A function that has but a rounding's share of the mass moves nothing.
+    const double       least   = mass ? 1e-14 * mass->linfty_norm() : 0.;
+    const unsigned int n_local = space.n_local_nodes();
     free_row.assign(dim * n_local, 0);
+    with_mass.assign(dim * n_local, true);
+    if (mass != nullptr)
+      for (unsigned int dof = 0; dof < dim * n_local; ++dof)
+        if (!(mass->local_element(dof) > least))
+          {
+            free_row[dof]  = massless_row;
+            with_mass[dof] = false;
+          }
     for (const Prescribed &p : prescribed)
-      free_row[p.local_dof] = -1;
+      free_row[p.local_dof] = prescribed_row;
+
+    // Owned dofs first, numbered through the ranks; a ghost's number comes from
+    // its owner.
     int n_local_rows = 0;
     for (unsigned int dof = 0; dof < dim * n_local; ++dof)
       {
@@ -75,6 +92,7 @@ namespace geocone
       if (is_free(dof))
         number.local_element(dof) = first + free_row[dof];
     number.update_ghost_values();
+    global_row.clear();
     for (unsigned int dof = 0; dof < dim * n_local; ++dof)
       if (is_free(dof))
         global_row.push_back(std::lround(number.local_element(dof)));
@@ -87,7 +105,6 @@ namespace geocone
   Constraints::check_support(const BackgroundMesh &mesh,
                              const Space          &space) const
   {
-    const MPI_Comm comm = mesh.triangulation().get_communicator();
     const std::vector<unsigned int> part_of_vertex = mesh.connected_parts();
     unsigned int                    n_parts        = 0;
     for (const unsigned int part : part_of_vertex)
@@ -97,8 +114,7 @@ namespace geocone
     std::vector<int>    part_of_node(space.n_local_nodes(), -1);
     std::vector<double> sums(4 * n_parts, 0.);
     std::vector<types::global_dof_index> nodes;
-    for (const auto &cell : space.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
+    for (const auto &cell : mesh.own_cells())
         {
           space.cell_nodes(cell, nodes);
           for (const auto node : nodes)
@@ -200,9 +216,9 @@ namespace geocone
   {
     double sum = 0.;
     for (const unsigned int node : owned_nodes[condition])
-      if (!is_free(dim * node + component))
+      if (is_prescribed(dim * node + component))
         sum += residual.local_element(dim * node + component);
-    return Utilities::MPI::sum(sum, residual.get_mpi_communicator());
+    return Utilities::MPI::sum(sum, comm);
   }
 
   double
@@ -213,7 +229,7 @@ namespace geocone
     double sum = 0.;
     for (const unsigned int node : owned_nodes[condition])
       sum += field.local_element(dim * node + component);
-    return Utilities::MPI::sum(sum, field.get_mpi_communicator()) /
+    return Utilities::MPI::sum(sum, comm) /
            n_nodes[condition];
   }
 } // namespace geocone

@@ -18,12 +18,14 @@ namespace geocone
     const Materials                                          &materials,
     const Constraints                                        &constraints,
     const std::shared_ptr<const Utilities::MPI::Partitioner> &layout,
-    const Vector                                             *lumped_mass)
+    const Vector                                             *lumped_mass,
+    const double                                              consistent_part)
     : points(points)
     , materials(materials)
     , constraints(constraints)
     , layout(layout)
     , mass(lumped_mass)
+    , consistent_part(consistent_part)
     , strain(points.n_points(), Mandel::Zero())
     , stress(points.n_points())
     , mode(points.n_points(), Mode::elastic)
@@ -47,6 +49,63 @@ namespace geocone
     t          = end;
     force      = external_force;
     velocity_L = v;
+    elastic_diagonal.reinit(0);
+    if (consistent_part > 0.)
+      {
+        velocity_L.update_ghost_values();
+        inertia.reinit(layout);
+      }
+  }
+
+  template <int n>
+  void
+  IncrementalProblem::strains_of_cell(const unsigned int   c,
+                                      const double        *cell_v,
+                                      const double         factor,
+                                      std::vector<Mandel> &result) const
+  {
+    const unsigned int begin = points.first_point[c],
+                       end   = points.first_point[c + 1];
+    for (unsigned int p = begin; p < end; ++p)
+      result[p] =
+        factor * kernels::strain<n>(&points.gradients[2 * n * p], cell_v);
+    if (points.mean_gradients.empty())
+      return;
+    const Mandel mean =
+      factor * kernels::strain<n>(&points.mean_gradients[2 * n * c], cell_v);
+    for (unsigned int p = begin; p < end; ++p)
+      result[p].head<2>().array() +=
+        (mean[0] + mean[1] - result[p][0] - result[p][1]) / 2.;
+  }
+
+  template <int n, typename WeightedStress>
+  void
+  IncrementalProblem::add_forces_of_cell(const unsigned int    c,
+                                         const WeightedStress &weighted_stress,
+                                         double               *cell_f) const
+  {
+    const unsigned int begin = points.first_point[c],
+                       end   = points.first_point[c + 1];
+    if (points.mean_gradients.empty())
+      {
+        for (unsigned int p = begin; p < end; ++p)
+          add_force<n>(&points.gradients[2 * n * p],
+                       weighted_stress(p),
+                       cell_f);
+        return;
+      }
+    double volumetric = 0.;
+    for (unsigned int p = begin; p < end; ++p)
+      {
+        Mandel       s    = weighted_stress(p);
+        const double mean = (s[0] + s[1]) / 2.;
+        s.head<2>().array() -= mean;
+        volumetric += mean;
+        add_force<n>(&points.gradients[2 * n * p], s, cell_f);
+      }
+    add_force<n>(&points.mean_gradients[2 * n * c],
+                 Mandel(volumetric, volumetric, 0.),
+                 cell_f);
   }
 
   void
@@ -76,11 +135,7 @@ namespace geocone
         {
           double cell_v[2 * n];
           gather<n>(v.begin(), &points.nodes[c * n], cell_v);
-          for (unsigned int p = points.first_point[c];
-               p < points.first_point[c + 1];
-               ++p)
-            strain[p] =
-              h * kernels::strain<n>(&points.gradients[2 * n * p], cell_v);
+          strains_of_cell<n>(c, cell_v, h, strain);
         }
     });
 
@@ -93,19 +148,28 @@ namespace geocone
       for (unsigned int c = 0; c < points.n_cells(); ++c)
         {
           double cell_f[2 * n] = {};
-          for (unsigned int p = points.first_point[c];
-               p < points.first_point[c + 1];
-               ++p)
-            add_force<n>(&points.gradients[2 * n * p],
-                         points.weight[p] * stress[p],
-                         cell_f);
+          add_forces_of_cell<n>(
+            c,
+            [&](const unsigned int p) -> Mandel {
+              return points.weight[p] * stress[p];
+            },
+            cell_f);
           scatter_add<n>(cell_f, &points.nodes[c * n], dst.begin());
         }
     });
     dst.compress(VectorOperation::add);
 
-    // One reduction for all sums: |B'V s|^2, |F|^2, |R_free|^2, counts.
-    std::array<double, 6> sums  = {};
+    if (consistent_part > 0.)
+      {
+        Vector change = v;
+        change -= velocity_L;
+        change.update_ghost_values();
+        apply_mass(inertia, change);
+      }
+
+    // One reduction for all sums: the squared norms of B'V s, F, M (v - vL)/h,
+    // M vL/h and R on the free dofs, and counts.
+    std::array<double, 8> sums  = {};
     const unsigned int    n_dof = dst.locally_owned_size();
     for (unsigned int i = 0; i < n_dof; ++i)
       {
@@ -118,27 +182,127 @@ namespace geocone
             r -= f;
           }
         if (mass != nullptr)
-          r += mass->local_element(i) / h *
-               (v.local_element(i) - velocity_L.local_element(i));
+          {
+            const double m  = mass->local_element(i) / h;
+            const double vL = velocity_L.local_element(i);
+            const double f  = consistent_part > 0. ?
+                                inertia.local_element(i) / h :
+                                m * (v.local_element(i) - vL);
+            r += f;
+            sums[2] += f * f;
+            sums[3] += m * m * vL * vL;
+          }
         if (constraints.is_free(i))
-          sums[2] += r * r;
+          sums[4] += r * r;
       }
     for (unsigned int p = 0; p < points.n_points(); ++p)
       {
-        sums[3] += mode[p] == Mode::cone;
-        sums[4] += mode[p] == Mode::apex;
-        sums[5] += mode[p] != previous_mode[p];
+        sums[5] += mode[p] == Mode::cone;
+        sums[6] += mode[p] == Mode::apex;
+        sums[7] += mode[p] != previous_mode[p];
       }
     Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
                         layout->get_mpi_communicator(),
                         ArrayView<double>(sums.data(), sums.size()));
+    if (constraints.multipliers.n_rows() > 0)
+      {
+        lambda = constraints.multipliers.fit(dst, &scale());
+        constraints.multipliers.add_transposed(dst, -1., lambda);
+        sums[4] = free_dot(dst, dst);
+      }
     ResidualReport report;
-    report.force_norm = std::max(std::sqrt(sums[0]), std::sqrt(sums[1]));
-    report.norm       = std::sqrt(sums[2]);
-    report.n_cone     = sums[3];
-    report.n_apex     = sums[4];
-    report.n_switched = sums[5];
+    // The momentum itself counts little: a body in free flight has nothing else.
+    report.force_norm = std::sqrt(
+      std::max({sums[0], sums[1], sums[2], 1e-6 * sums[3]}));
+    report.norm       = std::sqrt(sums[4]);
+    report.n_cone     = sums[5];
+    report.n_apex     = sums[6];
+    report.n_switched = sums[7];
     return report;
+  }
+
+  void
+  IncrementalProblem::apply_mass(Vector &dst, const Vector &x) const
+  {
+    dst = 0.;
+    if (consistent_part > 0.)
+      {
+        with_n_nodes(points.n_nodes, [&](const auto n_constant) {
+          constexpr int n = n_constant;
+          for (unsigned int c = 0; c < points.n_cells(); ++c)
+            {
+              double cell_x[2 * n], cell_f[2 * n] = {};
+              gather<n>(x.begin(), &points.nodes[c * n], cell_x);
+              for (unsigned int p = points.first_point[c];
+                   p < points.first_point[c + 1];
+                   ++p)
+                {
+                  const double *N  = &points.values[n * p];
+                  double        ax = 0., ay = 0.;
+                  for (int i = 0; i < n; ++i)
+                    {
+                      ax += N[i] * cell_x[2 * i];
+                      ay += N[i] * cell_x[2 * i + 1];
+                    }
+                  const double m = consistent_part * points.mass[p];
+                  for (int i = 0; i < n; ++i)
+                    {
+                      cell_f[2 * i] += m * N[i] * ax;
+                      cell_f[2 * i + 1] += m * N[i] * ay;
+                    }
+                }
+              scatter_add<n>(cell_f, &points.nodes[c * n], dst.begin());
+            }
+        });
+        dst.compress(VectorOperation::add);
+      }
+    for (unsigned int i = 0; i < dst.locally_owned_size(); ++i)
+      dst.local_element(i) +=
+        (1. - consistent_part) * mass->local_element(i) * x.local_element(i);
+  }
+
+  const Vector &
+  IncrementalProblem::scale()
+  {
+    if (elastic_diagonal.size() > 0)
+      return elastic_diagonal;
+    elastic_diagonal.reinit(layout);
+    const unsigned int n = points.n_nodes;
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      for (unsigned int p = points.first_point[c];
+           p < points.first_point[c + 1];
+           ++p)
+        {
+          const Elasticity &e = materials[points.material[p]].elasticity();
+          const double      direct = e.lambda + e.two_G, shear = e.two_G / 2.;
+          const double      factor = h * points.weight[p];
+          for (unsigned int i = 0; i < n; ++i)
+            {
+              const double gx = points.gradients[2 * n * p + i],
+                           gy = points.gradients[2 * n * p + n + i];
+              const unsigned int dof = dim * points.nodes[c * n + i];
+              elastic_diagonal.local_element(dof) +=
+                factor * (direct * gx * gx + shear * gy * gy);
+              elastic_diagonal.local_element(dof + 1) +=
+                factor * (direct * gy * gy + shear * gx * gx);
+            }
+        }
+    elastic_diagonal.compress(VectorOperation::add);
+    if (mass != nullptr)
+      elastic_diagonal.add(1. / h, *mass);
+    return elastic_diagonal;
+  }
+
+  double
+  IncrementalProblem::merit(const Vector &residual)
+  {
+    const Vector &D   = scale();
+    double        sum = 0.;
+    for (unsigned int i = 0; i < residual.locally_owned_size(); ++i)
+      if (constraints.is_free(i))
+        sum += residual.local_element(i) * residual.local_element(i) /
+               D.local_element(i);
+    return Utilities::MPI::sum(sum, layout->get_mpi_communicator());
   }
 
   SparseMatrix
@@ -187,10 +351,18 @@ namespace geocone
       }
     matrix.value.assign(matrix.column.size(), 0.);
 
+    // The columns of a node's components stand side by side: one search finds
+    // both.
     scatter.clear();
     scatter.reserve(std::size_t(points.n_cells()) * n_dofs *
                     (one_triangle ? n_dofs + 1 : 2 * n_dofs) / 2);
     std::vector<int> rows(n_dofs);
+    const auto       place_of = [&](const unsigned int i, const unsigned int j) {
+      return rows[i] < 0 || rows[j] < 0 ? -1 :
+             one_triangle && rows[i] < rows[j] ?
+                                          matrix.entry(rows[j], rows[i]) :
+                                          matrix.entry(rows[i], rows[j]);
+    };
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       {
         for (unsigned int i = 0; i < n; ++i)
@@ -198,10 +370,12 @@ namespace geocone
             rows[dim * i + d] = row_of[dim * points.nodes[c * n + i] + d];
         for (unsigned int i = 0; i < n_dofs; ++i)
           for (unsigned int j = one_triangle ? i : 0; j < n_dofs; ++j)
-            scatter.push_back(rows[i] < 0 || rows[j] < 0 ? -1
-                              : one_triangle && rows[i] < rows[j]
-                                ? matrix.entry(rows[j], rows[i])
-                                : matrix.entry(rows[i], rows[j]));
+            {
+              const bool second =
+                j % dim == 1 && rows[i] >= 0 && rows[j - 1] >= 0 &&
+                rows[j] >= 0 && (!one_triangle || (j > i && rows[j] < rows[i]));
+              scatter.push_back(second ? scatter.back() + 1 : place_of(i, j));
+            }
       }
     diagonal.resize(matrix.n_rows());
     for (int row = 0; row < matrix.n_rows(); ++row)
@@ -236,10 +410,23 @@ namespace geocone
                          materials[points.material[p]].elasticity().stiffness();
             }
           const double *g = &points.gradients[2 * n * first];
-          if (one_triangle)
+          if (!points.mean_gradients.empty())
+            stiffness_b_bar<n>(
+              g, &points.mean_gradients[2 * n * c], C.data(), n_q, K);
+          else if (one_triangle)
             stiffness<n, true>(g, C.data(), n_q, scratch.data(), K);
           else
             stiffness<n, false>(g, C.data(), n_q, scratch.data(), K);
+          if (consistent_part > 0.)
+            for (unsigned int q = 0; q < n_q; ++q)
+              {
+                const double *N = &points.values[n * (first + q)];
+                const double  m = consistent_part * points.mass[first + q] / h;
+                for (int i = 0; i < n; ++i)
+                  for (int j = 0; j < n; ++j)
+                    for (int d = 0; d < 2; ++d)
+                      K[2 * n * (2 * i + d) + 2 * j + d] += m * N[i] * N[j];
+              }
           for (int i = 0; i < 2 * n; ++i)
             for (int j = one_triangle ? i : 0; j < 2 * n; ++j, ++place)
               if (*place >= 0)
@@ -250,37 +437,40 @@ namespace geocone
       for (unsigned int i = 0; i < mass->locally_owned_size(); ++i)
         if (constraints.is_free(i))
           matrix.value[diagonal[constraints.free_row[i]]] +=
-            mass->local_element(i) / h;
+            (1. - consistent_part) * mass->local_element(i) / h;
   }
 
   void
   IncrementalProblem::apply_tangent(Vector &dst, const Vector &dv) const
   {
     update_materials(true);
+    Vector change;
+    if (mass != nullptr)
+      {
+        change.reinit(layout);
+        apply_mass(change, dv);
+      }
     dst = 0.;
+    std::vector<Mandel> rate(points.n_points());
     with_n_nodes(points.n_nodes, [&](const auto n_constant) {
       constexpr int n = n_constant;
       for (unsigned int c = 0; c < points.n_cells(); ++c)
         {
           double cell_v[2 * n], cell_f[2 * n] = {};
           gather<n>(dv.begin(), &points.nodes[c * n], cell_v);
-          for (unsigned int p = points.first_point[c];
-               p < points.first_point[c + 1];
-               ++p)
-            {
-              const double *g  = &points.gradients[2 * n * p];
-              const Mandel  ds = (h * points.weight[p]) *
-                                (tangent[p] * kernels::strain<n>(g, cell_v));
-              add_force<n>(g, ds, cell_f);
-            }
+          strains_of_cell<n>(c, cell_v, h, rate);
+          add_forces_of_cell<n>(
+            c,
+            [&](const unsigned int p) -> Mandel {
+              return points.weight[p] * (tangent[p] * rate[p]);
+            },
+            cell_f);
           scatter_add<n>(cell_f, &points.nodes[c * n], dst.begin());
         }
     });
     dst.compress(VectorOperation::add);
     if (mass != nullptr)
-      for (unsigned int i = 0; i < dst.locally_owned_size(); ++i)
-        dst.local_element(i) +=
-          mass->local_element(i) / h * dv.local_element(i);
+      dst.add(1. / h, change);
   }
 
   double

@@ -29,8 +29,7 @@ namespace geocone
     weight_per_g.reinit(space.partitioner());
     lumped_mass.reinit(space.partitioner());
     std::vector<types::global_dof_index> nodes;
-    for (const auto &cell : space.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
+    for (const auto &cell : mesh.own_cells())
         {
           values.reinit(cell);
           space.cell_nodes(cell, nodes);
@@ -82,8 +81,7 @@ namespace geocone
         const BoundaryCondition &condition = *scene.tractions.list[c];
         const auto               ids       = mesh.side_ids(condition);
         unsigned int             n_faces   = 0;
-        for (const auto &cell : space.dof_handler().active_cell_iterators())
-          if (cell->is_locally_owned())
+        for (const auto &cell : mesh.own_cells())
             for (const unsigned int f : cell->face_indices())
               if (cell->face(f)->at_boundary() &&
                   ids.count(cell->face(f)->boundary_id()) > 0 &&
@@ -103,12 +101,10 @@ namespace geocone
                       point.position =
                         mesh.mapping().transform_unit_to_real_cell(cell, unit);
                       point.weight = rule.weight(q) * length;
-                      for (unsigned int i = 0; i < nodes.size(); ++i)
-                        {
-                          point.nodes.push_back(space.local_node(nodes[i]));
-                          point.values.push_back(
-                            space.finite_element().shape_value(i, unit));
-                        }
+                      point.values.resize(nodes.size());
+                      space.evaluate(cell, unit, point.values.data(), nullptr);
+                      for (const types::global_dof_index node : nodes)
+                        point.nodes.push_back(space.local_node(node));
                       face_points.push_back(point);
                     }
                 }

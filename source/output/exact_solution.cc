@@ -67,8 +67,7 @@ namespace geocone
         ? dealii::Quadrature<dim>(dealii::QWitherdenVincentSimplex<dim>(4))
         : dealii::Quadrature<dim>(dealii::QGauss<dim>(space.degree() + 2)));
     std::vector<dealii::types::global_dof_index> nodes;
-    for (const auto &cell : space.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
+    for (const auto &cell : mesh.own_cells())
         {
           values.reinit(cell);
           space.cell_nodes(cell, nodes);

@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/exceptions.h>
 #include <geocone/base/files.h>
 #include <geocone/base/log.h>
 #include <geocone/output/fields.h>
@@ -10,13 +11,15 @@
 
 #include <deal.II/numerics/data_component_interpretation.h>
 
+#include <filesystem>
+
 namespace geocone
 {
   using namespace dealii;
 
   namespace
   {
-    /** Patches with named data, which the base class writes as VTU. */
+    /** Patches with named data, which the base class writes. */
     template <int patch_dim>
     class PatchOutput : public DataOutInterface<patch_dim, dim>
     {
@@ -52,12 +55,12 @@ namespace geocone
 
       /** Writes base-NNNN.vtu (or a file per rank and base-NNNN.pvtu). */
       void
-      write(const std::string                           &folder,
-            const std::string                           &base,
-            const unsigned int                           number,
-            const double                                 time,
-            const MPI_Comm                               comm,
-            std::vector<std::pair<double, std::string>> &series)
+      write_as_vtu(const std::string                           &folder,
+                   const std::string                           &base,
+                   const unsigned int                           number,
+                   const double                                 time,
+                   const MPI_Comm                               comm,
+                   std::vector<std::pair<double, std::string>> &series)
       {
         const unsigned int    n_ranks = Utilities::MPI::n_mpi_processes(comm);
         const unsigned int    rank    = Utilities::MPI::this_mpi_process(comm);
@@ -88,6 +91,71 @@ namespace geocone
         series.emplace_back(time, whole);
         write_file(folder + "/" + base + ".pvd", [&](std::ostream &out) {
           DataOutBase::write_pvd_record(out, series);
+        });
+      }
+
+      /** Writes base-NNNN.h5, of all ranks, and lists it in base.xdmf. */
+      void
+      write_as_hdf5(const std::string        &folder,
+                    const std::string        &base,
+                    const unsigned int        number,
+                    const double              time,
+                    const MPI_Comm            comm,
+                    std::vector<std::string> &series)
+      {
+        const unsigned int n_ranks   = Utilities::MPI::n_mpi_processes(comm);
+        const unsigned int rank      = Utilities::MPI::this_mpi_process(comm);
+        const std::string  file      = base + format("-%04u.h5", number);
+        const std::string  whole     = folder + "/" + file;
+        const std::string  temporary = whole + ".part";
+        const auto         refuse    = [&]() {
+          std::error_code error;
+          std::filesystem::remove(temporary, error);
+          throw RunError("the file '" + whole +
+                         "' cannot be written: is the disk full?");
+        };
+
+        // The library fails on ranks without patches: only the others write.
+        MPI_Comm writers;
+        MPI_Comm_split(comm, patches.empty(), rank, &writers);
+        std::string entry;
+        if (!patches.empty())
+          {
+            DataOutBase::DataOutFilter filtered(
+              DataOutBase::DataOutFilterFlags(false, true));
+            this->write_filtered_data(filtered);
+            try
+              {
+                this->write_hdf5_parallel(filtered, temporary, writers);
+              }
+            catch (const ExceptionBase &)
+              {
+                refuse();
+              }
+            entry = this->create_xdmf_entry(filtered, file, time, writers)
+                      .get_xdmf_content(3, patches[0].reference_cell);
+          }
+        MPI_Comm_free(&writers);
+        // Only the first writer has got an entry.
+        entry = Utilities::MPI::broadcast(
+          comm,
+          entry,
+          Utilities::MPI::min(patches.empty() ? n_ranks : rank, comm));
+        if (rank != 0)
+          return;
+        std::error_code error;
+        std::filesystem::rename(temporary, whole, error);
+        if (error)
+          refuse();
+        series.push_back(entry);
+        write_file(folder + "/" + base + ".xdmf", [&](std::ostream &out) {
+          out << "<?xml version=\"1.0\" ?>\n"
+                 "<Xdmf Version=\"2.0\">\n  <Domain>\n"
+                 "    <Grid Name=\"CellTime\" GridType=\"Collection\" "
+                 "CollectionType=\"Temporal\">\n";
+          for (const std::string &grid : series)
+            out << grid;
+          out << "    </Grid>\n  </Domain>\n</Xdmf>\n";
         });
       }
 
@@ -142,6 +210,18 @@ namespace geocone
   } // namespace
 
   void
+  Fields::set_format(const std::string &name)
+  {
+    if (name != "vtu" && name != "hdf5" && name != "both")
+      throw InputError("Output/Fields format",
+                       name,
+                       "vtu | hdf5 | both",
+                       "choose one of them");
+    vtu  = name != "hdf5";
+    hdf5 = name != "vtu";
+  }
+
+  void
   Fields::write(const std::string    &folder,
                 const unsigned int    number,
                 const double          time,
@@ -151,13 +231,29 @@ namespace geocone
                 const Kinematics     &kinematics)
   {
     const MPI_Comm comm = mesh.triangulation().get_communicator();
-    Vector         u = kinematics.displacement, v = kinematics.velocity;
-    u.update_ghost_values();
-    v.update_ghost_values();
+    // Also on a rank that has no points, to write the same data as the others.
+    const bool moving =
+      Utilities::MPI::logical_or(!points.values.empty(), comm);
+    const auto write =
+      [&](auto &output, const std::string &base, Series &series) {
+        if (vtu)
+          output.write_as_vtu(folder, base, number, time, comm, series.vtu);
+        if (hdf5)
+          output.write_as_hdf5(folder, base, number, time, comm, series.hdf5);
+      };
 
-    PatchOutput<dim> on_cells;
-    on_cells.add_vector("displacement");
+    PatchOutput<dim>    on_cells;
+    std::vector<Vector> on_nodes;
+    if (!moving)
+      {
+        on_cells.add_vector("displacement");
+        on_nodes.push_back(kinematics.displacement);
+      }
     on_cells.add_vector("velocity");
+    on_nodes.push_back(kinematics.velocity);
+    for (Vector &vector : on_nodes)
+      vector.update_ghost_values();
+    const unsigned int scalars = on_cells.names.size(); // from there on
     for (const char *name : {"material",
                              "stress_xx",
                              "stress_yy",
@@ -166,60 +262,53 @@ namespace geocone
                              "cumulative_plastic_strain"})
       on_cells.add_scalar(name);
 
-    const auto   parts = sub_cells(space.degree(), mesh.is_simplicial());
-    unsigned int c     = 0;
-    for (const auto &cell : space.dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          double means[5] = {}, area = 0.;
-          for (unsigned int p = points.first_point[c];
-               p < points.first_point[c + 1];
-               ++p)
-            {
-              const double V = points.weight[p];
-              area += V;
-              means[0] += V * points.stress[p][0];
-              means[1] += V * points.stress[p][1];
-              means[2] += V * points.stress[p][2] / sqrt2;
-              means[3] += V * points.plastic_strain_rate[p];
-              means[4] += V * points.cumulative_plastic_strain[p];
-            }
-          const unsigned int *nodes = &points.nodes[c * points.n_nodes];
-          for (const auto &part : parts)
-            {
-              PatchOutput<dim>::Patch patch;
-              patch.patch_index    = on_cells.patches.size();
-              patch.n_subdivisions = 1;
-              patch.reference_cell = cell->reference_cell();
-              patch.data.reinit(on_cells.names.size(), part.size());
-              for (unsigned int k = 0; k < part.size(); ++k)
-                {
-                  patch.vertices[k] =
-                    mesh.mapping().transform_unit_to_real_cell(cell, part[k]);
-                  for (unsigned int i = 0; i < points.n_nodes; ++i)
-                    {
-                      const double N =
-                        space.finite_element().shape_value(i, part[k]);
-                      for (unsigned int d = 0; d < dim; ++d)
-                        {
-                          patch.data(d, k) +=
-                            N * u.local_element(dim * nodes[i] + d);
-                          patch.data(dim + d, k) +=
-                            N * v.local_element(dim * nodes[i] + d);
-                        }
-                    }
-                  patch.data(2 * dim, k) = cell->material_id();
-                  for (unsigned int m = 0; m < 5; ++m)
-                    patch.data(2 * dim + 1 + m, k) = means[m] / area;
-                }
-              on_cells.patches.push_back(patch);
-            }
-          ++c;
-        }
-    on_cells.write(folder, "cells", number, time, comm, cells);
+    const auto          parts = sub_cells(space.degree(), mesh.is_simplicial());
+    std::vector<double> N(points.n_nodes);
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      {
+        const auto        &cell     = points.cells[c];
+        const unsigned int first    = points.first_point[c];
+        double             means[5] = {}, area = 0.;
+        for (unsigned int p = first; p < points.first_point[c + 1]; ++p)
+          {
+            const double V = points.weight[p];
+            area += V;
+            means[0] += V * points.stress[p][0];
+            means[1] += V * points.stress[p][1];
+            means[2] += V * points.stress[p][2] / sqrt2;
+            means[3] += V * points.plastic_strain_rate[p];
+            means[4] += V * points.cumulative_plastic_strain[p];
+          }
+        const unsigned int *nodes = &points.nodes[c * points.n_nodes];
+        for (const auto &part : parts)
+          {
+            PatchOutput<dim>::Patch patch;
+            patch.patch_index    = on_cells.patches.size();
+            patch.n_subdivisions = 1;
+            patch.reference_cell = cell->reference_cell();
+            patch.data.reinit(on_cells.names.size(), part.size());
+            for (unsigned int k = 0; k < part.size(); ++k)
+              {
+                patch.vertices[k] =
+                  mesh.mapping().transform_unit_to_real_cell(cell, part[k]);
+                space.evaluate(cell, part[k], N.data(), nullptr);
+                for (unsigned int i = 0; i < points.n_nodes; ++i)
+                  for (unsigned int f = 0; f < on_nodes.size(); ++f)
+                    for (unsigned int d = 0; d < dim; ++d)
+                      patch.data(dim * f + d, k) +=
+                        N[i] * on_nodes[f].local_element(dim * nodes[i] + d);
+                patch.data(scalars, k) = points.material[first];
+                for (unsigned int m = 0; m < 5; ++m)
+                  patch.data(scalars + 1 + m, k) = means[m] / area;
+              }
+            on_cells.patches.push_back(patch);
+          }
+      }
+    write(on_cells, "cells", cells);
 
     PatchOutput<0> on_points;
     for (const char *name : {"material",
+                             "volume",
                              "stress_xx",
                              "stress_yy",
                              "stress_xy",
@@ -229,26 +318,34 @@ namespace geocone
                              "plastic_strain_rate",
                              "cumulative_plastic_strain"})
       on_points.add_scalar(name);
+    if (moving)
+      for (const char *name : {"velocity", "displacement"})
+        on_points.add_vector(name);
     for (unsigned int p = 0; p < points.n_points(); ++p)
       {
         PatchOutput<0>::Patch patch;
         patch.patch_index = p;
         patch.vertices[0] = points.position[p];
         patch.data.reinit(on_points.names.size(), 1);
-        const Mandel &s = points.stress[p], &e = points.plastic_strain[p];
-        const double  values[] = {static_cast<double>(points.material[p]),
-                                  s[0],
-                                  s[1],
-                                  s[2] / sqrt2,
-                                  e[0],
-                                  e[1],
-                                  e[2] / sqrt2,
-                                  points.plastic_strain_rate[p],
-                                  points.cumulative_plastic_strain[p]};
-        for (unsigned int i = 0; i < on_points.names.size(); ++i)
+        const Mandel       &s = points.stress[p], &e = points.plastic_strain[p];
+        std::vector<double> values = {static_cast<double>(points.material[p]),
+                                      points.weight[p],
+                                      s[0],
+                                      s[1],
+                                      s[2] / sqrt2,
+                                      e[0],
+                                      e[1],
+                                      e[2] / sqrt2,
+                                      points.plastic_strain_rate[p],
+                                      points.cumulative_plastic_strain[p]};
+        if (moving)
+          for (const auto *vectors : {&points.velocity, &points.displacement})
+            for (unsigned int d = 0; d < dim; ++d)
+              values.push_back((*vectors)[p][d]);
+        for (unsigned int i = 0; i < values.size(); ++i)
           patch.data(i, 0) = values[i];
         on_points.patches.push_back(patch);
       }
-    on_points.write(folder, "points", number, time, comm, point_clouds);
+    write(on_points, "points", point_clouds);
   }
 } // namespace geocone

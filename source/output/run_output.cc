@@ -27,6 +27,10 @@ namespace geocone
                   with_fields,
                   "Whether VTU files are written (see Loading/.../Output "
                   "every).");
+    add_parameter("Fields format",
+                  fields_format,
+                  "vtu (for ParaView and the pictures) | hdf5 (with XDMF "
+                  "records) | both.");
     add_parameter("Pictures",
                   pictures,
                   "Whether the curve and the fields are drawn at the end, by "
@@ -66,6 +70,7 @@ namespace geocone
                        report_for_tests,
                        "none | loads | expectations",
                        "choose one of them");
+    fields.set_format(fields_format);
     for (const std::string &text : expectation_texts)
       expectations.emplace_back(text, "Output/Expectations");
     if (!folder_of_call.empty())
@@ -93,11 +98,17 @@ namespace geocone
                                "complementarity (-)",
                                "plastic points (-)",
                                "apex points (-)",
+                               "unknowns (-)",
+                               "multipliers (-)",
+                               "multiplier rows given (-)",
                                "kinetic energy (J/m)",
                                "elastic energy (J/m)",
+                               "potential energy (J/m)",
                                "plastic dissipation (J/m)",
                                "external work (J/m)",
-                               "numerical loss (J/m)"})
+                               "total energy (J/m)",
+                               "numerical loss (J/m)",
+                               "energy identity error (-)"})
       columns.push_back(column);
     statistics.open(path + "/statistics.csv", columns);
     newton.open(path + "/newton.csv",
@@ -108,6 +119,7 @@ namespace geocone
                  "iteration",
                  "relative residual (-)",
                  "step length (-)",
+                 "elastic blend (-)",
                  "cone points",
                  "apex points",
                  "switched points"});
@@ -121,7 +133,7 @@ namespace geocone
   {
     if (verbosity >= 2)
       log.print(format("  step %u, t = %.6g s, h = %.3g s\n"
-                       "    it   residual   length     cone   apex  switched",
+                       "    it   residual   length    blend     cone   apex  switched",
                        step,
                        time,
                        h));
@@ -129,10 +141,11 @@ namespace geocone
       {
         const NewtonIteration &line = report.newton.table[i];
         if (verbosity >= 2)
-          log.print(format("    %2zu  %9.2e  %7.3f  %7u %6u  %8u",
+          log.print(format("    %2zu  %9.2e  %7.3f  %7.3f  %7u %6u  %8u",
                            i,
                            line.relative_residual,
                            line.step_length,
+                           line.elastic_blend,
                            line.n_cone,
                            line.n_apex,
                            line.n_switched));
@@ -144,6 +157,7 @@ namespace geocone
                            double(i),
                            line.relative_residual,
                            line.step_length,
+                           line.elastic_blend,
                            double(line.n_cone),
                            double(line.n_apex),
                            double(line.n_switched)});
@@ -156,15 +170,14 @@ namespace geocone
     const StepReport &report = record.last;
     const Energies   &e      = report.energies;
     const double      step_loss =
-      energy_n + e.external_work - e.kinetic - e.elastic - e.dissipation;
-    energy_n = e.kinetic + e.elastic;
+      energy_n + e.external_work - e.state() - e.dissipation;
+    energy_n = e.state();
     work += e.external_work;
     dissipation += e.dissipation;
     loss += step_loss;
     least_loss = std::min(least_loss, step_loss);
     records.push_back(record);
-    records.back().last.residual.reinit(0); // only the numbers are kept
-    records.back().last.newton.table.clear();
+    records.back().last.newton.table.clear(); // only the numbers are kept
     if (!writes)
       return;
 
@@ -182,11 +195,17 @@ namespace geocone
                                report.quality.complementarity,
                                double(last.n_cone + last.n_apex),
                                double(last.n_apex),
+                               double(report.unknowns),
+                               double(report.multipliers),
+                               double(report.rows),
                                e.kinetic,
                                e.elastic,
+                               e.potential,
                                dissipation,
                                work,
-                               loss})
+                               e.state() + dissipation - work,
+                               loss,
+                               report.identity_error})
       line.push_back(value);
     statistics.add_line(line);
   }
@@ -210,7 +229,7 @@ namespace geocone
     unsigned int           iterations = 0, most = 0, substeps = 0, failures = 0,
                  regularised = 0;
     Quality quality;
-    double  residual = 0.;
+    double  residual = 0., identity = 0.;
     for (const StepRecord &record : records)
       {
         // A reset of the displacement is no step of the curve.
@@ -224,6 +243,7 @@ namespace geocone
         failures += record.failures;
         quality.take_worse(record.last.quality);
         residual = std::max(residual, record.last.newton.residual);
+        identity = std::max(identity, record.last.identity_error);
       }
 
     Json json;
@@ -265,17 +285,31 @@ namespace geocone
     if (!records.empty())
       {
         const Energies &e = records.back().last.energies;
+        // Potential energy counts from the lower left corner of the mesh.
+        const double released = initial.potential - e.potential;
+        const double begin    = initial.state();
         // Scale of the rounding in the least loss of a step.
         const double scale = std::max({std::abs(work),
+                                       std::abs(released),
                                        e.elastic,
                                        e.kinetic,
+                                       begin,
                                        std::numeric_limits<double>::min()});
-        json["energy"]     = {{"external_work_J_per_m", work},
-                              {"elastic_J_per_m", e.elastic},
-                              {"kinetic_J_per_m", e.kinetic},
-                              {"dissipation_J_per_m", dissipation},
-                              {"numerical_loss_J_per_m", loss},
-                              {"least_step_loss_relative", least_loss / scale}};
+        const Json   nothing;
+        json["energy"] = {
+          {"external_work_J_per_m", work},
+          {"elastic_J_per_m", e.elastic},
+          {"kinetic_J_per_m", e.kinetic},
+          {"potential_J_per_m", e.potential},
+          {"potential_datum", "lower left corner of the mesh"},
+          {"initial_J_per_m", begin},
+          {"released_potential_J_per_m", released},
+          {"dissipation_J_per_m", dissipation},
+          {"numerical_loss_J_per_m", loss},
+          {"loss_to_released", released > 0. ? Json(loss / released) : nothing},
+          {"loss_to_initial", begin > 0. ? Json(loss / begin) : nothing},
+          {"least_step_loss_relative", least_loss / scale},
+          {"identity_error_max", identity}};
       }
     return json;
   }

@@ -35,6 +35,16 @@ namespace geocone
              cross(c, d, a) * cross(c, d, b) < 0.;
     }
 
+    double
+    signed_area(const Polygon &polygon)
+    {
+      double area = 0.;
+      for (std::size_t i = 0; i < polygon.size(); ++i)
+        area +=
+          cross(polygon[0], polygon[i], polygon[(i + 1) % polygon.size()]) / 2.;
+      return area;
+    }
+
     std::string
     text(const Polygon &polygon)
     {
@@ -103,19 +113,36 @@ namespace geocone
                                std::to_string(i) + " and " + std::to_string(j) +
                                " meet; check the order of the vertices");
       }
-    double area = 0.;
-    for (std::size_t i = 0; i < n; ++i)
-      area += cross(polygon[0], polygon[i], polygon[(i + 1) % n]) / 2.;
-    if (std::abs(area) < 1e-9 * size * size)
+    if (std::abs(signed_area(polygon)) < 1e-9 * size * size)
       throw InputError(
         parameter, text(polygon), allowed, "the vertices lie on one line");
+  }
+
+  std::string
+  existing_file(const std::string &name,
+                const std::string &folder_of_parameters,
+                const std::string &parameter,
+                const std::string &allowed)
+  {
+    const std::filesystem::path beside =
+      std::filesystem::path(folder_of_parameters) / name;
+    for (const std::filesystem::path &path :
+         {beside, std::filesystem::path(name)})
+      if (std::filesystem::is_regular_file(path))
+        return path.string();
+    throw InputError(parameter,
+                     name,
+                     allowed,
+                     "check the name; it is relative to the folder of the "
+                     "parameter file, or else to that of the call");
   }
 
   Geometry::Geometry(const ParameterFile &parameter_file)
     : dealii::ParameterAcceptor("/Geometry")
     , folder_of_parameters(parameter_file.folder())
   {
-    add_parameter("Shape", shape_name, "box | polygon | file.");
+    add_parameter(
+      "Shape", shape_name, "box | polygon | discs (MPM only) | file.");
     add_parameter("Box",
                   box,
                   "Lower left and upper right corner x, y; x, y (m). Its sides "
@@ -124,6 +151,11 @@ namespace geocone
                   polygon,
                   "Vertices x, y; x, y; ... (m) in order. Side i runs from "
                   "vertex i to the next and is called i (0, 1, ...).");
+    add_parameter("Centres", centres, "Centres x, y; x, y; ... of discs (m).");
+    add_parameter("Radii",
+                  radii,
+                  "Radii of the discs (m), comma-separated; one for all or one "
+                  "per centre.");
     add_parameter("File",
                   file,
                   "A gmsh .msh file (relative to the folder of the parameter "
@@ -158,43 +190,112 @@ namespace geocone
         for (unsigned int i = 0; i < outline.size(); ++i)
           sides[std::to_string(i)] = i;
       }
+    else if (shape_name == "discs")
+      {
+        shape = Shape::discs;
+        check_discs();
+      }
     else if (shape_name == "file")
       {
         shape = Shape::file;
-        // Relative names: beside the parameter file first.
-        const std::filesystem::path beside =
-          std::filesystem::path(folder_of_parameters) / file;
-        if (std::filesystem::is_regular_file(beside))
-          file = beside.string();
-        else if (!std::filesystem::is_regular_file(file))
-          throw InputError(
-            "Geometry/File",
-            file,
-            "an existing gmsh .msh file",
-            "check the name; it is relative to the folder of the "
-            "parameter file, or else to that of the call");
+        file  = existing_file(file,
+                             folder_of_parameters,
+                             "Geometry/File",
+                             "an existing gmsh .msh file");
       }
     else
       throw InputError("Geometry/Shape",
                        shape_name,
-                       "box | polygon | file",
+                       "box | polygon | discs | file",
                        "choose one of them");
   }
 
-  dealii::types::boundary_id
-  Geometry::side_of(const Point<dim> &x) const
+  void
+  Geometry::check_discs()
   {
-    std::size_t nearest  = 0;
-    double      distance = std::numeric_limits<double>::max();
-    for (std::size_t i = 0; i < outline.size(); ++i)
-      if (const double d = distance_to_segment(
-            x, outline[i], outline[(i + 1) % outline.size()]);
-          d < distance)
+    const std::string values = dealii::Patterns::Tools::to_string(radii);
+    if (centres.empty())
+      throw InputError("Geometry/Centres",
+                       "",
+                       "the centre x, y of one disc or more",
+                       "for a disc around the origin: 0, 0");
+    if (radii.size() == 1)
+      radii.resize(centres.size(), radii[0]);
+    if (radii.size() != centres.size())
+      throw InputError("Geometry/Radii",
+                       values,
+                       "one radius for all discs, or one for each of the " +
+                         std::to_string(centres.size()) + " centres",
+                       "give as many as there are centres");
+    for (std::size_t i = 0; i < radii.size(); ++i)
+      {
+        if (!(radii[i] > 0.))
+          throw InputError("Geometry/Radii", values, "> 0", "give them in m");
+        for (std::size_t j = 0; j < i; ++j)
+          if (centres[i].distance(centres[j]) <
+              (radii[i] + radii[j]) * (1. - 1e-9))
+            throw InputError(
+              "Geometry/Centres",
+              text(centres),
+              "centres of discs that do not overlap",
+              "the discs " + std::to_string(j) + " and " + std::to_string(i) +
+                " overlap: move one of them, or make it smaller");
+      }
+  }
+
+  std::array<Point<dim>, 2>
+  Geometry::side_ends(const dealii::types::boundary_id side) const
+  {
+    AssertIndexRange(side, outline.size());
+    return {{outline[side], outline[(side + 1) % outline.size()]}};
+  }
+
+  bool
+  Geometry::contains(const Point<dim> &x) const
+  {
+    switch (shape)
+      {
+        case Shape::file:
+          return true;
+        case Shape::discs:
+          for (std::size_t i = 0; i < centres.size(); ++i)
+            if (x.distance(centres[i]) <= radii[i])
+              return true;
+          return false;
+        default:
+          return geocone::contains(outline, x);
+      }
+  }
+
+  std::pair<Point<dim>, Point<dim>>
+  Geometry::bounding_box() const
+  {
+    Assert(shape != Shape::file, dealii::ExcNotImplemented());
+    Polygon corners = outline;
+    if (shape == Shape::discs)
+      for (std::size_t i = 0; i < centres.size(); ++i)
+        for (const double r : {-radii[i], radii[i]})
+          corners.push_back(centres[i] + Point<dim>(r, r));
+    std::pair<Point<dim>, Point<dim>> box = {corners[0], corners[0]};
+    for (const Point<dim> &x : corners)
+      for (unsigned int c = 0; c < dim; ++c)
         {
-          distance = d;
-          nearest  = i;
+          box.first[c]  = std::min(box.first[c], x[c]);
+          box.second[c] = std::max(box.second[c], x[c]);
         }
-    return nearest;
+    return box;
+  }
+
+  double
+  Geometry::area() const
+  {
+    Assert(shape != Shape::file, dealii::ExcNotImplemented());
+    if (shape != Shape::discs)
+      return std::abs(signed_area(outline));
+    double area = 0.;
+    for (const double r : radii)
+      area += pi * r * r;
+    return area;
   }
 
   Regions::Region::Region(const std::string &name)

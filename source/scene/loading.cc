@@ -131,6 +131,39 @@ namespace geocone
                               : acceleration;
   }
 
+  InitialVelocity::InitialVelocity()
+    : dealii::ParameterAcceptor("/Initial velocity")
+  {
+    add_parameter("Velocity x",
+                  texts[0],
+                  "Formula in x, y (m) for the velocity (m/s) at t = 0, which "
+                  "only a body with inertia can have.");
+    add_parameter("Velocity y", texts[1], "As Velocity x.");
+  }
+
+  void
+  InitialVelocity::prepare()
+  {
+    components[0].prepare(texts[0], "Initial velocity/Velocity x");
+    components[1].prepare(texts[1], "Initial velocity/Velocity y");
+  }
+
+  dealii::Tensor<1, dim>
+  InitialVelocity::at(const dealii::Point<dim> &x) const
+  {
+    dealii::Tensor<1, dim> v;
+    if (is_given())
+      for (unsigned int c = 0; c < dim; ++c)
+        v[c] = components[c].value(x, 0.);
+    return v;
+  }
+
+  bool
+  InitialVelocity::is_given() const
+  {
+    return texts[0] != "0" || texts[1] != "0";
+  }
+
   InitialStress::InitialStress()
     : dealii::ParameterAcceptor("/Initial stress")
   {

@@ -37,6 +37,7 @@ namespace geocone
     materials.prepare();
     regions.prepare(geometry);
     gravity.prepare();
+    initial_velocity.prepare();
     initial_stress.prepare(gravity, geometry, regions);
     dirichlet.prepare();
     tractions.prepare();

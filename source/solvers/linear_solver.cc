@@ -59,12 +59,13 @@ namespace geocone
       }
 
       void
-      solve(std::vector<double> &x) override
+      solve(std::vector<double> &x, const unsigned int n_columns) override
       {
         cholmod_dense b;
         std::memset(&b, 0, sizeof(b));
-        b.nrow = b.nzmax = b.d = x.size();
-        b.ncol                 = 1;
+        b.nrow = b.d = x.size() / n_columns;
+        b.nzmax      = x.size();
+        b.ncol       = n_columns;
         b.x                    = x.data();
         b.xtype                = CHOLMOD_REAL;
         b.dtype                = CHOLMOD_DOUBLE;
@@ -173,23 +174,25 @@ namespace geocone
       }
 
       void
-      solve(std::vector<double> &x) override
+      solve(std::vector<double> &x, const unsigned int n_columns) override
       {
         const std::vector<double> b = x;
-        work_i.resize(x.size());
-        work_d.resize(5 * x.size());
+        const std::size_t         n = x.size() / n_columns;
+        work_i.resize(n);
+        work_d.resize(5 * n);
         // Compressed rows are the columns of the transposed matrix.
-        check(umfpack_di_wsolve(UMFPACK_At,
-                                matrix->row_start.data(),
-                                matrix->column.data(),
-                                matrix->value.data(),
-                                x.data(),
-                                b.data(),
-                                numeric,
-                                control,
-                                info,
-                                work_i.data(),
-                                work_d.data()));
+        for (unsigned int c = 0; c < n_columns; ++c)
+          check(umfpack_di_wsolve(UMFPACK_At,
+                                  matrix->row_start.data(),
+                                  matrix->column.data(),
+                                  matrix->value.data(),
+                                  x.data() + c * n,
+                                  b.data() + c * n,
+                                  numeric,
+                                  control,
+                                  info,
+                                  work_i.data(),
+                                  work_d.data()));
       }
 
       std::string
@@ -277,8 +280,6 @@ namespace geocone
           &matrix.n_owned, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
         for (int r = 1; r < n_ranks; ++r)
           offsets[r] = offsets[r - 1] + counts[r - 1];
-        if (rank == 0)
-          rhs.resize(matrix.n_global);
       }
 
       bool
@@ -303,33 +304,38 @@ namespace geocone
       }
 
       void
-      solve(std::vector<double> &x) override
+      solve(std::vector<double> &x, const unsigned int n_columns) override
       {
-        MPI_Gatherv(x.data(),
-                    x.size(),
-                    MPI_DOUBLE,
-                    rhs.data(),
-                    counts.data(),
-                    offsets.data(),
-                    MPI_DOUBLE,
-                    0,
-                    comm);
+        const std::size_t n = x.size() / n_columns;
+        if (rank == 0)
+          rhs.resize(std::size_t(id.n) * n_columns);
+        for (unsigned int c = 0; c < n_columns; ++c)
+          MPI_Gatherv(x.data() + c * n,
+                      n,
+                      MPI_DOUBLE,
+                      rhs.data() + c * std::size_t(id.n),
+                      counts.data(),
+                      offsets.data(),
+                      MPI_DOUBLE,
+                      0,
+                      comm);
         id.rhs  = rhs.data();
-        id.nrhs = 1;
+        id.nrhs = n_columns;
         id.lrhs = id.n;
         call(3);
         if (id.infog[0] < 0)
           throw RunError("Mumps: solve failed with error " +
                          std::to_string(id.infog[0]));
-        MPI_Scatterv(rhs.data(),
-                     counts.data(),
-                     offsets.data(),
-                     MPI_DOUBLE,
-                     x.data(),
-                     x.size(),
-                     MPI_DOUBLE,
-                     0,
-                     comm);
+        for (unsigned int c = 0; c < n_columns; ++c)
+          MPI_Scatterv(rhs.data() + c * std::size_t(id.n),
+                       counts.data(),
+                       offsets.data(),
+                       MPI_DOUBLE,
+                       x.data() + c * n,
+                       n,
+                       MPI_DOUBLE,
+                       0,
+                       comm);
       }
 
       std::string

@@ -6,6 +6,8 @@
 #include <geocone/solvers/line_search.h>
 #include <geocone/solvers/nonsmooth_newton.h>
 
+#include <deal.II/base/mpi.h>
+
 namespace geocone
 {
   using dealii::TimerOutput;
@@ -17,6 +19,52 @@ namespace geocone
      * on most meshes: theta >= phi/2 is (nearly) 1/2.
      */
     constexpr double hard_flow = 0.51;
+
+    /**
+     * Solves [K -H'; H 0] (dv, dlambda) = (rhs, defect) for dv by the Schur
+     * complement H K^-1 H'.
+     * @param[in,out] rhs owned rows in, dv out
+     */
+    void
+    solve_constrained(const Constraints     &constraints,
+                      LinearSolver          &linear_solver,
+                      const Eigen::VectorXd &defect,
+                      const MPI_Comm         comm,
+                      std::vector<double>   &rhs)
+    {
+      const Multipliers &rows = constraints.multipliers;
+      const unsigned int m    = rows.n_rows();
+      if (m == 0)
+        {
+          linear_solver.solve(rhs);
+          return;
+        }
+      using Matrix = Eigen::MatrixXd;
+      const std::size_t   n = rhs.size();
+      std::vector<double> columns(n * (m + 1), 0.);
+      std::copy(rhs.begin(), rhs.end(), columns.begin());
+      std::vector<int> places;
+      for (const unsigned int dof : rows.dofs())
+        places.push_back(constraints.free_row[dof]);
+      for (unsigned int k = 0; k < m; ++k)
+        for (unsigned int j = 0; j < places.size(); ++j)
+          columns[n * (k + 1) + places[j]] = rows.coefficients()(k, j);
+      linear_solver.solve(columns, m + 1);
+
+      const Eigen::Map<const Matrix> solved(columns.data(), n, m + 1);
+      Matrix                         touched(places.size(), m + 1);
+      for (unsigned int j = 0; j < places.size(); ++j)
+        touched.row(j) = solved.row(places[j]);
+      Matrix products = rows.coefficients() * touched;
+      dealii::Utilities::MPI::sum(
+        dealii::ArrayView<const double>(products.data(), products.size()),
+        comm,
+        dealii::ArrayView<double>(products.data(), products.size()));
+      const Eigen::VectorXd change =
+        products.rightCols(m).partialPivLu().solve(defect - products.col(0));
+      Eigen::Map<Eigen::VectorXd>(rhs.data(), n) =
+        solved.col(0) + solved.rightCols(m) * change;
+    }
   } // namespace
 
   NonsmoothNewton::SolverName::SolverName()
@@ -46,12 +94,13 @@ namespace geocone
       max_iterations,
       "Linear systems to solve before the step is given up and cut. "
       "0: 150 for associated flow (slow starts are worth waiting "
-      "for), 60 for theta >= phi/2, otherwise 15 with the line "
-      "search and 30 with the elastic blend.");
+      "for), 60 for theta >= phi/2 and for the merit search, otherwise "
+      "15 with the line search and 30 with the elastic blend.");
     add_parameter(
       "Globalisation",
       globalisation,
-      "automatic | line search | elastic blend | none. Automatic: "
+      "automatic | line search | elastic blend | merit search | none. "
+      "Automatic: for MPM the merit search; for FEM "
       "the elastic blend for theta < phi/2 without inertia, the "
       "line search otherwise; where that fails the other one, but "
       "for theta < phi/2 with inertia. None: plastic steps often fail.");
@@ -66,10 +115,12 @@ namespace geocone
                        "between 0 and 1",
                        "1e-10 is reached in all scenes");
     if (globalisation != "automatic" && globalisation != "line search" &&
-        globalisation != "elastic blend" && globalisation != "none")
+        globalisation != "elastic blend" && globalisation != "merit search" &&
+        globalisation != "none")
       throw InputError("Newton/Globalisation",
                        globalisation,
-                       "automatic | line search | elastic blend | none",
+                       "automatic | line search | elastic blend | merit "
+                       "search | none",
                        "take automatic");
     if (!(absolute_tolerance >= 0.))
       throw InputError("Newton/Absolute tolerance",
@@ -84,17 +135,27 @@ namespace geocone
                          LinearSolver       &linear_solver,
                          TimerOutput        &timer,
                          Vector             &v,
-                         Vector             &residual) const
+                         Vector             &residual,
+                         const Hints        &hints) const
   {
     SolverReport report;
     const auto   solve_with = [&](const Globalisation kind) {
-      attempt(kind, problem, matrix, linear_solver, timer, v, residual, report);
+      attempt(kind,
+              hints.elastic_first,
+              problem,
+              matrix,
+              linear_solver,
+              timer,
+              v,
+              residual,
+              report);
     };
-    if (globalisation != "automatic")
+    if (globalisation != "automatic" || hints.particles)
       {
-        solve_with(globalisation == "line search" ? Globalisation::line_search
-                   : globalisation == "none"      ? Globalisation::none
-                                             : Globalisation::elastic_blend);
+        solve_with(globalisation == "line search"     ? Globalisation::line_search
+                   : globalisation == "elastic blend" ? Globalisation::elastic_blend
+                   : globalisation == "none"          ? Globalisation::none
+                                             : Globalisation::merit_search);
         return report;
       }
 
@@ -117,6 +178,7 @@ namespace geocone
 
   void
   NonsmoothNewton::attempt(const Globalisation globalisation,
+                           const bool          elastic_first,
                            IncrementalProblem &problem,
                            SparseMatrix       &matrix,
                            LinearSolver       &linear_solver,
@@ -129,7 +191,9 @@ namespace geocone
     const unsigned int n_owned     = v.locally_owned_size();
     const bool         blend   = globalisation == Globalisation::elastic_blend;
     const bool         search  = globalisation == Globalisation::line_search;
+    const bool         merit   = globalisation == Globalisation::merit_search;
     const unsigned int allowed = max_iterations > 0       ? max_iterations
+                                 : merit                  ? 60
                                  : problem.is_symmetric() ? 150
                                  : problem.non_associativity() <= hard_flow ? 60
                                  : blend                                    ? 30
@@ -145,12 +209,13 @@ namespace geocone
       v.update_ghost_values();
       state = problem.residual(residual, v);
     };
-    const auto record = [&](const double length) {
+    const auto record = [&](const double length, const double weight) {
       report.residual =
         state.norm /
         std::max(state.force_norm, std::numeric_limits<double>::min());
       report.table.push_back({report.residual,
                               length,
+                              weight,
                               state.n_cone,
                               state.n_apex,
                               state.n_switched});
@@ -160,10 +225,14 @@ namespace geocone
     Vector jump = v;
     problem.set_prescribed(jump);
     jump -= v;
-    const bool jumps = jump.linfty_norm() > 0.;
+    const Multipliers &rows   = constraints.multipliers;
+    Eigen::VectorXd    defect = rows.defect(v);
+    const bool         jumps =
+      jump.linfty_norm() > 0. || (defect.size() > 0 && defect.norm() > 0.);
 
     evaluate();
-    record(0.);
+    record(0., 0.);
+    double damping = 0.; // the blend of the merit search
     std::vector<double> rhs(matrix.n_owned);
     for (bool first = true;; first = false)
       {
@@ -196,14 +265,19 @@ namespace geocone
         // in as little of the elastic stiffness as makes it regular.
         bool         regular = false;
         const double wanted =
-          blend && !first ? std::min(0.5, report.residual) : 0.;
+          first && elastic_first ? 1. :
+          merit                  ? damping :
+          blend && !first        ? std::min(0.5, report.residual) :
+                                   0.;
+        double weight = wanted;
         for (const double least : {0., 1e-6, 1e-3, 0.1})
           {
             if (least > 0. && least <= wanted)
               continue;
             {
               TimerOutput::Scope scope(timer, "assemble");
-              problem.linearise(matrix, std::max(wanted, least));
+              weight = std::max(wanted, least);
+              problem.linearise(matrix, weight);
             }
             TimerOutput::Scope scope(timer, "factorise");
             regular = linear_solver.factorise(matrix);
@@ -233,7 +307,8 @@ namespace geocone
               (first && jumps ? direction.local_element(i) : 0.);
         {
           TimerOutput::Scope scope(timer, "solve");
-          linear_solver.solve(rhs);
+          solve_constrained(
+            constraints, linear_solver, defect, v.get_mpi_communicator(), rhs);
         }
         ++report.iterations;
         for (unsigned int i = 0; i < n_owned; ++i)
@@ -242,25 +317,49 @@ namespace geocone
               ? rhs[constraints.free_row[i]]
               : (first && jumps ? jump.local_element(i) : 0.);
 
-        double length = 1.;
-        if ((first && jumps) || !search)
-          {
-            v += direction;
-            evaluate();
-          }
+        double     length = 1.;
+        const auto move   = [&](const double x) {
+          for (unsigned int i = 0; i < n_owned; ++i)
+            v.local_element(i) =
+              start.local_element(i) + x * direction.local_element(i);
+          evaluate();
+        };
+        start = v;
+        if ((first && jumps) || !(search || merit))
+          move(length);
+        else if (search)
+          length = line_search(problem.free_dot(residual, direction),
+                               [&](const double x) {
+                                 move(x);
+                                 return problem.free_dot(residual, direction);
+                               });
         else
           {
-            start  = v;
-            length = line_search(
-              problem.free_dot(residual, direction), [&](const double x) {
-                for (unsigned int i = 0; i < n_owned; ++i)
-                  v.local_element(i) =
-                    start.local_element(i) + x * direction.local_element(i);
-                evaluate();
-                return problem.free_dot(residual, direction);
-              });
+            const double before   = problem.merit(residual);
+            const auto   descends = [&]() {
+              const double after = problem.merit(residual);
+              return after <= (1. - 1e-4 * length) * before;
+            };
+            move(length);
+            bool falls = descends();
+            for (unsigned int halvings = 0; !falls && halvings < 8; ++halvings)
+              {
+                length /= 2.;
+                move(length);
+                falls = descends();
+              }
+            if (!falls)
+              {
+                length = 0.;
+                move(length);
+              }
+            if (length < 0.05)
+              damping = std::min(1., std::max(0.02, 3. * damping));
+            else if (length > 0.4)
+              damping = damping / 4. < 0.01 ? 0. : damping / 4.;
           }
-        record(length);
+        defect = rows.defect(v);
+        record(length, weight);
       }
   }
 } // namespace geocone

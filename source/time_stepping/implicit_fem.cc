@@ -1,6 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/exceptions.h>
+#include <geocone/discretisation/quadrature_points.h>
 #include <geocone/time_stepping/implicit_fem.h>
 
 #include <deal.II/base/mpi.h>
@@ -19,17 +21,39 @@ namespace geocone
                   "the scaled diagonal).");
   }
 
-  void
+  std::string
   ImplicitFEM::prepare(const Scene           &scene_,
                        const BackgroundMesh  &mesh,
                        const Space           &space,
-                       const Constraints     &constraints_,
-                       const MaterialPoints  &points,
                        const NonsmoothNewton &newton,
-                       TimerOutput           &timer)
+                       TimerOutput           &timer,
+                       Kinematics            &kinematics,
+                       MaterialPoints        &points)
   {
-    scene         = &scene_;
-    constraints   = &constraints_;
+    scene = &scene_;
+    for (const auto &condition : scene->dirichlet.list)
+      if (condition->moves())
+        throw InputError(condition->parameter("Imposed on"),
+                         "points, cell averages or segments",
+                         "nodes with FEM",
+                         "impose it on nodes, or set Discretisation/Method = "
+                         "MPM");
+    if (scene->initial_velocity.is_given() && !inertia)
+      throw InputError("Initial velocity/Velocity x",
+                       "a formula",
+                       "0 without inertia",
+                       "set Time stepping/Inertia = true");
+    points      = make_quadrature_points(*scene, mesh, space);
+    constraints = std::make_unique<Constraints>(*scene, mesh, space);
+    constraints->number_unknowns(nullptr);
+    kinematics.velocity.reinit(space.partitioner());
+    kinematics.displacement.reinit(space.partitioner());
+    kinematics.supports.resize(scene->dirichlet.list.size());
+    for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
+      for (unsigned int c = 0; c < dim; ++c)
+        kinematics.velocity.local_element(dim * node + c) =
+          scene->initial_velocity.at(space.node_positions()[node])[c];
+
     linear_solver = make_linear_solver(newton.linear_solver_name(),
                                        mesh.triangulation().get_communicator(),
                                        scene->materials.symmetric());
@@ -49,6 +73,25 @@ namespace geocone
     matrix = problem->make_pattern(linear_solver->wants_one_triangle());
     TimerOutput::Scope scope(timer, "analyse");
     linear_solver->analyse(matrix);
+    return "";
+  }
+
+  Energies
+  ImplicitFEM::state_energies(const Kinematics     &kinematics,
+                              const MaterialPoints &points,
+                              const double) const
+  {
+    const MPI_Comm comm = kinematics.velocity.get_mpi_communicator();
+    Energies       e;
+    if (inertia)
+      for (unsigned int i = 0; i < lumped_mass.locally_owned_size(); ++i)
+        {
+          const double v = kinematics.velocity.local_element(i);
+          e.kinetic += lumped_mass.local_element(i) * v * v / 2.;
+        }
+    e.kinetic = dealii::Utilities::MPI::sum(e.kinetic, comm);
+    e.elastic = elastic_energy(points, scene->materials, comm);
+    return e;
   }
 
   StepReport
@@ -65,17 +108,35 @@ namespace geocone
       h, t + h, loads->exist() ? &force : nullptr, kinematics.velocity);
 
     StepReport report;
-    report.residual = problem->make_vector();
-    Vector v        = kinematics.velocity;
+    Vector     residual = problem->make_vector();
+    Vector     v        = kinematics.velocity;
     report.newton =
-      newton.solve(*problem, matrix, *linear_solver, timer, v, report.residual);
+      newton.solve(*problem, matrix, *linear_solver, timer, v, residual, {});
     report.converged = report.newton.converged;
     if (!report.converged)
       return report;
 
     TimerOutput::Scope scope(timer, "commit");
+    report.unknowns = constraints->n_rows;
     report.quality  = problem->quality();
-    report.energies = energies(*problem, points, v, report.residual);
+
+    std::array<double, 2> sums = {}; // external work, dissipation
+    for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
+      {
+        if (loads->exist())
+          sums[0] += h * force.local_element(i) * v.local_element(i);
+        if (constraints->is_prescribed(i))
+          sums[0] += h * residual.local_element(i) * v.local_element(i);
+      }
+    for (unsigned int p = 0; p < points.n_points(); ++p)
+      sums[1] += points.weight[p] * problem->trial_stress()[p].dot(
+                                      problem->plastic_strain_increment(p));
+    dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums.data(), 2),
+                                v.get_mpi_communicator(),
+                                dealii::ArrayView<double>(sums.data(), 2));
+    report.identity_error = energy_identity_error(
+      *problem, points, scene->materials, kinematics.velocity, v, sums[0]);
+
     for (unsigned int p = 0; p < points.n_points(); ++p)
       {
         const Mandel plastic = problem->plastic_strain_increment(p);
@@ -86,41 +147,18 @@ namespace geocone
     points.stress       = problem->trial_stress();
     kinematics.velocity = v;
     kinematics.displacement.add(h, v);
+    for (unsigned int c = 0; c < kinematics.supports.size(); ++c)
+      {
+        report.reactions.emplace_back();
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            kinematics.supports[c][d] += h * constraints->mean(v, c, d);
+            report.reactions[c][d] = constraints->resultant(residual, c, d);
+          }
+      }
+    report.energies               = state_energies(kinematics, points, t + h);
+    report.energies.external_work = sums[0];
+    report.energies.dissipation   = sums[1];
     return report;
-  }
-
-  Energies
-  ImplicitFEM::energies(const IncrementalProblem &problem,
-                        const MaterialPoints     &points,
-                        const Vector             &v,
-                        const Vector             &residual) const
-  {
-    const double h = problem.time_step();
-    Energies     e;
-    for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
-      {
-        const double vi = v.local_element(i);
-        if (inertia)
-          e.kinetic += lumped_mass.local_element(i) * vi * vi / 2.;
-        if (loads->exist())
-          e.external_work += h * force.local_element(i) * vi;
-        if (!constraints->is_free(i))
-          e.external_work += h * residual.local_element(i) * vi;
-      }
-    for (unsigned int p = 0; p < points.n_points(); ++p)
-      {
-        const Mandel &s = problem.trial_stress()[p];
-        e.elastic +=
-          points.weight[p] / 2. *
-          s.dot(scene->materials[points.material[p]].elasticity().strain(s));
-        e.dissipation +=
-          points.weight[p] * s.dot(problem.plastic_strain_increment(p));
-      }
-    std::array<double, 4> sums = {
-      {e.kinetic, e.elastic, e.external_work, e.dissipation}};
-    dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums.data(), 4),
-                                v.get_mpi_communicator(),
-                                dealii::ArrayView<double>(sums.data(), 4));
-    return {sums[0], sums[1], sums[2], sums[3]};
   }
 } // namespace geocone

@@ -11,6 +11,9 @@
 
 #include <deal.II/fe/mapping.h>
 
+#include <deal.II/grid/filtered_iterator.h>
+
+#include <array>
 #include <memory>
 #include <set>
 
@@ -22,15 +25,46 @@ namespace geocone
    *
    * Quadrilaterals live on parallel::distributed::Triangulation (p4est);
    * triangles, which p4est does not know, on parallel::shared::Triangulation,
-   * where every rank stores the whole mesh and owns a part of it.
+   * where every rank stores the whole mesh and owns a part of it. Particles
+   * need quadrilaterals.
    */
   class BackgroundMesh : public dealii::ParameterAcceptor
   {
   public:
     BackgroundMesh(const MPI_Comm comm);
 
+    /** Creates the mesh. @throws InputError */
     void
-    prepare(const Scene &scene);
+    prepare(const Scene &scene, const Method &method);
+
+    using Cell = dealii::Triangulation<dim>::active_cell_iterator;
+
+    /** The cells of this rank, one after another. */
+    auto
+    own_cells() const
+    {
+      return dealii::filter_iterators(tria->active_cell_iterators(),
+                                      dealii::IteratorFilters::LocallyOwnedCell());
+    }
+
+    /** Coordinates of the lines of a tensor grid; empty for other meshes. */
+    const std::array<std::vector<double>, dim> &
+    grid() const
+    {
+      return lines;
+    }
+
+    /** The column and the row of a cell of a tensor grid. */
+    std::array<unsigned int, dim>
+    place_in_grid(const Cell &cell) const;
+
+    /** The lowest coordinates of all vertices. */
+    dealii::Point<dim>
+    lower_corner() const;
+
+    /** Inverse of the Jacobian dx/dxi at a unit point of a quadrilateral. */
+    dealii::Tensor<2, dim>
+    inverse_jacobian(const Cell &cell, const dealii::Point<dim> &unit) const;
 
     const dealii::parallel::TriangulationBase<dim> &
     triangulation() const
@@ -72,6 +106,7 @@ namespace geocone
     std::unique_ptr<dealii::parallel::TriangulationBase<dim>> tria;
     std::unique_ptr<dealii::Mapping<dim>>                     map;
     std::map<std::string, dealii::types::boundary_id>         sides;
+    std::array<std::vector<double>, dim>                      lines;
     bool                      simplicial = false;
     std::vector<unsigned int> part_of_vertex;
   };

@@ -4,6 +4,7 @@
 #ifndef geocone_discretisation_coarse_mesh_h
 #define geocone_discretisation_coarse_mesh_h
 
+#include <geocone/discretisation/method.h>
 #include <geocone/scene/geometry.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -24,6 +25,9 @@ namespace geocone
     std::vector<dealii::CellData<dim>>                cells;
     dealii::SubCellData                               boundary;
     std::map<std::string, dealii::types::boundary_id> sides;
+
+    /** Coordinates of the grid lines, if it is a tensor grid; or empty. */
+    std::array<std::vector<double>, dim> grid;
 
     bool
     has_triangles() const;
@@ -46,6 +50,9 @@ namespace geocone
    *      h(x) = max(smallest, min(largest, ratio x distance to the nearest
    *      grading point)),
    *    and with the grading points and the borders of the materials in it.
+   * The mesh of the finite element method fits the body. The background mesh of
+   * the material point method is a box around it, whose sides are bottom, right,
+   * top, left.
    */
   class MeshParameters : public dealii::ParameterAcceptor
   {
@@ -53,10 +60,13 @@ namespace geocone
     MeshParameters();
 
     void
-    prepare(const Geometry &geometry);
+    prepare(const Geometry &geometry, const Method &method);
+
+    /** The domain to be meshed: the body, or the box around it. */
+    Polygon outline;
 
     std::string                     type      = "uniform";
-    std::string                     cells     = "triangles";
+    std::string                     cells     = "automatic";
     std::string                     diagonals = "alternating";
     double                          cell_size = 0.1;
     std::vector<dealii::Point<dim>> grading_points;
@@ -65,17 +75,21 @@ namespace geocone
     double                          growth     = 1.3;
     double                          size_ratio = 0.18;
     int                             algorithm  = 5;
+
+  private:
+    void
+    choose_outline(const Geometry &geometry, const Method &method);
+
+    std::vector<dealii::Point<dim>> box;
   };
 
   /** Uniform and graded meshes of a box. */
   CoarseMesh
-  structured_mesh(const MeshParameters &parameters, const Geometry &geometry);
+  structured_mesh(const MeshParameters &parameters);
 
   /** Unstructured mesh of a box or polygon, by gmsh. */
   CoarseMesh
-  unstructured_mesh(const MeshParameters &parameters,
-                    const Geometry       &geometry,
-                    const Regions        &regions);
+  unstructured_mesh(const MeshParameters &parameters, const Regions &regions);
 
   /**
    * The mesh of a .msh file.

@@ -8,6 +8,8 @@
 
 #include <deal.II/base/point.h>
 
+#include <deal.II/grid/tria.h>
+
 #include <vector>
 
 namespace geocone
@@ -33,6 +35,9 @@ namespace geocone
     /** Nodes per cell. */
     unsigned int n_nodes = 0;
 
+    /** The cells that have points. */
+    std::vector<dealii::Triangulation<dim>::active_cell_iterator> cells;
+
     /** The points of cell c are first_point[c] ... first_point[c + 1] - 1. */
     std::vector<unsigned int> first_point = {0};
 
@@ -41,6 +46,15 @@ namespace geocone
 
     /** grad N at a point: n_nodes values of d/dx, then n_nodes of d/dy (1/m). */
     std::vector<double> gradients;
+
+    /** N at a point: n_nodes values. Empty where points do not move. */
+    std::vector<double> values;
+
+    /**
+     * Mean of grad N over a cell, weighted by volume, laid out as gradients: the
+     * volumetric strain comes from it (B-bar). Empty without B-bar.
+     */
+    std::vector<double> mean_gradients;
 
     /** Index of the material of each point. */
     std::vector<unsigned int> material;
@@ -58,6 +72,17 @@ namespace geocone
 
     /** Norm of the plastic strain rate over the last step (1/s). */
     std::vector<double> plastic_strain_rate;
+
+    /** @name Of points that move, at t_n; empty otherwise */
+    /** @{ */
+    std::vector<double>                 mass; ///< (kg/m)
+    std::vector<dealii::Tensor<1, dim>> velocity;
+    std::vector<dealii::Tensor<1, dim>> displacement; ///< since the last reset
+    std::vector<dealii::Tensor<2, dim>> affine; ///< of APIC: dv/dx about it
+    std::vector<unsigned int>           id;     ///< counted through all ranks
+    /** 1 + the condition that holds a particle, or 0. */
+    std::vector<unsigned int> held_by;
+    /** @} */
   };
 } // namespace geocone
 

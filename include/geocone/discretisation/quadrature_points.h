@@ -34,7 +34,7 @@ namespace geocone
     std::vector<dealii::Point<dim>> position;
     std::vector<double>             weight; ///< JxW (m^2)
 
-    /** N_i at point q (of the reference cell: the same in all cells). */
+    /** N_i at point q. */
     double
     value(const unsigned int i, const unsigned int q) const
     {
@@ -46,7 +46,9 @@ namespace geocone
     gradient(const unsigned int i, const unsigned int q) const;
 
   private:
+    const Space                        &space;
     const unsigned int                  n_nodes;
+    bool                                is_evaluated = false;
     std::vector<double>                 reference_value;
     std::vector<dealii::Tensor<1, dim>> reference_gradient;
     struct Geometry;

@@ -6,6 +6,7 @@
 
 #include <geocone/base/types.h>
 #include <geocone/discretisation/background_mesh.h>
+#include <geocone/discretisation/spline_basis.h>
 
 #include <deal.II/base/partitioner.h>
 
@@ -28,17 +29,22 @@ namespace geocone
   using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
 
   /**
-   * The space of velocities: a scalar finite element, the same for all
-   * components. Its face to everything below is "cell -> nodes" and "unit points
-   * -> N, grad N"; components are interleaved, so that dof = dim node +
-   * component.
+   * The space of velocities: scalar shape functions, the same for all components.
+   * Its face to everything below is "cell -> nodes" and "cell, unit point -> N,
+   * grad N"; components are interleaved, so that dof = dim node + component.
    *
-   * Elements: P1, P2, P3 on triangles, Q1, Q2, Q3 (Gauss-Lobatto nodes) on
-   * quadrilaterals. The nodes of a cell come in the order of the element's shape
-   * functions on the reference cell. For P3 the two nodes of an edge are ordered
-   * by the edge, which the cell may see reversed; this class sorts them per
-   * cell, so that shape functions need no swapping (deal.II 9.4 has no cubic
-   * simplex and leaves this to its user).
+   * Elements: P1, P2, P3 on triangles; Q1, Q2, Q3 on quadrilaterals; B-spline 2
+   * and B-spline 3 (of continuity 1 and 2, with clamped knots) on tensor grids.
+   * The basis of Q2 and Q3 is Lagrange's at Gauss-Lobatto nodes or, non-negative,
+   * Bernstein's. A "node" of a basis that is not nodal is its function's
+   * Greville abscissa, where a coefficient is placed so that linear fields are
+   * reproduced.
+   *
+   * The nodes of a cell come in the order of the shape functions on the
+   * reference cell. For P3 the two nodes of an edge are ordered by the edge,
+   * which the cell may see reversed; this class sorts them per cell, so that
+   * shape functions need no swapping (deal.II 9.4 has no cubic simplex and leaves
+   * this to its user).
    */
   class Space : public dealii::ParameterAcceptor
   {
@@ -46,11 +52,11 @@ namespace geocone
     Space();
 
     void
-    prepare(const BackgroundMesh &mesh);
+    prepare(const BackgroundMesh &mesh, const Method &method);
 
-    using Cell = dealii::DoFHandler<dim>::active_cell_iterator;
+    using Cell = BackgroundMesh::Cell;
 
-    /** Name of the element: P1 ... Q3. */
+    /** Name of the element: P1 ... Q3, B-spline 2, B-spline 3. */
     const std::string &
     element() const
     {
@@ -60,25 +66,26 @@ namespace geocone
     unsigned int
     degree() const
     {
-      return fe->degree;
+      return p;
+    }
+
+    bool
+    is_spline() const
+    {
+      return !splines.empty();
+    }
+
+    /** Whether no shape function is negative anywhere. */
+    bool
+    is_non_negative() const
+    {
+      return p == 1 || is_spline() || basis == "Bernstein";
     }
 
     unsigned int
     nodes_per_cell() const
     {
-      return fe->n_dofs_per_cell();
-    }
-
-    const dealii::DoFHandler<dim> &
-    dof_handler() const
-    {
-      return *dofs;
-    }
-
-    const dealii::FiniteElement<dim> &
-    finite_element() const
-    {
-      return *fe;
+      return n_nodes_per_cell;
     }
 
     /** Global numbers of the nodes of a cell, in the order of N. */
@@ -86,11 +93,22 @@ namespace geocone
     cell_nodes(const Cell                                   &cell,
                std::vector<dealii::types::global_dof_index> &nodes) const;
 
+    /**
+     * The shape functions of a cell at a unit point, in the order of cell_nodes().
+     * @param[out] N values
+     * @param[out] gradient with respect to unit coordinates; may be null
+     */
+    void
+    evaluate(const Cell               &cell,
+             const dealii::Point<dim> &unit,
+             double                   *N,
+             dealii::Tensor<1, dim>   *gradient) const;
+
     /** Number of nodes of all ranks. */
     dealii::types::global_dof_index
     n_nodes() const
     {
-      return dofs->n_dofs();
+      return layout->size() / dim;
     }
 
     /** Layout of a Vector: owned and ghost dofs. */
@@ -127,16 +145,38 @@ namespace geocone
     }
 
     /**
-     * The local nodes on the boundary sides @p ids, sorted. Includes ghosts, so
-     * that every rank agrees on the nodes it shares.
+     * The local nodes whose functions do not vanish on the boundary sides @p ids,
+     * sorted. Includes ghosts, so that every rank agrees on the nodes it shares.
      */
     std::vector<unsigned int>
     nodes_on_sides(const std::set<dealii::types::boundary_id> &ids) const;
 
   private:
-    std::string                                 name = "automatic";
+    /** A finite element of deal.II. @return the nodes that this rank owns */
+    dealii::IndexSet
+    prepare_finite_element(const BackgroundMesh &mesh);
+
+    /** Splines on the tensor grid. @return the nodes that this rank owns */
+    dealii::IndexSet
+    prepare_splines(const BackgroundMesh &mesh);
+
+    std::string name  = "automatic";
+    std::string basis = "automatic";
+
+    const BackgroundMesh *mesh             = nullptr;
+    unsigned int          p                = 0;
+    unsigned int          n_nodes_per_cell = 0;
+
     std::unique_ptr<dealii::FiniteElement<dim>> fe;
     std::unique_ptr<dealii::DoFHandler<dim>>    dofs;
+
+    /** Splines along x and y, and the number of each of their products. */
+    std::vector<SplineBasis>                     splines;
+    std::vector<dealii::types::global_dof_index> spline_number;
+
+    /** Place in the row and in the column of the nodes of a quadrilateral. */
+    std::vector<std::array<unsigned int, dim>> lattice;
+
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
     std::vector<dealii::Point<dim>>                            positions;
   };

@@ -4,8 +4,7 @@
 #ifndef geocone_mechanics_constraints_h
 #define geocone_mechanics_constraints_h
 
-#include <geocone/discretisation/space.h>
-#include <geocone/scene/scene.h>
+#include <geocone/mechanics/multipliers.h>
 
 #include <vector>
 
@@ -14,13 +13,15 @@ namespace geocone
   /**
    * Prescribed velocities of nodes. These dofs are eliminated; the others, the
    * free dofs, are the unknowns. A multiplier, the reaction of the support on
-   * the body, is the residual in the row of its dof.
+   * the body, is the residual in the row of its dof. Linear constraints on free
+   * dofs stand beside them, as rows with multipliers.
    */
   class Constraints
   {
   public:
     /**
-     * @throws InputError if a condition selects no node
+     * Takes the conditions that are imposed on nodes.
+     * @throws InputError if one of them selects no node
      */
     Constraints(const Scene          &scene,
                 const BackgroundMesh &mesh,
@@ -38,19 +39,47 @@ namespace geocone
     void
     set_values(Vector &v, const double t) const;
 
+    /**
+     * Numbers the unknowns: the dofs that are not prescribed and have mass.
+     * @param mass lumped mass with ghosts, or null if all have
+     * @throws InputError if there is none
+     */
+    void
+    number_unknowns(const Vector *mass);
+
     bool
     is_free(const unsigned int local_dof) const
     {
       return free_row[local_dof] >= 0;
     }
 
-    /** Per local dof its row among the free ones, or -1 if prescribed. */
-    std::vector<int> free_row;
+    /** Whether a local dof is of a node with mass. */
+    bool
+    has_mass(const unsigned int local_dof) const
+    {
+      return with_mass[local_dof];
+    }
+
+    bool
+    is_prescribed(const unsigned int local_dof) const
+    {
+      return free_row[local_dof] == prescribed_row;
+    }
+
+    /**
+     * Per local dof its row among the free ones, or a negative number: where it
+     * is prescribed, or where the node has no mass.
+     */
+    std::vector<int>     free_row;
+    static constexpr int prescribed_row = -1, massless_row = -2;
 
     /** Global row numbers of the local free rows; the owned ones come first. */
     std::vector<int> global_row;
     int              n_owned_rows = 0;
     int              n_rows       = 0; ///< unknowns of all ranks
+
+    /** Constraints on the free dofs. */
+    Multipliers multipliers;
 
     /**
      * Resultant of a nodal force over the nodes of a condition (N/m).
@@ -75,8 +104,10 @@ namespace geocone
       unsigned int component;
     };
 
+    std::vector<bool>                      with_mass;
     const Scene                           &scene;
     const Space                           &space;
+    const MPI_Comm                         comm;
     std::vector<Prescribed>                prescribed;
     std::vector<std::vector<unsigned int>> owned_nodes; ///< per condition
     std::vector<unsigned int>              n_nodes;     ///< of all ranks

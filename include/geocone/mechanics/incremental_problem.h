@@ -18,7 +18,7 @@ namespace geocone
   struct ResidualReport
   {
     double       norm       = 0.; ///< Euclidean norm over the free rows (N/m)
-    double       force_norm = 0.; ///< norm of B'V s and F, all rows (N/m)
+    double       force_norm = 0.; ///< greatest norm of a part of R (N/m)
     unsigned int n_cone     = 0;  ///< points on the smooth part of the cone
     unsigned int n_apex     = 0;  ///< points at the apex
     unsigned int n_switched = 0;  ///< points whose mode differs from last time
@@ -50,9 +50,12 @@ namespace geocone
   /**
    * One implicit step as a root-finding problem for the velocities v of the free
    * dofs (backward Euler):
-   *   R(v) = M (v - vL)/h + sum_p V_p B_p' s_p(v) - F,
-   *   s_p(v) = material(h B_p v, state at t_n),
-   * with prescribed velocities eliminated. It knows points, weights, gradients
+   *   R(v) = M (v - vL)/h + sum_p V_p B_p' s_p(v) - F - H' lambda,
+   *   s_p(v) = material(h B_p v, state at t_n),   H v = q,
+   * with prescribed velocities eliminated. The multipliers are functions of v:
+   * those that leave the least residual in the metric of scale(), which at the
+   * solution are the multipliers. The mass is M = (1 - c) diag(m) + c M_c, with
+   * M_c the sum of m_p N_p' N_p over the points. It knows points, weights, gradients
    * and constraints, and never asks whether they are FEM or MPM. The state at
    * t_n is const; trial states live here.
    */
@@ -60,14 +63,16 @@ namespace geocone
   {
   public:
     /**
-     * @param lumped_mass diagonal of M, or null for a quasi-static problem
+     * @param lumped_mass the diagonal m, or null for a quasi-static problem
+     * @param consistent_part c, not zero only for points with N and mass
      */
     IncrementalProblem(
       const MaterialPoints &points,
       const Materials      &materials,
       const Constraints    &constraints,
       const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &layout,
-      const Vector *lumped_mass);
+      const Vector *lumped_mass,
+      const double  consistent_part = 0.);
 
     /**
      * Sets the data of the step from t_n to t = t_n + h.
@@ -80,7 +85,10 @@ namespace geocone
                const Vector *force,
                const Vector &velocity_L);
 
-    /** Evaluates trial states and R(v) in all rows. @p v needs its ghosts. */
+    /**
+     * Evaluates trial states and R(v) in all rows; in prescribed rows it is the
+     * reaction. @p v needs its ghosts.
+     */
     ResidualReport
     residual(Vector &dst, const Vector &v);
 
@@ -134,6 +142,25 @@ namespace geocone
     {
       return constraints;
     }
+
+    /** Multipliers at the last residual(): forces along the rows of H (N/m). */
+    const Eigen::VectorXd &
+    multipliers() const
+    {
+      return lambda;
+    }
+
+    /** dst = M x in all rows. @p x needs its ghosts. */
+    void
+    apply_mass(Vector &dst, const Vector &x) const;
+
+    /** The diagonal of the elastic Jacobian M/h + h sum V B'DB (kg/(m s)). */
+    const Vector &
+    scale();
+
+    /** sum R_i^2 / scale_i over the free dofs. */
+    double
+    merit(const Vector &residual);
 
     /** Scalar product over the free dofs. */
     double
@@ -189,11 +216,31 @@ namespace geocone
     const Constraints    &constraints;
     const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
     const Vector                                                    *mass;
+    const double consistent_part;
 
     double        h     = 0.;
     double        t     = 0.;
     const Vector *force = nullptr;
     Vector        velocity_L;
+
+    Vector          elastic_diagonal; ///< of the present h, or empty
+    Eigen::VectorXd lambda;
+    Vector          inertia; ///< scratch for a consistent mass
+
+    /** strain[p] = factor B_p v for the points of a cell. */
+    template <int n>
+    void
+    strains_of_cell(const unsigned int   c,
+                    const double        *cell_v,
+                    const double         factor,
+                    std::vector<Mandel> &strain) const;
+
+    /** cell_f += sum B_p' s_p, s_p the stress times the weight. */
+    template <int n, typename WeightedStress>
+    void
+    add_forces_of_cell(const unsigned int    c,
+                       const WeightedStress &weighted_stress,
+                       double               *cell_f) const;
 
     /** Points from begin to end share a material. */
     struct Run

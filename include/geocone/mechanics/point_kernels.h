@@ -32,11 +32,11 @@ namespace geocone::kernels
           return f(std::integral_constant<int, 4>());
         case 6: // P2
           return f(std::integral_constant<int, 6>());
-        case 9: // Q2
+        case 9: // Q2, B-spline 2
           return f(std::integral_constant<int, 9>());
         case 10: // P3
           return f(std::integral_constant<int, 10>());
-        case 16: // Q3
+        case 16: // Q3, B-spline 3
           return f(std::integral_constant<int, 16>());
         default:
           AssertThrow(false, dealii::ExcInternalError());
@@ -157,6 +157,36 @@ namespace geocone::kernels
       return stiffness_avx2<n, upper>(g, C, n_points, scratch, K);
 #endif
     stiffness_body<n, upper>(g, C, n_points, scratch, K);
+  }
+
+  /**
+   * K = sum_q B_q' C_q B_q with the volumetric part of B from the mean gradients
+   * of the cell (B-bar); as stiffness(), all entries.
+   * @param mean mean gradients, 2n values
+   */
+  template <int n>
+  void
+  stiffness_b_bar(const double       *g,
+                  const double       *mean,
+                  const MandelMatrix *C,
+                  const unsigned int  n_points,
+                  double             *K)
+  {
+    Eigen::Map<Eigen::Matrix<double, 2 * n, 2 * n, Eigen::RowMajor>> stiffness(
+      K);
+    Eigen::Matrix<double, 3, 2 * n> B;
+    stiffness.setZero();
+    for (unsigned int q = 0; q < n_points; ++q, g += 2 * n)
+      {
+        for (int i = 0; i < n; ++i)
+          {
+            const double gx = g[i], gy = g[n + i];
+            const double dx = (mean[i] - gx) / 2., dy = (mean[n + i] - gy) / 2.;
+            B.col(2 * i) << gx + dx, dx, gy / sqrt2;
+            B.col(2 * i + 1) << dy, gy + dy, gx / sqrt2;
+          }
+        stiffness.noalias() += B.transpose() * (C[q] * B);
+      }
   }
 
   /** Copies the entries of a cell's nodes between a cell vector and a vector. */

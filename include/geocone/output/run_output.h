@@ -11,7 +11,7 @@
 #include <geocone/output/expectations.h>
 #include <geocone/output/fields.h>
 #include <geocone/output/limit_load.h>
-#include <geocone/time_stepping/implicit_fem.h>
+#include <geocone/time_stepping/time_stepper.h>
 
 #include <string>
 #include <vector>
@@ -57,9 +57,10 @@ namespace geocone
 
     /** The energy that the losses start from. */
     void
-    set_initial_energy(const double elastic)
+    set_initial_energy(const Energies &energies)
     {
-      energy_n = elastic;
+      initial  = energies;
+      energy_n = energies.state();
     }
 
     /** Adds a tried (sub)step to newton.csv. */
@@ -131,6 +132,7 @@ namespace geocone
     std::string              name;
     std::string              if_exists        = "number";
     bool                     with_fields      = true;
+    std::string              fields_format    = "vtu";
     bool                     pictures         = true;
     std::string              report_for_tests = "none";
     std::vector<std::string> expectation_texts;
@@ -146,7 +148,8 @@ namespace geocone
 
     /** Sums since the start (J/m), and the least loss of a step. */
     double work = 0., dissipation = 0., loss = 0., least_loss = 0.;
-    double energy_n = 0.; ///< kinetic and elastic, at the last step
+    double   energy_n = 0.; ///< kinetic, elastic and potential, at the last step
+    Energies initial;
   };
 } // namespace geocone
 

@@ -44,6 +44,10 @@ namespace geocone
     bool
     in_box(const dealii::Point<dim> &x) const;
 
+    /** Lower left and upper right corner of the box, if there is one. */
+    std::optional<std::array<dealii::Point<dim>, 2>>
+    box_corners() const;
+
     /** The full name of one of its parameters, for messages. */
     std::string
     parameter(const std::string &entry) const;
@@ -57,6 +61,36 @@ namespace geocone
     /** Names of the sides. */
     std::vector<std::string> sides;
 
+    /**
+     * What a prescribed velocity holds. With FEM: nodes. With MPM:
+     *  - nodes: the grid functions on sides of the background mesh;
+     *  - points: the particles of the first row under a side of the body;
+     *  - cell averages: the mean over those of them that share a cell;
+     *  - segments: the exact averages of the velocity over equal parts of a side
+     *    of the body, which moves with the prescribed velocity.
+     */
+    enum class Imposition
+    {
+      nodes,
+      points,
+      cell_averages,
+      segments
+    };
+    Imposition imposition = Imposition::nodes;
+
+    /** Number of parts for `segments`. */
+    unsigned int n_segments = 2;
+
+    /** The side is taken this many cell sizes shorter for `segments`. */
+    double shortening = 0.;
+
+    /** Whether it holds particles or a side of the body, and not nodes. */
+    bool
+    moves() const
+    {
+      return imposition != Imposition::nodes;
+    }
+
     /** Per component: the value as a function of (x, y, t), or nothing. */
     std::array<std::optional<Expression>, dim> components;
 
@@ -64,6 +98,7 @@ namespace geocone
     const std::string               quantity;
     const std::string               unset;
     std::array<std::string, dim>    texts;
+    std::string                     imposed_on = "nodes";
     std::vector<dealii::Point<dim>> box;
   };
 

@@ -11,9 +11,11 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/types.h>
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace geocone
@@ -38,10 +40,22 @@ namespace geocone
   check_polygon(const Polygon &polygon, const std::string &parameter);
 
   /**
-   * The domain: a box, a polygon, or whatever a .msh file holds. The sides of
-   * a box are called bottom, right, top, left; those of a polygon 0, 1, 2, ...
-   * (side i runs from vertex i to the next one); those of a file have the
-   * numbers or names of its physical curves.
+   * The path of a file whose name is relative to the folder of the parameter
+   * file, or else to that of the call.
+   * @throws InputError if there is no such file
+   */
+  std::string
+  existing_file(const std::string &name,
+                const std::string &folder_of_parameters,
+                const std::string &parameter,
+                const std::string &allowed);
+
+  /**
+   * The domain: a box, a polygon, discs, or whatever a .msh file holds. The
+   * sides of a box are called bottom, right, top, left; those of a polygon 0, 1,
+   * 2, ... (side i runs from vertex i to the next one); those of a file have the
+   * numbers or names of its physical curves; discs have none, and only the
+   * material point method can fill them.
    */
   class Geometry : public dealii::ParameterAcceptor
   {
@@ -50,6 +64,7 @@ namespace geocone
     {
       box,
       polygon,
+      discs,
       file
     };
 
@@ -60,7 +75,7 @@ namespace geocone
 
     Shape shape = Shape::box;
 
-    /** Vertices of the box or polygon, in order; empty for a file. */
+    /** Vertices of the box or polygon, in order; empty for discs and files. */
     Polygon outline;
 
     /** The number of each named side of the box or polygon. */
@@ -69,15 +84,32 @@ namespace geocone
     /** Name of the .msh file. */
     std::string file;
 
-    /** The side of the outline on which x lies (the nearest one). */
-    dealii::types::boundary_id
-    side_of(const dealii::Point<dim> &x) const;
+    /** The ends of a side of the outline: its vertex and the next one. */
+    std::array<dealii::Point<dim>, 2>
+    side_ends(const dealii::types::boundary_id side) const;
+
+    /** Whether x lies in the body; true for a file, whose cells are the body. */
+    bool
+    contains(const dealii::Point<dim> &x) const;
+
+    /** Lower left and upper right corner of the body; not for a file. */
+    std::pair<dealii::Point<dim>, dealii::Point<dim>>
+    bounding_box() const;
+
+    /** Area of the body (m^2); not for a file. */
+    double
+    area() const;
 
   private:
+    void
+    check_discs();
+
     const std::string               folder_of_parameters;
     std::string                     shape_name = "box";
     std::vector<dealii::Point<dim>> box        = {{-1., -2.}, {1., 0.}};
     std::vector<dealii::Point<dim>> polygon    = {{0., 0.}, {1., 0.}, {1., 1.}};
+    std::vector<dealii::Point<dim>> centres    = {{0., 0.}};
+    std::vector<double>             radii      = {1.};
   };
 
   /**

@@ -81,6 +81,27 @@ namespace geocone
     double                 ramp_duration = 0.;
   };
 
+  /** The velocity before the first step: zero, or given by formulas. */
+  class InitialVelocity : public dealii::ParameterAcceptor
+  {
+  public:
+    InitialVelocity();
+
+    void
+    prepare();
+
+    dealii::Tensor<1, dim>
+    at(const dealii::Point<dim> &x) const;
+
+    /** Whether it is not simply zero. */
+    bool
+    is_given() const;
+
+  private:
+    std::array<std::string, dim> texts = {{"0", "0"}};
+    std::array<Expression, dim>  components;
+  };
+
   /**
    * The stress before the first step: zero, given by formulas, or geostatic,
    *   s_yy = -(surcharge + integral of rho |g| from y to the surface),

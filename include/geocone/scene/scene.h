@@ -28,6 +28,7 @@ namespace geocone
     Materials          materials;
     Regions            regions;
     Gravity            gravity;
+    InitialVelocity    initial_velocity;
     InitialStress      initial_stress;
     BoundaryConditions dirichlet;
     BoundaryConditions tractions;

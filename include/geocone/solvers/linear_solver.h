@@ -33,9 +33,12 @@ namespace geocone
     [[nodiscard]] virtual bool
     factorise(const SparseMatrix &matrix) = 0;
 
-    /** Replaces the owned rows of the right-hand side by the solution. */
+    /**
+     * Replaces the owned rows of right-hand sides by the solutions.
+     * @param x the columns one after another
+     */
     virtual void
-    solve(std::vector<double> &x) = 0;
+    solve(std::vector<double> &x, const unsigned int n_columns = 1) = 0;
 
     /** Whether it takes the lower triangle of a symmetric matrix only. */
     virtual bool

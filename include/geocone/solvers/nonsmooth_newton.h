@@ -20,6 +20,7 @@ namespace geocone
   {
     double       relative_residual = 0.; ///< norm / force norm
     double       step_length       = 0.; ///< of the step that led here
+    double       elastic_blend     = 0.; ///< w in its tangent
     unsigned int n_cone            = 0;
     unsigned int n_apex            = 0;
     unsigned int n_switched        = 0;
@@ -40,19 +41,25 @@ namespace geocone
   /**
    * Semismooth Newton method for R(v) = 0 with the generalised Jacobian of the
    * closed-form return map (the natural map in the elastic metric, with (s, z)
-   * eliminated point by point). The change of the prescribed velocities enters
-   * the first linear system, whose step is full. Convergence: |R_free| <=
-   * max(tolerance |B'V s|, absolute).
+   * eliminated point by point). The change of the prescribed velocities and the
+   * defect of the constraints H v = q enter the first linear system, whose step
+   * is full. With multipliers the Schur complement H K^-1 H' is formed by as many
+   * more right-hand sides as there are rows. Convergence: |R_free| <=
+   * max(tolerance x greatest norm of a part of R, absolute).
    *
    * Globalisation, by name:
    *  - line search: that of line_search.h, along each Newton direction;
    *  - elastic blend: full steps with the tangent (1 - w) C + w D, where
    *    w = min(1/2, |R_free| / |B'V s|), which vanishes with the residual;
+   *  - merit search: steps are halved until the merit sum R_i^2 / D_i falls, D
+   *    the diagonal of the elastic Jacobian; where that stalls the tangent is
+   *    blended, w = max(0.02, 3 w), until it works again;
    *  - none: full Newton steps;
-   *  - automatic: the elastic blend for theta < phi/2 without inertia, the line
-   *    search otherwise; where that fails the other one from the same start,
-   *    but for associated flow and for theta < phi/2 with inertia, where a
-   *    shorter step is the better cure (doc/performance.md).
+   *  - automatic: for particles the merit search. For FEM the elastic blend for
+   *    theta < phi/2 without inertia, the line search otherwise; where that
+   *    fails the other one from the same start, but for associated flow and for
+   *    theta < phi/2 with inertia, where a shorter step is the better cure
+   *    (doc/performance.md).
    */
   class NonsmoothNewton : public dealii::ParameterAcceptor
   {
@@ -62,6 +69,13 @@ namespace geocone
     /** Checks the parameters. */
     void
     prepare();
+
+    /** What a time stepper knows of its problem. */
+    struct Hints
+    {
+      bool particles     = false; ///< the points move
+      bool elastic_first = false; ///< take the elastic tangent once
+    };
 
     /**
      * @param[in,out] v in: the start, velocities of t_n; out: the solution
@@ -73,7 +87,8 @@ namespace geocone
           LinearSolver        &linear_solver,
           dealii::TimerOutput &timer,
           Vector              &v,
-          Vector              &residual) const;
+          Vector              &residual,
+          const Hints         &hints) const;
 
     double
     tolerance() const
@@ -93,12 +108,14 @@ namespace geocone
     {
       line_search,
       elastic_blend,
+      merit_search,
       none
     };
 
     /** solve() with one globalisation; what it spends is added to the report. */
     void
     attempt(const Globalisation  globalisation,
+            const bool           elastic_first,
             IncrementalProblem  &problem,
             SparseMatrix        &matrix,
             LinearSolver        &linear_solver,

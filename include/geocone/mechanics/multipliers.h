@@ -1,0 +1,135 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mechanics_multipliers_h
+#define geocone_mechanics_multipliers_h
+
+#include <geocone/discretisation/space.h>
+#include <geocone/scene/scene.h>
+
+#include <Eigen/Dense>
+
+#include <array>
+#include <vector>
+
+namespace geocone
+{
+  class Constraints;
+
+  /**
+   * General linear constraints H v = q on the free dofs, with multipliers lambda:
+   * the forces H' lambda hold the body. The rows come from velocities at points,
+   * H = A N, and may depend on each other (more points than functions): a pivoted
+   * QR factorisation of H' keeps independent ones, and the others must agree
+   * with them.
+   */
+  class Multipliers
+  {
+  public:
+    /** What makes a row: a condition, its component, and a number of its own. */
+    struct Key
+    {
+      unsigned int condition;
+      unsigned int component;
+      unsigned int number;
+    };
+
+    void
+    clear();
+
+    /** Adds a coefficient of a node to a row, e.g. weight x N_i(x). */
+    void
+    add_coefficient(const Key                            &key,
+                    const dealii::types::global_dof_index node,
+                    const double                          value);
+
+    /** Adds to the right-hand side q of a row. */
+    void
+    add_target(const Key &key, const double value);
+
+    /**
+     * Makes the rows from what all ranks have added. Prescribed dofs move to the
+     * right-hand side; functions without mass are left out, and the remaining
+     * coefficients of a row scaled so that its sum stays.
+     * @param prescribed a vector that has the values of prescribed dofs
+     * @throws InputError for rows that no function supports, and for rows that
+     * contradict each other
+     */
+    void
+    assemble(const Scene       &scene,
+             const Space       &space,
+             const Constraints &constraints,
+             const Vector      &prescribed);
+
+    /** Independent rows, and all that were given. */
+    unsigned int
+    n_rows() const
+    {
+      return H.rows();
+    }
+    unsigned int
+    n_given() const
+    {
+      return given;
+    }
+
+    /** q - H v. Collective. */
+    Eigen::VectorXd
+    defect(const Vector &v) const;
+
+    /** H f. Collective. */
+    Eigen::VectorXd
+    multiply(const Vector &f) const;
+
+    /** f += factor H' lambda, in owned entries. */
+    void
+    add_transposed(Vector                &f,
+                   const double           factor,
+                   const Eigen::VectorXd &lambda) const;
+
+    /**
+     * The multipliers that leave the least residual,
+     *   min_lambda sum_i (R - H' lambda)_i^2 / D_i over the touched dofs.
+     * @param scale D, or null for 1. Collective.
+     */
+    Eigen::VectorXd
+    fit(const Vector &residual, const Vector *scale) const;
+
+    /** Sum of the forces H' lambda of a condition along a component (N/m). */
+    double
+    resultant(const Eigen::VectorXd &lambda,
+              const unsigned int     condition,
+              const unsigned int     component) const;
+
+    /** Mean of the velocities that a condition asks for, or 0. */
+    double
+    mean_target(const unsigned int condition,
+                const unsigned int component) const;
+
+    /** Owned local dofs that rows touch, and their coefficients per row. */
+    const std::vector<unsigned int> &
+    dofs() const
+    {
+      return touched;
+    }
+    const Eigen::MatrixXd &
+    coefficients() const
+    {
+      return H;
+    }
+
+  private:
+    /** condition, component, number, node (-1: target), value. */
+    std::vector<std::array<double, 5>> contributions;
+
+    MPI_Comm                  comm  = MPI_COMM_SELF;
+    unsigned int              given = 0;
+    std::vector<Key>          keys;
+    std::vector<unsigned int> touched;
+    Eigen::MatrixXd           H;
+    Eigen::VectorXd           q; ///< without what prescribed dofs contribute
+    Eigen::VectorXd           asked, row_sum;
+  };
+} // namespace geocone
+
+#endif

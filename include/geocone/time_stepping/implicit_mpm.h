@@ -1,0 +1,202 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_time_stepping_implicit_mpm_h
+#define geocone_time_stepping_implicit_mpm_h
+
+#include <geocone/discretisation/particles.h>
+#include <geocone/mechanics/moving_boundary.h>
+#include <geocone/time_stepping/time_stepper.h>
+
+namespace geocone
+{
+  /**
+   * The implicit material point method. In a step the particles give mass and
+   * momentum to the nodes of the background mesh,
+   *   m_i = sum_p m_p N_i,   vL_i = sum_p m_p v_p N_i / m_i,
+   * the incremental problem is solved for the velocities v of the nodes, and the
+   * particles take from them
+   *   v_p += sum_i N_i (v_i - vL_i)   (FLIP),   x_p += h sum_i N_i v_i,
+   *   V_p *= det(I + h grad v),
+   * while their stress turns by the spin h (d_x v_y - d_y v_x)/2. Then they are
+   * sorted into cells anew, and the mesh is as if it had never moved.
+   *
+   * Options: PIC and APIC instead of FLIP, advection with the velocity of the
+   * particle, a mass that is partly consistent, and the midpoint rule: the
+   * problem is solved over h/2 and extrapolated, the stress projected on the
+   * cone.
+   */
+  class ImplicitMPM : public TimeStepper, public dealii::ParameterAcceptor
+  {
+  public:
+    explicit ImplicitMPM(const ParameterFile &file);
+
+    bool
+    has_inertia() const override
+    {
+      return true;
+    }
+
+    std::string
+    prepare(const Scene           &scene,
+            const BackgroundMesh  &mesh,
+            const Space           &space,
+            const NonsmoothNewton &newton,
+            dealii::TimerOutput   &timer,
+            Kinematics            &kinematics,
+            MaterialPoints        &points) override;
+
+    Energies
+    state_energies(const Kinematics     &kinematics,
+                   const MaterialPoints &points,
+                   const double          t) const override;
+
+    StepReport
+    advance(Kinematics            &kinematics,
+            MaterialPoints        &points,
+            const NonsmoothNewton &newton,
+            dealii::TimerOutput   &timer,
+            const double           t,
+            const double           h) override;
+
+    unsigned int
+    n_unknowns() const override
+    {
+      return constraints->n_rows;
+    }
+
+    std::string
+    linear_solver_name() const override
+    {
+      return linear_solver->name();
+    }
+
+    std::size_t
+    n_nonzeros() const override
+    {
+      return matrix.column.size();
+    }
+
+    unsigned int
+    n_lost() const override
+    {
+      return particles.n_lost();
+    }
+
+  private:
+    /** How velocities go from particles to nodes and back. */
+    enum class Transfer
+    {
+      flip,
+      apic
+    };
+
+    /** Where Newton's method starts. */
+    enum class Start
+    {
+      nodes,    ///< the velocities of the nodes after the last step
+      particles ///< vL, with the elastic tangent first
+    };
+
+    /** A support or load on a side of the body, and the side. */
+    struct Side
+    {
+      unsigned int   condition;
+      MovingBoundary boundary;
+    };
+
+    /** A particle after the step. */
+    struct Moved
+    {
+      dealii::Point<dim>     position;
+      dealii::Tensor<1, dim> velocity;
+      dealii::Tensor<2, dim> affine;
+      double                 volume;
+      double                 spin; ///< angle of rotation (rad)
+    };
+
+    /** Mass, vL, unknowns and pattern: all that depends on t_n only. */
+    void
+    begin(const MaterialPoints &points, dealii::TimerOutput &timer);
+
+    /** External forces at time t. */
+    void
+    evaluate_force(const double t);
+
+    /** H v = q of conditions on moving things, q at time t. */
+    void
+    make_rows(const MaterialPoints &points,
+              const Vector         &prescribed,
+              const double          t);
+
+    /** vL from momentum, where the mass is partly consistent. */
+    void
+    solve_mass(Vector &velocity) const;
+
+    /**
+     * Where the particles go by the node velocities v (at t_n + h) from vL,
+     * advected by v_mean.
+     * @return why they may not, or nothing
+     */
+    std::string
+    transfer(const MaterialPoints &points,
+             const Vector         &v,
+             const Vector         &v_mean,
+             const double          h,
+             std::vector<Moved>   &moved) const;
+
+    /** Moves a chain of lines by the velocity of the nodes. Collective. */
+    void
+    advect(MovingBoundary &boundary, const Vector &v, const double h) const;
+
+    /**
+     * C_p = B_p D_p^-1 of APIC (1/s), B_p = sum_i N_i v_i (x_i - x_p)'.
+     */
+    dealii::Tensor<2, dim>
+    affine_velocity(const MaterialPoints &points,
+                    const unsigned int    p,
+                    const unsigned int   *nodes,
+                    const Vector         &v) const;
+
+    /** D_p = sum_i N_i (x_i - x_p)(x_i - x_p)' of APIC (m^2). */
+    dealii::Tensor<2, dim>
+    moment(const MaterialPoints &points,
+           const unsigned int    p,
+           const unsigned int   *nodes) const;
+
+    void
+    check_parameters();
+
+    double      flip_part       = 1.;
+    std::string transfer_name   = "FLIP";
+    std::string advection       = "grid velocity";
+    double      consistent_mass = 0.;
+    bool        midpoint        = false;
+    std::string integration     = "backward Euler";
+    std::string start_name      = "automatic";
+    double      largest_move    = 3.;
+
+    Particles particles;
+
+    const Scene          *scene  = nullptr;
+    const BackgroundMesh *mesh   = nullptr;
+    const Space          *space  = nullptr;
+    Transfer              kind   = Transfer::flip;
+    Start                 first_start = Start::nodes;
+    dealii::Point<dim>    datum; ///< of the potential energy
+
+    std::vector<Side> supports, loads;
+
+    std::unique_ptr<Constraints>        constraints;
+    std::unique_ptr<IncrementalProblem> problem;
+    std::unique_ptr<LinearSolver>       linear_solver;
+    SparseMatrix                        matrix;
+    bool                                begun = false;
+    Vector                              lumped_mass;
+    Vector                              velocity_L;
+    Vector                              force;
+    std::vector<bool>                   had_mass; ///< nodes, in the last step
+  };
+} // namespace geocone
+
+#endif

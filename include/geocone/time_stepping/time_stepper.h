@@ -1,0 +1,144 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_time_stepping_time_stepper_h
+#define geocone_time_stepping_time_stepper_h
+
+#include <geocone/solvers/nonsmooth_newton.h>
+
+#include <deal.II/base/timer.h>
+
+namespace geocone
+{
+  /** Everything that a run advances in time, besides the points' state. */
+  struct Kinematics
+  {
+    Vector velocity;     ///< of the nodes at t_n (m/s)
+    Vector displacement; ///< of nodes that stay (FEM), since the last reset (m)
+
+    /** Mean displacement of what each condition holds, since the reset (m). */
+    std::vector<dealii::Tensor<1, dim>> supports;
+  };
+
+  /** Energies at the end of a step and what the step has done (J/m). */
+  struct Energies
+  {
+    double kinetic = 0.; ///< v'Mv/2 of the nodes (FEM) or the particles (MPM)
+    double elastic = 0.; ///< sum V s'Ss/2
+    /** MPM: -sum m g.(x - x0), x0 the lower left corner of the mesh. FEM counts
+     *  the work of the weight as external instead. */
+    double potential     = 0.;
+    double external_work = 0.; ///< of the step: loads and supports
+    double dissipation   = 0.; ///< of the step: sum V s'(-z) >= 0
+
+    double
+    state() const
+    {
+      return kinetic + elastic + potential;
+    }
+  };
+
+  /** What a step came to. Nothing has changed if it did not converge. */
+  struct StepReport
+  {
+    bool         converged = false;
+    SolverReport newton;
+    Quality      quality;
+    Energies     energies;
+
+    /** Forces on the body of each condition of the scene (N/m). */
+    std::vector<dealii::Tensor<1, dim>> reactions;
+
+    unsigned int unknowns    = 0;
+    unsigned int multipliers = 0; ///< independent rows of H
+    unsigned int rows        = 0; ///< rows of H that were given
+
+    /**
+     * Defect of the discrete energy identity of the step on the grid,
+     *   dE_kin + dE_el + sum V s'(-z) + |v - vL|_M^2/2 + sum V ds'S ds/2 = work,
+     * relative to its largest term.
+     */
+    double identity_error = 0.;
+  };
+
+  /** sum V s'Ss/2 over the points of all ranks (J/m). */
+  double
+  elastic_energy(const MaterialPoints &points,
+                 const Materials      &materials,
+                 const MPI_Comm        comm);
+
+  /** Identity defect of the last step that a problem solved. Collective. */
+  double
+  energy_identity_error(const IncrementalProblem &problem,
+                        const MaterialPoints     &points,
+                        const Materials          &materials,
+                        const Vector             &velocity_L,
+                        const Vector             &v,
+                        const double              work);
+
+  /**
+   * Advances a scene in time, for one of the methods. The only place where state
+   * changes, and only when a step is accepted.
+   */
+  class TimeStepper
+  {
+  public:
+    virtual ~TimeStepper() = default;
+
+    /** Whether there is inertia; without it no mass is assembled. */
+    virtual bool
+    has_inertia() const = 0;
+
+    /**
+     * Allocates what steps need, and makes the points and the motion at t = 0.
+     * @return a warning or nothing
+     * @throws InputError
+     */
+    virtual std::string
+    prepare(const Scene           &scene,
+            const BackgroundMesh  &mesh,
+            const Space           &space,
+            const NonsmoothNewton &newton,
+            dealii::TimerOutput   &timer,
+            Kinematics            &kinematics,
+            MaterialPoints        &points) = 0;
+
+    /** Kinetic, elastic and potential energy at time t. Collective. */
+    virtual Energies
+    state_energies(const Kinematics     &kinematics,
+                   const MaterialPoints &points,
+                   const double          t) const = 0;
+
+    /** Tries the step from t to t + h; commits it if it converges. */
+    virtual StepReport
+    advance(Kinematics            &kinematics,
+            MaterialPoints        &points,
+            const NonsmoothNewton &newton,
+            dealii::TimerOutput   &timer,
+            const double           t,
+            const double           h) = 0;
+
+    /** Lets displacements and plastic strains count from now. */
+    void
+    reset(Kinematics &kinematics, MaterialPoints &points) const;
+
+    virtual unsigned int
+    n_unknowns() const = 0;
+
+    virtual std::string
+    linear_solver_name() const = 0;
+
+    /** Entries of the Jacobian on this rank. */
+    virtual std::size_t
+    n_nonzeros() const = 0;
+
+    /** Points that left the mesh. */
+    virtual unsigned int
+    n_lost() const
+    {
+      return 0;
+    }
+  };
+} // namespace geocone
+
+#endif

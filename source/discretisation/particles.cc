@@ -1,0 +1,282 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/discretisation/particles.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Places of the state of a particle among its properties. */
+    enum Property : unsigned int
+    {
+      mass,
+      volume,
+      velocity,
+      displacement              = velocity + dim,
+      stress                    = displacement + dim,
+      plastic_strain            = stress + n_mandel,
+      cumulative_plastic_strain = plastic_strain + n_mandel,
+      plastic_strain_rate,
+      affine,
+      material = affine + dim * dim,
+      held_by,
+      still_to_go,
+      n_properties = still_to_go + dim
+    };
+
+    /**
+     * Whether a particle lies in the first row under the part of the body's
+     * sides that a condition holds: nearer than the side of its own square.
+     */
+    bool
+    in_first_row(const BoundaryCondition &condition,
+                 const Geometry          &geometry,
+                 const Point<dim>        &x,
+                 const double             volume)
+    {
+      for (const auto &[name, id] : geometry.sides)
+        if (std::count(condition.sides.begin(), condition.sides.end(), name) +
+              std::count(
+                condition.sides.begin(), condition.sides.end(), "all") >
+            0)
+          {
+            const auto           ends  = geometry.side_ends(id);
+            const Tensor<1, dim> along = ends[1] - ends[0];
+            const double         s =
+              std::max(0.,
+                       std::min(1.,
+                                (x - ends[0]) * along / along.norm_square()));
+            const Point<dim> foot = ends[0] + s * along;
+            if (foot.distance(x) < std::sqrt(volume) && condition.in_box(foot))
+              return true;
+          }
+      return false;
+    }
+  } // namespace
+
+  Particles::Particles(const ParameterFile &file)
+    : ParameterAcceptor("/Particles")
+    , seeding(file)
+  {
+    add_parameter("Outflow",
+                  outflow,
+                  "What a particle does that leaves the background mesh: "
+                  "error (ends the run and names it) | count (it is removed "
+                  "and counted).");
+  }
+
+  std::string
+  Particles::prepare(const Scene          &scene,
+                     const BackgroundMesh &mesh,
+                     const Space          &space)
+  {
+    if (outflow != "error" && outflow != "count")
+      throw InputError("Particles/Outflow",
+                       outflow,
+                       "error | count",
+                       "choose one of them");
+    comm = mesh.triangulation().get_communicator();
+    seeding.prepare(scene);
+    const std::vector<Seed> seeds = seeding.make(scene, mesh);
+
+    handler = std::make_unique<dealii::Particles::ParticleHandler<dim>>(
+      mesh.triangulation(), mesh.mapping(), n_properties);
+    handler->signals.particle_lost.connect([this](const auto &particle, auto) {
+      lost.emplace_back(particle->get_id(), particle->get_location());
+    });
+
+    unsigned int       first = 0;
+    const unsigned int n     = seeds.size();
+    MPI_Exscan(&n, &first, 1, MPI_UNSIGNED, MPI_SUM, comm);
+    const auto &conditions = scene.dirichlet.list;
+    for (const auto &cell : mesh.own_cells())
+      {
+        // Any cell will do: sorting finds the right one.
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            const Seed         &seed = seeds[i];
+            std::vector<double> properties(n_properties, 0.);
+            properties[volume]   = seed.volume;
+            properties[material] = seed.material;
+            properties[mass] =
+              seed.volume * scene.materials[seed.material].density();
+            for (unsigned int c = 0; c < dim; ++c)
+              properties[velocity + c] = seed.velocity[c];
+            for (unsigned int c = 0; c < n_mandel; ++c)
+              properties[stress + c] = seed.stress[c];
+            for (unsigned int c = 0; c < conditions.size(); ++c)
+              if (conditions[c]->imposition ==
+                    BoundaryCondition::Imposition::points ||
+                  conditions[c]->imposition ==
+                    BoundaryCondition::Imposition::cell_averages)
+                if (in_first_row(
+                      *conditions[c], scene.geometry, seed.position, seed.volume))
+                  properties[held_by] = c + 1;
+            handler->insert_particle(seed.position,
+                                     Point<dim>(-1., -1.),
+                                     first + i,
+                                     cell,
+                                     ArrayView<const double>(properties));
+          }
+        break;
+      }
+    handler->update_cached_numbers();
+    handler->sort_particles_into_subdomains_and_cells();
+
+    if (space.degree() == 3 && !space.is_spline() &&
+        seeding.points_per_direction() > 0 &&
+        seeding.points_per_direction() < 3)
+      return "Q3 with fewer than 3 x 3 particles per cell: functions that no "
+             "particle sees move freely, loads come out far too low; take "
+             "'Particles/Points per direction' = 3, or B-splines";
+    return "";
+  }
+
+  MaterialPoints
+  Particles::collect(const BackgroundMesh &mesh, const Space &space) const
+  {
+    MaterialPoints     points;
+    const unsigned int n_points = handler->n_locally_owned_particles();
+    const unsigned int n        = space.nodes_per_cell();
+    points.n_nodes              = n;
+    points.values.resize(n_points * n);
+    points.gradients.resize(n_points * dim * n);
+
+    std::vector<types::global_dof_index> nodes;
+    std::vector<Tensor<1, dim>>          unit_gradient(n);
+    unsigned int                         p = 0;
+    for (const auto &cell : mesh.own_cells())
+      {
+        const auto particles = handler->particles_in_cell(cell);
+        if (particles.begin() == particles.end())
+          continue;
+        points.cells.push_back(cell);
+        space.cell_nodes(cell, nodes);
+        for (const types::global_dof_index node : nodes)
+          points.nodes.push_back(space.local_node(node));
+        for (const auto &particle : particles)
+          {
+            const Point<dim>    &unit = particle.get_reference_location();
+            const Tensor<2, dim> inverse = mesh.inverse_jacobian(cell, unit);
+            space.evaluate(
+              cell, unit, &points.values[p * n], unit_gradient.data());
+            for (unsigned int i = 0; i < n; ++i)
+              {
+                const Tensor<1, dim> gradient = unit_gradient[i] * inverse;
+                for (unsigned int c = 0; c < dim; ++c)
+                  points.gradients[(p * dim + c) * n + i] = gradient[c];
+              }
+            ++p;
+
+            const auto   state  = particle.get_properties();
+            const auto   mandel = [&](const unsigned int place) {
+              return Mandel(
+                state[place], state[place + 1], state[place + 2]);
+            };
+            const auto vector = [&](const unsigned int place) {
+              return Tensor<1, dim>({state[place], state[place + 1]});
+            };
+            points.position.push_back(particle.get_location());
+            points.id.push_back(particle.get_id());
+            points.mass.push_back(state[mass]);
+            points.weight.push_back(state[volume]);
+            points.velocity.push_back(vector(velocity));
+            points.displacement.push_back(vector(displacement));
+            points.stress.push_back(mandel(stress));
+            points.plastic_strain.push_back(mandel(plastic_strain));
+            points.cumulative_plastic_strain.push_back(
+              state[cumulative_plastic_strain]);
+            points.plastic_strain_rate.push_back(state[plastic_strain_rate]);
+            points.affine.push_back(Tensor<2, dim>(
+              {{state[affine], state[affine + 1]},
+               {state[affine + 2], state[affine + 3]}}));
+            points.material.push_back(std::lround(state[material]));
+            points.held_by.push_back(std::lround(state[held_by]));
+          }
+        points.first_point.push_back(p);
+      }
+    return points;
+  }
+
+  void
+  Particles::move(const MaterialPoints &points)
+  {
+    // The library finds a particle in the cells around its old one, which on
+    // several ranks may be all that is known: far moves go in parts.
+    unsigned int p = 0, n_parts = 1;
+    for (const auto &cell : points.cells)
+      for (auto &particle : handler->particles_in_cell(cell))
+        {
+          const auto           state = particle.get_properties();
+          const Tensor<1, dim> move =
+            points.position[p] - particle.get_location();
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              state[still_to_go + c] = move[c];
+              n_parts                = std::max<unsigned int>(
+                n_parts,
+                std::ceil(std::abs(move[c]) / cell->extent_in_direction(c)));
+            }
+          state[volume]    = points.weight[p];
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              state[velocity + c]     = points.velocity[p][c];
+              state[displacement + c] = points.displacement[p][c];
+              for (unsigned int d = 0; d < dim; ++d)
+                state[affine + dim * c + d] = points.affine[p][c][d];
+            }
+          for (unsigned int c = 0; c < n_mandel; ++c)
+            {
+              state[stress + c]         = points.stress[p][c];
+              state[plastic_strain + c] = points.plastic_strain[p][c];
+            }
+          state[cumulative_plastic_strain] =
+            points.cumulative_plastic_strain[p];
+          state[plastic_strain_rate] = points.plastic_strain_rate[p];
+          ++p;
+        }
+    lost.clear();
+    n_parts = Utilities::MPI::n_mpi_processes(comm) == 1 ?
+                1 :
+                Utilities::MPI::max(n_parts, comm);
+    for (unsigned int part = 0; part < n_parts; ++part)
+      {
+        for (auto &particle : *handler)
+          {
+            const auto state = particle.get_properties();
+            particle.set_location(
+              particle.get_location() +
+              Tensor<1, dim>({state[still_to_go] / n_parts,
+                              state[still_to_go + 1] / n_parts}));
+          }
+        handler->sort_particles_into_subdomains_and_cells();
+      }
+
+    const unsigned int n_now = Utilities::MPI::sum(lost.size(), comm);
+    n_lost_all += n_now;
+    if (n_now > 0 && outflow == "error")
+      {
+        std::string which;
+        if (!lost.empty())
+          which = format("particle %u at (%g, %g)",
+                         lost[0].first,
+                         lost[0].second[0],
+                         lost[0].second[1]);
+        for (const std::string &text : Utilities::MPI::all_gather(comm, which))
+          if (!text.empty())
+            which = text;
+        throw StepFailure(
+          format("%u particles left the background mesh, e.g. ", n_now) +
+          which +
+          "\n  remedy:  enlarge 'Mesh/Box', or let them go with "
+          "'Particles/Outflow = count'");
+      }
+  }
+} // namespace geocone

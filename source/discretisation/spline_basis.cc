@@ -1,0 +1,81 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/discretisation/spline_basis.h>
+
+namespace geocone
+{
+  SplineBasis::SplineBasis(const unsigned int         degree,
+                           const std::vector<double> &breaks)
+    : p(degree)
+    , knots(p, breaks.front())
+  {
+    knots.insert(knots.end(), breaks.begin(), breaks.end());
+    knots.insert(knots.end(), p, breaks.back());
+  }
+
+  double
+  SplineBasis::greville(const unsigned int function) const
+  {
+    double sum = 0.;
+    for (unsigned int k = 1; k <= p; ++k)
+      sum += knots[function + k];
+    return sum / p;
+  }
+
+  void
+  SplineBasis::evaluate(const unsigned int i,
+                        const double       xi,
+                        double            *N,
+                        double            *dN) const
+  {
+    // Cox and de Boor's recursion over the degree; knots are counted from the
+    // first one of function i.
+    const double *t      = &knots[i];
+    const double  length = t[p + 1] - t[p];
+    const double  x      = t[p] + xi * length;
+    double        lower[max_degree + 1];
+    N[0] = 1.;
+    for (unsigned int degree = 1; degree <= p; ++degree)
+      {
+        double carried = 0.;
+        for (unsigned int r = 0; r < degree; ++r)
+          {
+            const double right = t[p + r + 1], left = t[p + r + 1 - degree];
+            lower[r]         = N[r];
+            const double per = N[r] / (right - left);
+            N[r]             = carried + (right - x) * per;
+            carried          = (x - left) * per;
+          }
+        N[degree] = carried;
+      }
+    for (unsigned int r = 0; r <= p; ++r)
+      {
+        dN[r] = 0.;
+        if (r > 0)
+          dN[r] += p * length * lower[r - 1] / (t[r + p] - t[r]);
+        if (r < p)
+          dN[r] -= p * length * lower[r] / (t[r + p + 1] - t[r + 1]);
+      }
+  }
+
+  void
+  bernstein(const unsigned int p, const double xi, double *N, double *dN)
+  {
+    double lower[max_degree + 1];
+    N[0] = 1.;
+    for (unsigned int degree = 1; degree <= p; ++degree)
+      {
+        double carried = 0.;
+        for (unsigned int r = 0; r < degree; ++r)
+          {
+            lower[r] = N[r];
+            N[r]     = carried + (1. - xi) * lower[r];
+            carried  = xi * lower[r];
+          }
+        N[degree] = carried;
+      }
+    for (unsigned int r = 0; r <= p; ++r)
+      dN[r] = p * ((r > 0 ? lower[r - 1] : 0.) - (r < p ? lower[r] : 0.));
+  }
+} // namespace geocone

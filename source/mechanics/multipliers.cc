@@ -1,0 +1,289 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/mechanics/constraints.h>
+#include <geocone/mechanics/multipliers.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <map>
+
+namespace geocone
+{
+  using namespace dealii;
+  using Eigen::MatrixXd;
+  using Eigen::VectorXd;
+
+  namespace
+  {
+    /** Rows below this part of the largest pivot depend on the others. */
+    constexpr double rank_tolerance = 1e-6;
+
+    VectorXd
+    sum_over_ranks(VectorXd x, const MPI_Comm comm)
+    {
+      if (x.size() > 0)
+        Utilities::MPI::sum(ArrayView<const double>(x.data(), x.size()),
+                            comm,
+                            ArrayView<double>(x.data(), x.size()));
+      return x;
+    }
+  } // namespace
+
+  void
+  Multipliers::clear()
+  {
+    contributions.clear();
+    keys.clear();
+    touched.clear();
+    H.resize(0, 0);
+    q.resize(0);
+    asked.resize(0);
+    row_sum.resize(0);
+    given = 0;
+  }
+
+  void
+  Multipliers::add_coefficient(const Key                    &key,
+                               const types::global_dof_index node,
+                               const double                  value)
+  {
+    contributions.push_back({{double(key.condition),
+                              double(key.component),
+                              double(key.number),
+                              double(node),
+                              value}});
+  }
+
+  void
+  Multipliers::add_target(const Key &key, const double value)
+  {
+    contributions.push_back({{double(key.condition),
+                              double(key.component),
+                              double(key.number),
+                              -1.,
+                              value}});
+  }
+
+  void
+  Multipliers::assemble(const Scene       &scene,
+                        const Space       &space,
+                        const Constraints &constraints,
+                        const Vector      &prescribed)
+  {
+    comm = prescribed.get_mpi_communicator();
+    using RowName = std::array<unsigned int, 3>;
+    struct Row
+    {
+      std::map<types::global_dof_index, double> coefficients; // of dofs
+      double                                    target = 0.;
+    };
+    std::map<RowName, Row> rows;
+    for (const auto &of_rank : Utilities::MPI::all_gather(comm, contributions))
+      for (const auto &[condition, component, number, node, value] : of_rank)
+        {
+          Row &row = rows[{{static_cast<unsigned int>(condition),
+                            static_cast<unsigned int>(component),
+                            static_cast<unsigned int>(number)}}];
+          if (node < 0.)
+            row.target += value;
+          else
+            row.coefficients[dim * static_cast<types::global_dof_index>(node) +
+                             static_cast<unsigned int>(component)] += value;
+        }
+    contributions.clear();
+    given = rows.size();
+    if (given == 0)
+      return;
+
+    // What each touched dof is, as its owner knows: free, prescribed (with its
+    // value), or without mass.
+    std::map<types::global_dof_index, unsigned int> place;
+    for (const auto &row : rows)
+      for (const auto &entry : row.second.coefficients)
+        place.emplace(entry.first, 0);
+    unsigned int n_dofs = 0;
+    for (auto &entry : place)
+      entry.second = n_dofs++;
+    VectorXd          is_free = VectorXd::Zero(n_dofs), is_held = is_free,
+             value            = is_free;
+    const auto       &layout  = *space.partitioner();
+    for (const auto &[dof, j] : place)
+      if (layout.in_local_range(dof))
+        {
+          const unsigned int local = layout.global_to_local(dof);
+          is_free[j]               = constraints.is_free(local);
+          is_held[j]               = constraints.is_prescribed(local);
+          value[j] = is_held[j] != 0. ? prescribed.local_element(local) : 0.;
+        }
+    is_free = sum_over_ranks(is_free, comm);
+    is_held = sum_over_ranks(is_held, comm);
+    value   = sum_over_ranks(value, comm);
+
+    const auto name_of = [&](const unsigned int condition) {
+      return scene.dirichlet.list[condition]->parameter("Imposed on");
+    };
+    MatrixXd full = MatrixXd::Zero(rows.size(), n_dofs);
+    VectorXd target(rows.size());
+    unsigned int         r = 0;
+    std::vector<RowName> names;
+    for (const auto &[name, row] : rows)
+      {
+        double all = 0., supported = 0.;
+        for (const auto &[dof, coefficient] : row.coefficients)
+          {
+            const unsigned int j = place[dof];
+            all += coefficient;
+            if (is_free[j] != 0. || is_held[j] != 0.)
+              supported += coefficient;
+          }
+        if (!(supported > 1e-8 * all))
+          throw InputError(
+            name_of(name[0]),
+            scene.dirichlet.list[name[0]]->part(),
+            "a place with material",
+            "no particle is near it: no function supports the constraint. "
+            "Check its sides and its box, or whether the body has left it");
+        target[r] = row.target;
+        for (const auto &[dof, coefficient] : row.coefficients)
+          {
+            const unsigned int j = place[dof];
+            const double       c = coefficient * (all / supported);
+            if (is_free[j] != 0.)
+              full(r, j) = c;
+            else if (is_held[j] != 0.)
+              target[r] -= c * value[j];
+          }
+        names.push_back(name);
+        ++r;
+      }
+
+    Eigen::ColPivHouseholderQR<MatrixXd> qr(full.transpose());
+    qr.setThreshold(rank_tolerance);
+    const unsigned int rank    = qr.rank();
+    const auto        &ordered = qr.colsPermutation().indices();
+    std::vector<int>   kept(ordered.data(), ordered.data() + rank);
+    std::sort(kept.begin(), kept.end());
+    MatrixXd independent(rank, n_dofs);
+    q.resize(rank);
+    asked.resize(rank);
+    keys.clear();
+    for (unsigned int k = 0; k < rank; ++k)
+      {
+        independent.row(k) = full.row(kept[k]);
+        q[k]               = target[kept[k]];
+        asked[k]           = rows[names[kept[k]]].target;
+        keys.push_back(
+          {names[kept[k]][0], names[kept[k]][1], names[kept[k]][2]});
+      }
+    row_sum = independent.rowwise().sum();
+    if (rank < rows.size())
+      {
+        // The others as combinations of those kept.
+        const Eigen::ColPivHouseholderQR<MatrixXd> basis(
+          independent.transpose());
+        const double scale = target.cwiseAbs().maxCoeff();
+        for (unsigned int i = 0; i < rows.size(); ++i)
+          if (!std::binary_search(kept.begin(), kept.end(), i))
+            {
+              const VectorXd factors = basis.solve(full.row(i).transpose());
+              if (std::abs(factors.dot(q) - target[i]) > 1e-4 * scale)
+                throw InputError(
+                  name_of(names[i][0]),
+                  scene.dirichlet.list[names[i][0]]->part(),
+                  "velocities that the functions of the space can take",
+                  format("its rows depend on each other but contradict: %g m/s "
+                         "is asked where the others leave %g m/s; impose "
+                         "segments or cell averages, or a velocity that is "
+                         "the same for all its points",
+                         target[i],
+                         factors.dot(q)));
+            }
+      }
+
+    std::vector<unsigned int> columns;
+    touched.clear();
+    for (const auto &[dof, j] : place)
+      if (is_free[j] != 0. && layout.in_local_range(dof))
+        {
+          touched.push_back(layout.global_to_local(dof));
+          columns.push_back(j);
+        }
+    H.resize(rank, touched.size());
+    for (unsigned int j = 0; j < touched.size(); ++j)
+      H.col(j) = independent.col(columns[j]);
+  }
+
+  VectorXd
+  Multipliers::multiply(const Vector &f) const
+  {
+    VectorXd own(touched.size());
+    for (unsigned int j = 0; j < touched.size(); ++j)
+      own[j] = f.local_element(touched[j]);
+    return sum_over_ranks(H * own, comm);
+  }
+
+  VectorXd
+  Multipliers::defect(const Vector &v) const
+  {
+    return q - multiply(v);
+  }
+
+  void
+  Multipliers::add_transposed(Vector         &f,
+                              const double    factor,
+                              const VectorXd &lambda) const
+  {
+    const VectorXd own = factor * H.transpose() * lambda;
+    for (unsigned int j = 0; j < touched.size(); ++j)
+      f.local_element(touched[j]) += own[j];
+  }
+
+  VectorXd
+  Multipliers::fit(const Vector &residual, const Vector *scale) const
+  {
+    MatrixXd weighted(H.rows(), H.cols());
+    VectorXd own(touched.size());
+    for (unsigned int j = 0; j < touched.size(); ++j)
+      {
+        weighted.col(j) =
+          H.col(j) /
+          (scale != nullptr ? scale->local_element(touched[j]) : 1.);
+        own[j] = residual.local_element(touched[j]);
+      }
+    const unsigned int n = H.rows();
+    VectorXd           sums(n * n + n);
+    sums << (weighted * H.transpose()).reshaped(), weighted * own;
+    sums = sum_over_ranks(sums, comm);
+    return sums.head(n * n).reshaped(n, n).ldlt().solve(sums.tail(n));
+  }
+
+  double
+  Multipliers::resultant(const VectorXd    &lambda,
+                         const unsigned int condition,
+                         const unsigned int component) const
+  {
+    double sum = 0.;
+    for (unsigned int k = 0; k < n_rows(); ++k)
+      if (keys[k].condition == condition && keys[k].component == component)
+        sum += lambda[k] * row_sum[k];
+    return sum;
+  }
+
+  double
+  Multipliers::mean_target(const unsigned int condition,
+                           const unsigned int component) const
+  {
+    double       sum = 0.;
+    unsigned int n   = 0;
+    for (unsigned int k = 0; k < n_rows(); ++k)
+      if (keys[k].condition == condition && keys[k].component == component)
+        {
+          sum += asked[k];
+          ++n;
+        }
+    return n > 0 ? sum / n : 0.;
+  }
+} // namespace geocone

@@ -1,0 +1,834 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/mechanics/point_kernels.h>
+#include <geocone/time_stepping/implicit_mpm.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/solver_control.h>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Imposition = BoundaryCondition::Imposition;
+
+    /** A Mandel vector turned by an angle: Q t Q'. */
+    Mandel
+    turn(const Mandel &t, const double angle)
+    {
+      const double c = std::cos(2. * angle), s = std::sin(2. * angle);
+      const double mean = (t[0] + t[1]) / 2., half = (t[0] - t[1]) / 2.,
+                   shear = t[2] / sqrt2;
+      const double h     = c * half - s * shear;
+      return {mean + h, mean - h, sqrt2 * (s * half + c * shear)};
+    }
+
+    /** The longest part of a line in one cell (m). */
+    double
+    cell_size_along(const BackgroundMesh       &mesh,
+                    const Space                &space,
+                    const MovingBoundary::Line &line)
+    {
+      double longest = 0.;
+      // The middle one of the five Gauss points of a cell has this weight.
+      const double middle = 128. / 450.;
+      const auto   points = points_on_line(mesh, space, line.a, line.b);
+      for (std::size_t i = 2; i < points.size(); i += 5)
+        longest = std::max(longest, points[i].weight / middle * line.length);
+      return Utilities::MPI::max(longest,
+                                 mesh.triangulation().get_communicator());
+    }
+  } // namespace
+
+  ImplicitMPM::ImplicitMPM(const ParameterFile &file)
+    : ParameterAcceptor("/Material point method")
+    , particles(file)
+  {
+    add_parameter("Transfer",
+                  transfer_name,
+                  "FLIP: particles take the change of the nodes' velocities. "
+                  "APIC: they take the velocity and its affine part, which "
+                  "keeps angular momentum and damps vibrations.");
+    add_parameter("FLIP part",
+                  flip_part,
+                  "For FLIP: the part of the new velocity that FLIP gives, the "
+                  "rest is PIC (interpolated, damps); 0 to 1.");
+    add_parameter("Advection",
+                  advection,
+                  "grid velocity | particle velocity: what moves the "
+                  "particles. The latter lets loads drift with FLIP.");
+    add_parameter("Consistent mass part",
+                  consistent_mass,
+                  "M = (1 - c) lumped + c consistent; 0 to 1. Up to 0.999 is "
+                  "safe; 1 is singular where a cell has fewer particles than "
+                  "functions.");
+    add_parameter("Integration",
+                  integration,
+                  "backward Euler | midpoint, which loses less energy.");
+    add_parameter("Start",
+                  start_name,
+                  "Where Newton's method starts: grid velocity (of the last "
+                  "step; best for slow loading) | particle velocity (vL, with "
+                  "the elastic tangent first) | automatic: the one that "
+                  "worked last, the other if it fails.");
+    add_parameter("Largest move",
+                  largest_move,
+                  "A step in which a particle would move farther than so many "
+                  "cells is cut.");
+  }
+
+  void
+  ImplicitMPM::check_parameters()
+  {
+    const std::string section = "Material point method/";
+    const auto        choose  = [&](const std::string &entry,
+                            const std::string &value,
+                            const std::string &a,
+                            const std::string &b,
+                            const std::string &c = "") {
+      if (value != a && value != b && (c.empty() || value != c))
+        throw InputError(section + entry,
+                         value,
+                         a + " | " + b + (c.empty() ? "" : " | " + c),
+                         "choose one of them");
+    };
+    const auto part = [&](const std::string &entry, const double value) {
+      if (!(value >= 0. && value <= 1.))
+        throw InputError(
+          section + entry, value, "0 to 1", "see geocone --help");
+    };
+    choose("Transfer", transfer_name, "FLIP", "APIC");
+    choose("Advection", advection, "grid velocity", "particle velocity");
+    choose("Integration", integration, "backward Euler", "midpoint");
+    choose(
+      "Start", start_name, "automatic", "grid velocity", "particle velocity");
+    part("FLIP part", flip_part);
+    part("Consistent mass part", consistent_mass);
+    if (!(largest_move > 0.))
+      throw InputError(
+        section + "Largest move", largest_move, "> 0 cells", "3 is usual");
+    kind     = transfer_name == "FLIP" ? Transfer::flip : Transfer::apic;
+    midpoint = integration == "midpoint";
+    first_start =
+      start_name == "particle velocity" ? Start::particles : Start::nodes;
+    if (!space->is_non_negative() && consistent_mass < 1.)
+      throw InputError("Discretisation/Basis",
+                       "Lagrange",
+                       "Bernstein where MPM lumps the mass",
+                       "Lagrange's functions of degree 2 and 3 are negative "
+                       "in places, and so would be masses: set Basis = "
+                       "automatic, or '" +
+                         section + "Consistent mass part' = 1");
+  }
+
+  std::string
+  ImplicitMPM::prepare(const Scene           &scene_,
+                       const BackgroundMesh  &mesh_,
+                       const Space           &space_,
+                       const NonsmoothNewton &newton,
+                       TimerOutput           &timer,
+                       Kinematics            &kinematics,
+                       MaterialPoints        &points)
+  {
+    scene = &scene_;
+    mesh  = &mesh_;
+    space = &space_;
+    check_parameters();
+
+    const auto &list = scene->dirichlet.list;
+    for (unsigned int c = 0; c < list.size(); ++c)
+      if (list[c]->imposition == Imposition::segments)
+        {
+          supports.push_back({c, MovingBoundary(*list[c], scene->geometry, 0.)});
+          for (MovingBoundary::Line &line : supports.back().boundary.lines)
+            {
+              const double         part = list[c]->shortening / 2. *
+                                          cell_size_along(*mesh, *space, line) /
+                                          line.length;
+              const Tensor<1, dim> along = line.b - line.a;
+              if (2. * part >= 1.)
+                throw InputError(list[c]->parameter("Segment shortening"),
+                                 list[c]->shortening,
+                                 "less than the side has cells",
+                                 "take smaller cells or a smaller number");
+              line.a += part * along;
+              line.b -= part * along;
+              line.length *= 1. - 2. * part;
+            }
+        }
+      else if (list[c]->moves())
+        lines_of_body(*list[c], scene->geometry); // checks the names
+    const auto &tractions = scene->tractions.list;
+    for (unsigned int c = 0; c < tractions.size(); ++c)
+      {
+        double size = 0.;
+        for (const auto &line : lines_of_body(*tractions[c], scene->geometry))
+          size = std::max(size, cell_size_along(*mesh, *space, line));
+        loads.push_back(
+          {c, MovingBoundary(*tractions[c], scene->geometry, size)});
+      }
+
+    const std::string warning = particles.prepare(*scene, *mesh, *space);
+    points                    = particles.collect(*mesh, *space);
+    datum                     = mesh->lower_corner();
+
+    constraints   = std::make_unique<Constraints>(*scene, *mesh, *space);
+    linear_solver = make_linear_solver(newton.linear_solver_name(),
+                                       mesh->triangulation().get_communicator(),
+                                       scene->materials.symmetric());
+    force.reinit(space->partitioner());
+    begin(points, timer);
+    for (unsigned int c = 0; c < list.size(); ++c)
+      {
+        const unsigned int n_held =
+          std::count(points.held_by.begin(), points.held_by.end(), c + 1);
+        if ((list[c]->imposition == Imposition::points ||
+             list[c]->imposition == Imposition::cell_averages) &&
+            Utilities::MPI::sum(n_held, force.get_mpi_communicator()) == 0)
+          throw InputError(list[c]->parameter("Box"),
+                           list[c]->part(),
+                           "a part of a side with particles under it",
+                           "this condition holds no particle: check its sides "
+                           "and its box");
+      }
+    Vector v = problem->make_vector();
+    constraints->set_values(v, 0.);
+    make_rows(points, v, 0.); // refuses what it must before the run
+    kinematics.velocity = velocity_L;
+    kinematics.supports.resize(list.size());
+    return warning;
+  }
+
+  Energies
+  ImplicitMPM::state_energies(const Kinematics &,
+                              const MaterialPoints &points,
+                              const double          t) const
+  {
+    const Tensor<1, dim> g = scene->gravity.at(t);
+    Energies             e;
+    for (unsigned int p = 0; p < points.n_points(); ++p)
+      {
+        e.kinetic += points.mass[p] * points.velocity[p].norm_square() / 2.;
+        e.potential -= points.mass[p] * (g * (points.position[p] - datum));
+      }
+    if (kind == Transfer::apic)
+      for (unsigned int c = 0; c < points.n_cells(); ++c)
+        for (unsigned int p = points.first_point[c];
+             p < points.first_point[c + 1];
+             ++p)
+          {
+            const Tensor<2, dim> &C = points.affine[p];
+            e.kinetic += points.mass[p] / 2. *
+                         scalar_product(
+                           C,
+                           C * moment(points, p, &points.nodes[c * points.n_nodes]));
+          }
+    const MPI_Comm comm = force.get_mpi_communicator();
+    e.kinetic           = Utilities::MPI::sum(e.kinetic, comm);
+    e.potential         = Utilities::MPI::sum(e.potential, comm);
+    e.elastic           = elastic_energy(points, scene->materials, comm);
+    return e;
+  }
+
+  void
+  ImplicitMPM::begin(const MaterialPoints &points, TimerOutput &timer)
+  {
+    {
+      TimerOutput::Scope scope(timer, "transfer");
+      lumped_mass.reinit(space->partitioner());
+      velocity_L.reinit(space->partitioner());
+      const unsigned int n = points.n_nodes;
+      for (unsigned int c = 0; c < points.n_cells(); ++c)
+        {
+          const unsigned int *nodes = &points.nodes[c * n];
+          for (unsigned int p = points.first_point[c];
+               p < points.first_point[c + 1];
+               ++p)
+            for (unsigned int i = 0; i < n; ++i)
+              {
+                const double m = points.mass[p] * points.values[p * n + i];
+                Tensor<1, dim> v = points.velocity[p];
+                if (kind == Transfer::apic)
+                  v += points.affine[p] *
+                       (space->node_positions()[nodes[i]] - points.position[p]);
+                for (unsigned int d = 0; d < dim; ++d)
+                  {
+                    lumped_mass.local_element(dim * nodes[i] + d) += m;
+                    velocity_L.local_element(dim * nodes[i] + d) += m * v[d];
+                  }
+              }
+        }
+      lumped_mass.compress(VectorOperation::add);
+      velocity_L.compress(VectorOperation::add);
+      lumped_mass.update_ghost_values();
+      constraints->number_unknowns(&lumped_mass);
+    }
+    problem = std::make_unique<IncrementalProblem>(points,
+                                                   scene->materials,
+                                                   *constraints,
+                                                   space->partitioner(),
+                                                   &lumped_mass,
+                                                   consistent_mass);
+    {
+      TimerOutput::Scope scope(timer, "transfer");
+      if (consistent_mass > 0.)
+        solve_mass(velocity_L);
+      else
+        for (unsigned int i = 0; i < velocity_L.locally_owned_size(); ++i)
+          velocity_L.local_element(i) =
+            constraints->has_mass(i) ?
+              velocity_L.local_element(i) / lumped_mass.local_element(i) :
+              0.;
+      velocity_L.update_ghost_values();
+    }
+    {
+      TimerOutput::Scope scope(timer, "analyse");
+      SparseMatrix       next =
+        problem->make_pattern(linear_solver->wants_one_triangle());
+      const int changes =
+        next.row_start != matrix.row_start || next.column != matrix.column ||
+        next.global_index != matrix.global_index;
+      matrix = std::move(next);
+      if (Utilities::MPI::max(changes, force.get_mpi_communicator()) > 0)
+        linear_solver->analyse(matrix);
+    }
+    begun = true;
+  }
+
+  void
+  ImplicitMPM::solve_mass(Vector &velocity) const
+  {
+    // Conjugate gradients on the nodes with mass; the others stay zero.
+    struct Operator
+    {
+      const IncrementalProblem &problem;
+      void
+      vmult(Vector &dst, const Vector &src) const
+      {
+        src.update_ghost_values();
+        problem.apply_mass(dst, src);
+        src.zero_out_ghost_values();
+      }
+    };
+    struct Diagonal
+    {
+      const Constraints &constraints;
+      const Vector      &mass;
+      void
+      vmult(Vector &dst, const Vector &src) const
+      {
+        for (unsigned int i = 0; i < dst.locally_owned_size(); ++i)
+          dst.local_element(i) =
+            constraints.has_mass(i) ?
+              src.local_element(i) / mass.local_element(i) :
+              0.;
+      }
+    };
+    Vector momentum = velocity;
+    for (unsigned int i = 0; i < momentum.locally_owned_size(); ++i)
+      if (!constraints->has_mass(i))
+        momentum.local_element(i) = 0.;
+    velocity = 0.;
+    const double norm = momentum.l2_norm();
+    if (norm == 0.)
+      return;
+    SolverControl    control(10000, 1e-13 * norm);
+    SolverCG<Vector> cg(control);
+    try
+      {
+        cg.solve(Operator{*problem},
+                 velocity,
+                 momentum,
+                 Diagonal{*constraints, lumped_mass});
+      }
+    catch (const SolverControl::NoConvergence &)
+      {
+        throw StepFailure("the consistent mass matrix is singular\n"
+                          "  remedy:  set 'Material point method/Consistent "
+                          "mass part' to 0.999 or less");
+      }
+  }
+
+  void
+  ImplicitMPM::evaluate_force(const double t)
+  {
+    force                  = 0.;
+    const Tensor<1, dim> g = scene->gravity.at(t);
+    for (const Side &side : loads)
+      for (const MovingBoundary::Line &line : side.boundary.lines)
+        for (const BoundaryPoint &point :
+             points_on_line(*mesh, *space, line.a, line.b))
+          for (unsigned int d = 0; d < dim; ++d)
+            if (const auto &traction =
+                  scene->tractions.list[side.condition]->components[d])
+              {
+                // A dead load: per length at the start.
+                const double f = traction->value(point.position, t) *
+                                 point.weight * line.length;
+                for (unsigned int i = 0; i < point.nodes.size(); ++i)
+                  {
+                    const unsigned int dof =
+                      dim * space->local_node(point.nodes[i]) + d;
+                    force.local_element(dof) += f * point.values[i];
+                  }
+              }
+    if (!loads.empty())
+      force.compress(VectorOperation::add);
+    for (unsigned int dof = 0; dof < force.locally_owned_size(); ++dof)
+      force.local_element(dof) =
+        constraints->has_mass(dof) ?
+          force.local_element(dof) +
+            g[dof % dim] * lumped_mass.local_element(dof) :
+          0.;
+  }
+
+  void
+  ImplicitMPM::make_rows(const MaterialPoints &points,
+                         const Vector         &prescribed,
+                         const double          t)
+  {
+    Multipliers &rows = constraints->multipliers;
+    rows.clear();
+    const auto &list = scene->dirichlet.list;
+    for (const Side &side : supports)
+      {
+        const BoundaryCondition &condition = *list[side.condition];
+        unsigned int             number    = 0;
+        for (const MovingBoundary::Line &line : side.boundary.lines)
+          {
+            const Tensor<1, dim> part =
+              (line.b - line.a) / condition.n_segments;
+            for (unsigned int s = 0; s < condition.n_segments; ++s, ++number)
+              for (const BoundaryPoint &point :
+                   points_on_line(*mesh,
+                                  *space,
+                                  line.a + s * part,
+                                  line.a + (s + 1.) * part))
+                for (unsigned int d = 0; d < dim; ++d)
+                  if (condition.components[d])
+                    {
+                      const Multipliers::Key key{side.condition, d, number};
+                      for (unsigned int i = 0; i < point.nodes.size(); ++i)
+                        rows.add_coefficient(key,
+                                             point.nodes[i],
+                                             point.weight * point.values[i]);
+                      rows.add_target(
+                        key,
+                        point.weight *
+                          condition.components[d]->value(point.position, t));
+                    }
+          }
+      }
+
+    const unsigned int                   n = points.n_nodes;
+    std::vector<types::global_dof_index> nodes;
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      {
+        const unsigned int begin = points.first_point[c],
+                           end   = points.first_point[c + 1];
+        for (unsigned int p = begin; p < end; ++p)
+          if (points.held_by[p] > 0)
+            {
+              const unsigned int       held      = points.held_by[p];
+              const BoundaryCondition &condition = *list[held - 1];
+              const bool               average =
+                condition.imposition == Imposition::cell_averages;
+              const double weight =
+                average ? 1. / std::count(points.held_by.begin() + begin,
+                                          points.held_by.begin() + end,
+                                          held) :
+                          1.;
+              space->cell_nodes(points.cells[c], nodes);
+              for (unsigned int d = 0; d < dim; ++d)
+                if (condition.components[d])
+                  {
+                    const Multipliers::Key key{
+                      held - 1,
+                      d,
+                      average ? static_cast<unsigned int>(
+                                  points.cells[c]->global_active_cell_index()) :
+                                points.id[p]};
+                    for (unsigned int i = 0; i < n; ++i)
+                      rows.add_coefficient(
+                        key, nodes[i], weight * points.values[p * n + i]);
+                    rows.add_target(key,
+                                    weight * condition.components[d]->value(
+                                               points.position[p], t));
+                  }
+            }
+      }
+    rows.assemble(*scene, *space, *constraints, prescribed);
+  }
+
+  StepReport
+  ImplicitMPM::advance(Kinematics            &kinematics,
+                       MaterialPoints        &points,
+                       const NonsmoothNewton &newton,
+                       TimerOutput           &timer,
+                       const double           t,
+                       const double           h)
+  {
+    if (!begun)
+      begin(points, timer);
+    // The midpoint rule is backward Euler over half of the step, doubled.
+    const double solved_h = midpoint ? h / 2. : h;
+    const double end      = t + solved_h;
+    StepReport   report;
+    Vector       v = problem->make_vector(), residual = problem->make_vector();
+    {
+      TimerOutput::Scope scope(timer, "transfer");
+      constraints->set_values(v, end);
+      make_rows(points, v, end);
+      evaluate_force(end);
+    }
+    report.unknowns    = constraints->n_rows;
+    report.multipliers = constraints->multipliers.n_rows();
+    report.rows        = constraints->multipliers.n_given();
+
+    problem->begin_step(solved_h, end, &force, velocity_L);
+    for (const bool second : {false, true})
+      {
+        const Start start =
+          second == (first_start == Start::nodes) ? Start::particles :
+                                                    Start::nodes;
+        v = velocity_L;
+        if (start == Start::nodes)
+          for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
+            if (had_mass.empty() || had_mass[i])
+              v.local_element(i) = constraints->has_mass(i) ?
+                                     kinematics.velocity.local_element(i) :
+                                     0.;
+        constraints->set_values(v, end);
+        SolverReport tried = newton.solve(*problem,
+                                          matrix,
+                                          *linear_solver,
+                                          timer,
+                                          v,
+                                          residual,
+                                          {true, start == Start::particles});
+        tried.iterations += report.newton.iterations;
+        tried.factorisations += report.newton.factorisations;
+        tried.regularised += report.newton.regularised;
+        tried.table.insert(tried.table.begin(),
+                           report.newton.table.begin(),
+                           report.newton.table.end());
+        report.newton = std::move(tried);
+        if (report.newton.converged)
+          {
+            if (start_name == "automatic")
+              first_start = start;
+            break;
+          }
+        if (start_name != "automatic")
+          break;
+      }
+    if (!report.newton.converged)
+      return report;
+
+    TimerOutput::Scope scope(timer, "transfer");
+    Vector             v_end = v;
+    if (midpoint)
+      v_end.sadd(2., -1., velocity_L);
+    v.update_ghost_values();
+    v_end.update_ghost_values();
+    std::vector<Moved> moved;
+    report.newton.reason = transfer(points, v_end, v, h, moved);
+    if (!report.newton.reason.empty())
+      return report;
+    report.converged = true;
+
+    // From here on the step is accepted.
+    report.quality = problem->quality();
+    const MPI_Comm         comm   = v.get_mpi_communicator();
+    const Eigen::VectorXd &lambda = problem->multipliers();
+    const Multipliers     &rows   = constraints->multipliers;
+    std::array<double, 2>  sums   = {}; // works of weight, other external
+    const Tensor<1, dim>   g      = scene->gravity.at(end);
+    for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
+      {
+        const double weight =
+          constraints->has_mass(i) ? g[i % dim] * lumped_mass.local_element(i) :
+                                     0.;
+        sums[0] += h * weight * v.local_element(i);
+        sums[1] += h * (force.local_element(i) - weight) * v.local_element(i);
+        if (constraints->is_prescribed(i))
+          sums[1] += h * residual.local_element(i) * v.local_element(i);
+      }
+    Utilities::MPI::sum(ArrayView<const double>(sums.data(), 2),
+                        comm,
+                        ArrayView<double>(sums.data(), 2));
+    if (rows.n_rows() > 0)
+      sums[1] += h * lambda.dot(rows.multiply(v));
+    report.identity_error =
+      energy_identity_error(*problem,
+                            points,
+                            scene->materials,
+                            velocity_L,
+                            v,
+                            (sums[0] + sums[1]) * (solved_h / h));
+
+    // Gravity that changes works on points at rest.
+    const Tensor<1, dim> change =
+      scene->gravity.at(t + h) - scene->gravity.at(t);
+    double work_of_change = 0.;
+    if (change.norm() > 0.)
+      for (unsigned int p = 0; p < points.n_points(); ++p)
+        work_of_change -=
+          points.mass[p] * (change * (points.position[p] - datum));
+    double dissipation = 0.;
+    for (unsigned int p = 0; p < points.n_points(); ++p)
+      {
+        Mandel       stress = problem->trial_stress()[p];
+        Mandel       plastic = problem->plastic_strain_increment(p);
+        const double volume  = points.weight[p];
+        dissipation += (h / solved_h) * volume * stress.dot(plastic);
+        if (midpoint)
+          {
+            // Extrapolated to the end, and back onto the cone.
+            plastic *= 2.;
+            stress = 2. * stress - points.stress[p];
+            const Material &material = scene->materials[points.material[p]];
+            if (const auto cone = material.flow_cone())
+              {
+                const Mandel on_cone = from_cone_axes(project(
+                  cone->a, cone->k, Mandel(to_cone_axes(stress))));
+                const Mandel strain =
+                  material.elasticity().strain(Mandel(stress - on_cone));
+                dissipation += volume * on_cone.dot(strain);
+                plastic += strain;
+                stress = on_cone;
+              }
+          }
+        points.stress[p] = turn(stress, moved[p].spin);
+        points.plastic_strain[p] =
+          turn(points.plastic_strain[p] + plastic, moved[p].spin);
+        points.cumulative_plastic_strain[p] += plastic.norm();
+        points.plastic_strain_rate[p] = plastic.norm() / h;
+        points.weight[p]              = moved[p].volume;
+        points.displacement[p] += moved[p].position - points.position[p];
+        points.position[p] = moved[p].position;
+        points.velocity[p] = moved[p].velocity;
+        points.affine[p]   = moved[p].affine;
+        if (points.held_by[p] > 0)
+          {
+            const BoundaryCondition &condition =
+              *scene->dirichlet.list[points.held_by[p] - 1];
+            if (condition.imposition == Imposition::points)
+              for (unsigned int d = 0; d < dim; ++d)
+                if (condition.components[d])
+                  points.velocity[p][d] =
+                    condition.components[d]->value(points.position[p], t + h);
+          }
+      }
+
+    for (unsigned int c = 0; c < kinematics.supports.size(); ++c)
+      {
+        const bool moves = scene->dirichlet.list[c]->moves();
+        report.reactions.emplace_back();
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            kinematics.supports[c][d] +=
+              h * (moves ? rows.mean_target(c, d) : constraints->mean(v, c, d));
+            report.reactions[c][d] = moves ?
+                                       rows.resultant(lambda, c, d) :
+                                       constraints->resultant(residual, c, d);
+          }
+      }
+    for (Side &side : supports)
+      for (MovingBoundary::Line &line : side.boundary.lines)
+        for (Point<dim> *x : {&line.a, &line.b})
+          for (unsigned int d = 0; d < dim; ++d)
+            if (const auto &q =
+                  scene->dirichlet.list[side.condition]->components[d])
+              (*x)[d] += h * q->value(*x, end);
+    for (Side &side : loads)
+      advect(side.boundary, v, h);
+
+    had_mass.resize(v.locally_owned_size());
+    for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
+      had_mass[i] = constraints->has_mass(i);
+    kinematics.velocity = v;
+    particles.move(points);
+    points = particles.collect(*mesh, *space);
+    begun  = false;
+
+    report.energies = state_energies(kinematics, points, t + h);
+    report.energies.external_work =
+      sums[1] + Utilities::MPI::sum(work_of_change, comm);
+    report.energies.dissipation = Utilities::MPI::sum(dissipation, comm);
+    return report;
+  }
+
+  Tensor<2, dim>
+  ImplicitMPM::moment(const MaterialPoints &points,
+                      const unsigned int    p,
+                      const unsigned int   *nodes) const
+  {
+    Tensor<2, dim> D;
+    for (unsigned int i = 0; i < points.n_nodes; ++i)
+      {
+        const Tensor<1, dim> r =
+          space->node_positions()[nodes[i]] - points.position[p];
+        D += points.values[p * points.n_nodes + i] * outer_product(r, r);
+      }
+    return D;
+  }
+
+  std::string
+  ImplicitMPM::transfer(const MaterialPoints &points,
+                        const Vector         &v,
+                        const Vector         &v_mean,
+                        const double          h,
+                        std::vector<Moved>   &moved) const
+  {
+    moved.resize(points.n_points());
+    const unsigned int n = points.n_nodes;
+    std::string        obstacle;
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      {
+        const unsigned int *nodes = &points.nodes[c * n];
+        const double        extent[dim] = {
+          points.cells[c]->extent_in_direction(0),
+          points.cells[c]->extent_in_direction(1)};
+        for (unsigned int p = points.first_point[c];
+             p < points.first_point[c + 1];
+             ++p)
+          {
+            const double  *N  = &points.values[p * n];
+            const double  *gx = &points.gradients[2 * p * n], *gy = gx + n;
+            Tensor<1, dim> new_velocity, mean_velocity, change;
+            Tensor<2, dim> gradient; // d_d v_c of the mean velocity
+            for (unsigned int i = 0; i < n; ++i)
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  const unsigned int dof = dim * nodes[i] + d;
+                  const double       vi  = v.local_element(dof);
+                  const double       mi  = v_mean.local_element(dof);
+                  new_velocity[d] += N[i] * vi;
+                  mean_velocity[d] += N[i] * mi;
+                  change[d] += N[i] * (vi - velocity_L.local_element(dof));
+                  gradient[d][0] += gx[i] * mi;
+                  gradient[d][1] += gy[i] * mi;
+                }
+            Moved &next   = moved[p];
+            next.velocity = new_velocity;
+            if (kind == Transfer::flip)
+              next.velocity = flip_part * (points.velocity[p] + change) +
+                              (1. - flip_part) * new_velocity;
+            else
+              next.affine = affine_velocity(points, p, nodes, v);
+            const Tensor<1, dim> move =
+              h * (advection == "grid velocity" ? mean_velocity :
+                                                  next.velocity);
+            next.position = points.position[p] + move;
+            Tensor<2, dim> stretch = h * gradient;
+            for (unsigned int d = 0; d < dim; ++d)
+              stretch[d][d] += 1.;
+            const double ratio = determinant(stretch);
+            next.volume        = ratio * points.weight[p];
+            next.spin          = h * (gradient[1][0] - gradient[0][1]) / 2.;
+
+            if (!std::isfinite(next.position.square()) ||
+                !std::isfinite(next.velocity.norm_square()))
+              obstacle =
+                format("the velocity of particle %u is not a number",
+                       points.id[p]);
+            else if (!(ratio > 0.05))
+              obstacle = format("the volume of particle %u at (%g, %g) would "
+                                "collapse to %.2g of itself",
+                                points.id[p],
+                                points.position[p][0],
+                                points.position[p][1],
+                                ratio);
+            for (unsigned int d = 0; d < dim; ++d)
+              if (std::abs(move[d]) > largest_move * extent[d])
+                obstacle =
+                  format("particle %u at (%g, %g) would cross %.1f cells, more "
+                         "than 'Material point method/Largest move'",
+                         points.id[p],
+                         points.position[p][0],
+                         points.position[p][1],
+                         std::abs(move[d]) / extent[d]);
+          }
+      }
+    for (const std::string &text :
+         Utilities::MPI::all_gather(v.get_mpi_communicator(), obstacle))
+      if (!text.empty())
+        return text;
+    return "";
+  }
+
+  Tensor<2, dim>
+  ImplicitMPM::affine_velocity(const MaterialPoints &points,
+                               const unsigned int    p,
+                               const unsigned int   *nodes,
+                               const Vector         &v) const
+  {
+    const unsigned int n = points.n_nodes;
+    Tensor<2, dim>     B, gradient;
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double vi = v.local_element(dim * nodes[i] + d);
+          const Tensor<1, dim> r =
+            space->node_positions()[nodes[i]] - points.position[p];
+          for (unsigned int e = 0; e < dim; ++e)
+            {
+              B[d][e] += points.values[p * n + i] * vi * r[e];
+              gradient[d][e] += points.gradients[(2 * p + e) * n + i] * vi;
+            }
+        }
+    // At a corner of the mesh only one function is left: the limit is the
+    // gradient.
+    const Tensor<2, dim> D = moment(points, p, nodes);
+    return determinant(D) > 1e-12 * trace(D) * trace(D) && trace(D) > 0. ?
+             B * invert(D) :
+             gradient;
+  }
+
+  void
+  ImplicitMPM::advect(MovingBoundary &boundary,
+                      const Vector   &v,
+                      const double    h) const
+  {
+    // Velocity at the ends of all lines, and how many ranks know it.
+    const unsigned int  n_lines = boundary.lines.size();
+    std::vector<double> sums(6 * n_lines, 0.);
+    for (unsigned int l = 0; l < n_lines; ++l)
+      {
+        const MovingBoundary::Line &line  = boundary.lines[l];
+        const Tensor<1, dim>        along = line.b - line.a;
+        // Short lines at the ends, from there into the line.
+        const Point<dim> ends[2][2] = {{line.a, line.a + 1e-6 * along},
+                                       {line.b - 1e-6 * along, line.b}};
+        for (unsigned int e = 0; e < 2; ++e)
+          for (const BoundaryPoint &point :
+               points_on_line(*mesh, *space, ends[e][0], ends[e][1]))
+            {
+              double *s = &sums[6 * l + 3 * e];
+              s[2] += point.weight;
+              for (unsigned int i = 0; i < point.nodes.size(); ++i)
+                for (unsigned int d = 0; d < dim; ++d)
+                  s[d] += point.weight * point.values[i] *
+                          v.local_element(
+                            dim * space->local_node(point.nodes[i]) + d);
+            }
+      }
+    Utilities::MPI::sum(ArrayView<const double>(sums),
+                        v.get_mpi_communicator(),
+                        ArrayView<double>(sums));
+    for (unsigned int l = 0; l < n_lines; ++l)
+      for (unsigned int e = 0; e < 2; ++e)
+        if (const double *s = &sums[6 * l + 3 * e]; s[2] > 0.)
+          for (unsigned int d = 0; d < dim; ++d)
+            (e == 0 ? boundary.lines[l].a : boundary.lines[l].b)[d] +=
+              h * s[d] / s[2];
+  }
+} // namespace geocone

@@ -1,0 +1,81 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/time_stepping/time_stepper.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  double
+  elastic_energy(const MaterialPoints &points,
+                 const Materials      &materials,
+                 const MPI_Comm        comm)
+  {
+    double sum = 0.;
+    for (unsigned int p = 0; p < points.n_points(); ++p)
+      {
+        const Mandel &s = points.stress[p];
+        sum += points.weight[p] / 2. *
+               s.dot(materials[points.material[p]].elasticity().strain(s));
+      }
+    return Utilities::MPI::sum(sum, comm);
+  }
+
+  double
+  energy_identity_error(const IncrementalProblem &problem,
+                        const MaterialPoints     &points,
+                        const Materials          &materials,
+                        const Vector             &velocity_L,
+                        const Vector             &v,
+                        const double              work)
+  {
+    // Kinetic: (v + vL)'M(v - vL)/2 + |v - vL|_M^2/2 = v'M(v - vL), and alike
+    // for the elastic energy: no small differences of large numbers.
+    double kinetic = 0.;
+    if (problem.has_inertia())
+      {
+        Vector change = v, momentum = problem.make_vector();
+        change -= velocity_L;
+        change.update_ghost_values();
+        problem.apply_mass(momentum, change);
+        kinetic = v * momentum;
+      }
+    std::array<double, 2> sums = {};
+    for (unsigned int p = 0; p < points.n_points(); ++p)
+      {
+        const Mandel &s = problem.trial_stress()[p];
+        sums[0] += points.weight[p] *
+                   s.dot(materials[points.material[p]].elasticity().strain(
+                     Mandel(s - points.stress[p])));
+        sums[1] +=
+          points.weight[p] * s.dot(problem.plastic_strain_increment(p));
+      }
+    Utilities::MPI::sum(ArrayView<const double>(sums.data(), 2),
+                        v.get_mpi_communicator(),
+                        ArrayView<double>(sums.data(), 2));
+    const double largest = std::max({std::abs(kinetic),
+                                     std::abs(sums[0]),
+                                     std::abs(sums[1]),
+                                     std::abs(work),
+                                     std::numeric_limits<double>::min()});
+    return std::abs(kinetic + sums[0] + sums[1] - work) / largest;
+  }
+
+  void
+  TimeStepper::reset(Kinematics &kinematics, MaterialPoints &points) const
+  {
+    if (kinematics.displacement.size() > 0)
+      kinematics.displacement = 0.;
+    for (auto &displacement : kinematics.supports)
+      displacement = 0.;
+    for (auto &displacement : points.displacement)
+      displacement = 0.;
+    for (Mandel &strain : points.plastic_strain)
+      strain.setZero();
+    for (double &strain : points.cumulative_plastic_strain)
+      strain = 0.;
+  }
+} // namespace geocone
