@@ -62,8 +62,10 @@ namespace geocone
                   "rest is PIC (interpolated, damps); 0 to 1.");
     add_parameter("Advection",
                   advection,
-                  "grid velocity | particle velocity: what moves the "
-                  "particles. The latter lets loads drift with FLIP.");
+                  "grid velocity | particle velocity | none: what moves the "
+                  "particles. The second lets loads drift with FLIP. None: "
+                  "they stay, as do supports, for limit loads by small "
+                  "strains.");
     add_parameter("Consistent mass part",
                   consistent_mass,
                   "M = (1 - c) lumped + c consistent; 0 to 1. Up to 0.999 is "
@@ -105,7 +107,8 @@ namespace geocone
           section + entry, value, "0 to 1", "see geocone --help");
     };
     choose("Transfer", transfer_name, "FLIP", "APIC");
-    choose("Advection", advection, "grid velocity", "particle velocity");
+    choose(
+      "Advection", advection, "grid velocity", "particle velocity", "none");
     choose("Integration", integration, "backward Euler", "midpoint");
     choose(
       "Start", start_name, "automatic", "grid velocity", "particle velocity");
@@ -641,15 +644,18 @@ namespace geocone
                                        constraints->resultant(residual, c, d);
           }
       }
-    for (Side &side : supports)
-      for (MovingBoundary::Line &line : side.boundary.lines)
-        for (Point<dim> *x : {&line.a, &line.b})
-          for (unsigned int d = 0; d < dim; ++d)
-            if (const auto &q =
-                  scene->dirichlet.list[side.condition]->components[d])
-              (*x)[d] += h * q->value(*x, end);
-    for (Side &side : loads)
-      advect(side.boundary, v, h);
+    if (advection != "none")
+      {
+        for (Side &side : supports)
+          for (MovingBoundary::Line &line : side.boundary.lines)
+            for (Point<dim> *x : {&line.a, &line.b})
+              for (unsigned int d = 0; d < dim; ++d)
+                if (const auto &q =
+                      scene->dirichlet.list[side.condition]->components[d])
+                  (*x)[d] += h * q->value(*x, end);
+        for (Side &side : loads)
+          advect(side.boundary, v, h);
+      }
 
     had_mass.resize(v.locally_owned_size());
     for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
@@ -725,8 +731,11 @@ namespace geocone
             else
               next.affine = affine_velocity(points, p, nodes, v);
             const Tensor<1, dim> move =
-              h * (advection == "grid velocity" ? mean_velocity :
-                                                  next.velocity);
+              h * (advection == "grid velocity"     ? mean_velocity :
+                   advection == "particle velocity" ? next.velocity :
+                                                      Tensor<1, dim>());
+            if (advection == "none")
+              gradient = 0.;
             next.position = points.position[p] + move;
             Tensor<2, dim> stretch = h * gradient;
             for (unsigned int d = 0; d < dim; ++d)
