@@ -22,10 +22,7 @@ namespace geocone
   namespace
   {
     const std::map<std::string, types::boundary_id> sides_of_box = {
-      {"bottom", 0},
-      {"right", 1},
-      {"top", 2},
-      {"left", 3}};
+      {"bottom", 0}, {"right", 1}, {"top", 2}, {"left", 3}};
 
     /** The side of a polygon on which x lies (the nearest one). */
     types::boundary_id
@@ -75,10 +72,10 @@ namespace geocone
         for (const auto &edge : mesh.outer_edges())
           {
             CellData<1> line(2);
-            line.vertices    = {edge[0], edge[1]};
-            line.boundary_id = nearest_side(
-              parameters.outline,
-              0.5 * (mesh.points[edge[0]] + mesh.points[edge[1]]));
+            line.vertices = {edge[0], edge[1]};
+            line.boundary_id =
+              nearest_side(parameters.outline,
+                           0.5 * (mesh.points[edge[0]] + mesh.points[edge[1]]));
             mesh.boundary.boundary_lines.push_back(line);
           }
       }
@@ -172,9 +169,8 @@ namespace geocone
     std::array<unsigned int, dim> place;
     const Point<dim>              centre = cell->center();
     for (unsigned int c = 0; c < dim; ++c)
-      place[c] =
-        std::upper_bound(lines[c].begin(), lines[c].end(), centre[c]) -
-        lines[c].begin() - 1;
+      place[c] = std::upper_bound(lines[c].begin(), lines[c].end(), centre[c]) -
+                 lines[c].begin() - 1;
     return place;
   }
 
@@ -193,14 +189,14 @@ namespace geocone
                                    const Point<dim> &unit) const
   {
     // Vertices 0, 1 below and 2, 3 above; bilinear.
-    const Tensor<1, dim> along_x = (1. - unit[1]) *
-                                     (cell->vertex(1) - cell->vertex(0)) +
-                                   unit[1] *
-                                     (cell->vertex(3) - cell->vertex(2)),
-                         along_y = (1. - unit[0]) *
-                                     (cell->vertex(2) - cell->vertex(0)) +
-                                   unit[0] *
-                                     (cell->vertex(3) - cell->vertex(1));
+    const Tensor<1, dim> along_x =
+                           (1. - unit[1]) *
+                             (cell->vertex(1) - cell->vertex(0)) +
+                           unit[1] * (cell->vertex(3) - cell->vertex(2)),
+                         along_y =
+                           (1. - unit[0]) *
+                             (cell->vertex(2) - cell->vertex(0)) +
+                           unit[0] * (cell->vertex(3) - cell->vertex(1));
     Tensor<2, dim> jacobian;
     for (unsigned int c = 0; c < dim; ++c)
       {

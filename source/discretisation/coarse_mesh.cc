@@ -199,10 +199,10 @@ namespace geocone
         {
           double distance = 1e300;
           for (std::size_t i = 0; i < outline.size(); ++i)
-            distance = std::min(
-              distance,
-              distance_to_segment(
-                x, outline[i], outline[(i + 1) % outline.size()]));
+            distance =
+              std::min(distance,
+                       distance_to_segment(
+                         x, outline[i], outline[(i + 1) % outline.size()]));
           if (distance > 1e-9 && !contains(outline, x))
             throw InputError("Mesh/Grading points",
                              dealii::Patterns::Tools::to_string(x),

@@ -20,9 +20,7 @@ namespace geocone
   Method::prepare()
   {
     if (name != "FEM" && name != "MPM")
-      throw InputError("Discretisation/Method",
-                       name,
-                       "FEM | MPM",
-                       "choose one of them");
+      throw InputError(
+        "Discretisation/Method", name, "FEM | MPM", "choose one of them");
   }
 } // namespace geocone

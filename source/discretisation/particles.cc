@@ -49,10 +49,8 @@ namespace geocone
           {
             const auto           ends  = geometry.side_ends(id);
             const Tensor<1, dim> along = ends[1] - ends[0];
-            const double         s =
-              std::max(0.,
-                       std::min(1.,
-                                (x - ends[0]) * along / along.norm_square()));
+            const double         s     = std::max(
+              0., std::min(1., (x - ends[0]) * along / along.norm_square()));
             const Point<dim> foot = ends[0] + s * along;
             if (foot.distance(x) < std::sqrt(volume) && condition.in_box(foot))
               return true;
@@ -78,10 +76,8 @@ namespace geocone
                      const Space          &space)
   {
     if (outflow != "error" && outflow != "count")
-      throw InputError("Particles/Outflow",
-                       outflow,
-                       "error | count",
-                       "choose one of them");
+      throw InputError(
+        "Particles/Outflow", outflow, "error | count", "choose one of them");
     comm = mesh.triangulation().get_communicator();
     seeding.prepare(scene);
     const std::vector<Seed> seeds = seeding.make(scene, mesh);
@@ -116,8 +112,10 @@ namespace geocone
                     BoundaryCondition::Imposition::points ||
                   conditions[c]->imposition ==
                     BoundaryCondition::Imposition::cell_averages)
-                if (in_first_row(
-                      *conditions[c], scene.geometry, seed.position, seed.volume))
+                if (in_first_row(*conditions[c],
+                                 scene.geometry,
+                                 seed.position,
+                                 seed.volume))
                   properties[held_by] = c + 1;
             handler->insert_particle(seed.position,
                                      Point<dim>(-1., -1.),
@@ -163,7 +161,7 @@ namespace geocone
           points.nodes.push_back(space.local_node(node));
         for (const auto &particle : particles)
           {
-            const Point<dim>    &unit = particle.get_reference_location();
+            const Point<dim>    &unit    = particle.get_reference_location();
             const Tensor<2, dim> inverse = mesh.inverse_jacobian(cell, unit);
             space.evaluate(
               cell, unit, &points.values[p * n], unit_gradient.data());
@@ -175,10 +173,9 @@ namespace geocone
               }
             ++p;
 
-            const auto   state  = particle.get_properties();
-            const auto   mandel = [&](const unsigned int place) {
-              return Mandel(
-                state[place], state[place + 1], state[place + 2]);
+            const auto state  = particle.get_properties();
+            const auto mandel = [&](const unsigned int place) {
+              return Mandel(state[place], state[place + 1], state[place + 2]);
             };
             const auto vector = [&](const unsigned int place) {
               return Tensor<1, dim>({state[place], state[place + 1]});
@@ -194,9 +191,9 @@ namespace geocone
             points.cumulative_plastic_strain.push_back(
               state[cumulative_plastic_strain]);
             points.plastic_strain_rate.push_back(state[plastic_strain_rate]);
-            points.affine.push_back(Tensor<2, dim>(
-              {{state[affine], state[affine + 1]},
-               {state[affine + 2], state[affine + 3]}}));
+            points.affine.push_back(
+              Tensor<2, dim>({{state[affine], state[affine + 1]},
+                              {state[affine + 2], state[affine + 3]}}));
             points.material.push_back(std::lround(state[material]));
             points.held_by.push_back(std::lround(state[held_by]));
           }
@@ -224,7 +221,7 @@ namespace geocone
                 n_parts,
                 std::ceil(std::abs(move[c]) / cell->extent_in_direction(c)));
             }
-          state[volume]    = points.weight[p];
+          state[volume] = points.weight[p];
           for (unsigned int c = 0; c < dim; ++c)
             {
               state[velocity + c]     = points.velocity[p][c];
@@ -243,9 +240,9 @@ namespace geocone
           ++p;
         }
     lost.clear();
-    n_parts = Utilities::MPI::n_mpi_processes(comm) == 1 ?
-                1 :
-                Utilities::MPI::max(n_parts, comm);
+    n_parts = Utilities::MPI::n_mpi_processes(comm) == 1
+                ? 1
+                : Utilities::MPI::max(n_parts, comm);
     for (unsigned int part = 0; part < n_parts; ++part)
       {
         for (auto &particle : *handler)

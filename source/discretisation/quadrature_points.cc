@@ -90,24 +90,24 @@ namespace geocone
     std::vector<types::global_dof_index> nodes;
     for (const auto &cell : mesh.own_cells())
       {
-          values.reinit(cell);
-          points.cells.push_back(cell);
-          space.cell_nodes(cell, nodes);
-          for (const types::global_dof_index node : nodes)
-            points.nodes.push_back(space.local_node(node));
-          for (unsigned int q = 0; q < values.quadrature.size(); ++q)
-            {
-              points.weight.push_back(values.weight[q]);
-              points.position.push_back(values.position[q]);
-              points.material.push_back(cell->material_id());
-              points.stress.push_back(scene.initial_stress.at(
-                values.position[q], scene.materials, scene.regions));
-              for (unsigned int c = 0; c < dim; ++c)
-                for (unsigned int i = 0; i < points.n_nodes; ++i)
-                  points.gradients.push_back(values.gradient(i, q)[c]);
-            }
-          points.first_point.push_back(points.weight.size());
-        }
+        values.reinit(cell);
+        points.cells.push_back(cell);
+        space.cell_nodes(cell, nodes);
+        for (const types::global_dof_index node : nodes)
+          points.nodes.push_back(space.local_node(node));
+        for (unsigned int q = 0; q < values.quadrature.size(); ++q)
+          {
+            points.weight.push_back(values.weight[q]);
+            points.position.push_back(values.position[q]);
+            points.material.push_back(cell->material_id());
+            points.stress.push_back(scene.initial_stress.at(
+              values.position[q], scene.materials, scene.regions));
+            for (unsigned int c = 0; c < dim; ++c)
+              for (unsigned int i = 0; i < points.n_nodes; ++i)
+                points.gradients.push_back(values.gradient(i, q)[c]);
+          }
+        points.first_point.push_back(points.weight.size());
+      }
     points.plastic_strain.assign(points.n_points(), Mandel::Zero());
     points.cumulative_plastic_strain.assign(points.n_points(), 0.);
     points.plastic_strain_rate.assign(points.n_points(), 0.);

@@ -97,17 +97,15 @@ namespace geocone
       }
     active.compress();
     layout = std::make_shared<Utilities::MPI::Partitioner>(
-      expand(owned),
-      expand(active),
-      mesh->triangulation().get_communicator());
+      expand(owned), expand(active), mesh->triangulation().get_communicator());
 
     positions.resize(n_local_nodes());
     for (const auto &cell : mesh->triangulation().active_cell_iterators())
       if (!cell->is_artificial())
         {
           cell_nodes(cell, nodes);
-          const auto place = is_spline() ? mesh->place_in_grid(cell) :
-                                           std::array<unsigned int, dim>();
+          const auto place = is_spline() ? mesh->place_in_grid(cell)
+                                         : std::array<unsigned int, dim>();
           for (unsigned int i = 0; i < nodes.size(); ++i)
             if (layout->in_local_range(dim * nodes[i]) ||
                 layout->is_ghost_entry(dim * nodes[i]))
@@ -119,10 +117,10 @@ namespace geocone
                 else
                   x = mesh->mapping().transform_unit_to_real_cell(
                     cell,
-                    basis == "Bernstein" && !simplicial ?
-                      Point<dim>(1. * lattice[i][0] / p,
-                                 1. * lattice[i][1] / p) :
-                      fe->unit_support_point(i));
+                    basis == "Bernstein" && !simplicial
+                      ? Point<dim>(1. * lattice[i][0] / p,
+                                   1. * lattice[i][1] / p)
+                      : fe->unit_support_point(i));
               }
         }
   }
@@ -167,12 +165,11 @@ namespace geocone
     std::vector<int> rank_of_cell(nx * ny, -1);
     for (const auto &cell : mesh.own_cells())
       {
-        const auto place                    = mesh.place_in_grid(cell);
+        const auto place                       = mesh.place_in_grid(cell);
         rank_of_cell[place[1] * nx + place[0]] = rank;
       }
-    Utilities::MPI::max(ArrayView<const int>(rank_of_cell),
-                        comm,
-                        ArrayView<int>(rank_of_cell));
+    Utilities::MPI::max(
+      ArrayView<const int>(rank_of_cell), comm, ArrayView<int>(rank_of_cell));
 
     const auto home = [&](const unsigned int function, const unsigned int n) {
       return std::min(n - 1, function - std::min(function, p / 2));
@@ -290,9 +287,8 @@ namespace geocone
             {
               cell_nodes(cell, nodes);
               for (unsigned int i = 0; i < nodes.size(); ++i)
-                if (on_face(i, f) &&
-                    (layout->in_local_range(dim * nodes[i]) ||
-                     layout->is_ghost_entry(dim * nodes[i])))
+                if (on_face(i, f) && (layout->in_local_range(dim * nodes[i]) ||
+                                      layout->is_ghost_entry(dim * nodes[i])))
                   found.insert(local_node(nodes[i]));
             }
     return {found.begin(), found.end()};

@@ -115,12 +115,12 @@ namespace geocone
     std::vector<double> sums(4 * n_parts, 0.);
     std::vector<types::global_dof_index> nodes;
     for (const auto &cell : mesh.own_cells())
-        {
-          space.cell_nodes(cell, nodes);
-          for (const auto node : nodes)
-            part_of_node[space.local_node(node)] =
-              part_of_vertex[cell->vertex_index(0)];
-        }
+      {
+        space.cell_nodes(cell, nodes);
+        for (const auto node : nodes)
+          part_of_node[space.local_node(node)] =
+            part_of_vertex[cell->vertex_index(0)];
+      }
     for (unsigned int i = 0; i < space.n_owned_nodes(); ++i)
       {
         const Point<dim> &x = space.node_positions()[i];
@@ -229,7 +229,6 @@ namespace geocone
     double sum = 0.;
     for (const unsigned int node : owned_nodes[condition])
       sum += field.local_element(dim * node + component);
-    return Utilities::MPI::sum(sum, comm) /
-           n_nodes[condition];
+    return Utilities::MPI::sum(sum, comm) / n_nodes[condition];
   }
 } // namespace geocone

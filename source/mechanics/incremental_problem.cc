@@ -89,9 +89,8 @@ namespace geocone
     if (points.mean_gradients.empty())
       {
         for (unsigned int p = begin; p < end; ++p)
-          add_force<n>(&points.gradients[2 * n * p],
-                       weighted_stress(p),
-                       cell_f);
+          add_force<n>(
+            &points.gradients[2 * n * p], weighted_stress(p), cell_f);
         return;
       }
     double volumetric = 0.;
@@ -185,9 +184,9 @@ namespace geocone
           {
             const double m  = mass->local_element(i) / h;
             const double vL = velocity_L.local_element(i);
-            const double f  = consistent_part > 0. ?
-                                inertia.local_element(i) / h :
-                                m * (v.local_element(i) - vL);
+            const double f  = consistent_part > 0.
+                                ? inertia.local_element(i) / h
+                                : m * (v.local_element(i) - vL);
             r += f;
             sums[2] += f * f;
             sums[3] += m * m * vL * vL;
@@ -212,8 +211,8 @@ namespace geocone
       }
     ResidualReport report;
     // The momentum itself counts little: a body in free flight has nothing else.
-    report.force_norm = std::sqrt(
-      std::max({sums[0], sums[1], sums[2], 1e-6 * sums[3]}));
+    report.force_norm =
+      std::sqrt(std::max({sums[0], sums[1], sums[2], 1e-6 * sums[3]}));
     report.norm       = std::sqrt(sums[4]);
     report.n_cone     = sums[5];
     report.n_apex     = sums[6];
@@ -273,13 +272,13 @@ namespace geocone
            p < points.first_point[c + 1];
            ++p)
         {
-          const Elasticity &e = materials[points.material[p]].elasticity();
+          const Elasticity &e      = materials[points.material[p]].elasticity();
           const double      direct = e.lambda + e.two_G, shear = e.two_G / 2.;
           const double      factor = h * points.weight[p];
           for (unsigned int i = 0; i < n; ++i)
             {
-              const double gx = points.gradients[2 * n * p + i],
-                           gy = points.gradients[2 * n * p + n + i];
+              const double gx        = points.gradients[2 * n * p + i],
+                           gy        = points.gradients[2 * n * p + n + i];
               const unsigned int dof = dim * points.nodes[c * n + i];
               elastic_diagonal.local_element(dof) +=
                 factor * (direct * gx * gx + shear * gy * gy);
@@ -357,11 +356,11 @@ namespace geocone
     scatter.reserve(std::size_t(points.n_cells()) * n_dofs *
                     (one_triangle ? n_dofs + 1 : 2 * n_dofs) / 2);
     std::vector<int> rows(n_dofs);
-    const auto       place_of = [&](const unsigned int i, const unsigned int j) {
-      return rows[i] < 0 || rows[j] < 0 ? -1 :
-             one_triangle && rows[i] < rows[j] ?
-                                          matrix.entry(rows[j], rows[i]) :
-                                          matrix.entry(rows[i], rows[j]);
+    const auto place_of = [&](const unsigned int i, const unsigned int j) {
+      return rows[i] < 0 || rows[j] < 0 ? -1
+             : one_triangle && rows[i] < rows[j]
+               ? matrix.entry(rows[j], rows[i])
+               : matrix.entry(rows[i], rows[j]);
     };
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       {

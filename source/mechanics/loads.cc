@@ -30,33 +30,33 @@ namespace geocone
     lumped_mass.reinit(space.partitioner());
     std::vector<types::global_dof_index> nodes;
     for (const auto &cell : mesh.own_cells())
-        {
-          values.reinit(cell);
-          space.cell_nodes(cell, nodes);
-          const double rho = scene.materials[cell->material_id()].density();
-          std::vector<double> row_sum(nodes.size(), 0.);
-          std::vector<double> diagonal(nodes.size(), 0.);
-          double              total = 0., trace = 0.;
-          for (unsigned int i = 0; i < nodes.size(); ++i)
-            {
-              for (unsigned int q = 0; q < values.weight.size(); ++q)
-                {
-                  const double N = values.value(i, q);
-                  row_sum[i] += rho * N * values.weight[q];
-                  diagonal[i] += rho * N * N * values.weight[q];
-                }
-              total += row_sum[i];
-              trace += diagonal[i];
-            }
-          for (unsigned int i = 0; i < nodes.size(); ++i)
-            for (unsigned int c = 0; c < dim; ++c)
+      {
+        values.reinit(cell);
+        space.cell_nodes(cell, nodes);
+        const double rho = scene.materials[cell->material_id()].density();
+        std::vector<double> row_sum(nodes.size(), 0.);
+        std::vector<double> diagonal(nodes.size(), 0.);
+        double              total = 0., trace = 0.;
+        for (unsigned int i = 0; i < nodes.size(); ++i)
+          {
+            for (unsigned int q = 0; q < values.weight.size(); ++q)
               {
-                const unsigned int dof = dim * space.local_node(nodes[i]) + c;
-                weight_per_g.local_element(dof) += row_sum[i];
-                lumped_mass.local_element(dof) +=
-                  scaled_diagonal ? diagonal[i] * total / trace : row_sum[i];
+                const double N = values.value(i, q);
+                row_sum[i] += rho * N * values.weight[q];
+                diagonal[i] += rho * N * N * values.weight[q];
               }
-        }
+            total += row_sum[i];
+            trace += diagonal[i];
+          }
+        for (unsigned int i = 0; i < nodes.size(); ++i)
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              const unsigned int dof = dim * space.local_node(nodes[i]) + c;
+              weight_per_g.local_element(dof) += row_sum[i];
+              lumped_mass.local_element(dof) +=
+                scaled_diagonal ? diagonal[i] * total / trace : row_sum[i];
+            }
+      }
     weight_per_g.compress(VectorOperation::add);
     lumped_mass.compress(VectorOperation::add);
   }
@@ -82,32 +82,32 @@ namespace geocone
         const auto               ids       = mesh.side_ids(condition);
         unsigned int             n_faces   = 0;
         for (const auto &cell : mesh.own_cells())
-            for (const unsigned int f : cell->face_indices())
-              if (cell->face(f)->at_boundary() &&
-                  ids.count(cell->face(f)->boundary_id()) > 0 &&
-                  condition.in_box(cell->face(f)->center()))
-                {
-                  ++n_faces;
-                  space.cell_nodes(cell, nodes);
-                  const auto &ends =
-                    mesh.is_simplicial() ? faces_triangle[f] : faces_square[f];
-                  const double length = cell->face(f)->measure();
-                  for (unsigned int q = 0; q < rule.size(); ++q)
-                    {
-                      const Point<dim> unit =
-                        ends[0] + rule.point(q)[0] * (ends[1] - ends[0]);
-                      FacePoint point;
-                      point.condition = c;
-                      point.position =
-                        mesh.mapping().transform_unit_to_real_cell(cell, unit);
-                      point.weight = rule.weight(q) * length;
-                      point.values.resize(nodes.size());
-                      space.evaluate(cell, unit, point.values.data(), nullptr);
-                      for (const types::global_dof_index node : nodes)
-                        point.nodes.push_back(space.local_node(node));
-                      face_points.push_back(point);
-                    }
-                }
+          for (const unsigned int f : cell->face_indices())
+            if (cell->face(f)->at_boundary() &&
+                ids.count(cell->face(f)->boundary_id()) > 0 &&
+                condition.in_box(cell->face(f)->center()))
+              {
+                ++n_faces;
+                space.cell_nodes(cell, nodes);
+                const auto &ends =
+                  mesh.is_simplicial() ? faces_triangle[f] : faces_square[f];
+                const double length = cell->face(f)->measure();
+                for (unsigned int q = 0; q < rule.size(); ++q)
+                  {
+                    const Point<dim> unit =
+                      ends[0] + rule.point(q)[0] * (ends[1] - ends[0]);
+                    FacePoint point;
+                    point.condition = c;
+                    point.position =
+                      mesh.mapping().transform_unit_to_real_cell(cell, unit);
+                    point.weight = rule.weight(q) * length;
+                    point.values.resize(nodes.size());
+                    space.evaluate(cell, unit, point.values.data(), nullptr);
+                    for (const types::global_dof_index node : nodes)
+                      point.nodes.push_back(space.local_node(node));
+                    face_points.push_back(point);
+                  }
+              }
         if (Utilities::MPI::sum(n_faces,
                                 mesh.triangulation().get_communicator()) == 0)
           throw InputError(condition.parameter("Box"),

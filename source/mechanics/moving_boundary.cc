@@ -43,8 +43,8 @@ namespace geocone
                  const Point<dim>     &a,
                  const Point<dim>     &b)
   {
-    const QGauss<1>            rule(5);
-    const Tensor<1, dim>       along = b - a;
+    const QGauss<1>      rule(5);
+    const Tensor<1, dim> along = b - a;
     // A shift that decides for a side where the line is a border of cells.
     const Point<dim>           start = a + 1e-9 * left_of(along);
     std::vector<BoundaryPoint> points;
@@ -55,7 +55,7 @@ namespace geocone
         constexpr unsigned int around[] = {0, 1, 3, 2};
         for (unsigned int i = 0; i < 4 && from < to; ++i)
           {
-            const Point<dim>    &v    = cell->vertex(around[i]);
+            const Point<dim>    &v = cell->vertex(around[i]);
             const Tensor<1, dim> into =
               left_of(cell->vertex(around[(i + 1) % 4]) - v);
             clip((start - v) * into, along * into, from, to);
@@ -70,11 +70,11 @@ namespace geocone
             point.weight    = (to - from) * rule.weight(q);
             point.values.resize(space.nodes_per_cell());
             space.cell_nodes(cell, point.nodes);
-            space.evaluate(cell,
-                           mesh.mapping().transform_real_to_unit_cell(
-                             cell, point.position),
-                           point.values.data(),
-                           nullptr);
+            space.evaluate(
+              cell,
+              mesh.mapping().transform_real_to_unit_cell(cell, point.position),
+              point.values.data(),
+              nullptr);
             points.push_back(point);
           }
       }
@@ -103,8 +103,7 @@ namespace geocone
     std::vector<MovingBoundary::Line> lines;
     for (const auto &[name, id] : geometry.sides)
       if (std::count(condition.sides.begin(), condition.sides.end(), name) +
-            std::count(
-              condition.sides.begin(), condition.sides.end(), "all") >
+            std::count(condition.sides.begin(), condition.sides.end(), "all") >
           0)
         {
           auto [a, b] = geometry.side_ends(id);
@@ -120,9 +119,8 @@ namespace geocone
               }
           const Tensor<1, dim> along = b - a;
           if (to > from)
-            lines.push_back({a + from * along,
-                             a + to * along,
-                             (to - from) * along.norm()});
+            lines.push_back(
+              {a + from * along, a + to * along, (to - from) * along.norm()});
         }
     for (const std::string &name : condition.sides)
       if (name != "all" && geometry.sides.count(name) == 0)
@@ -153,9 +151,8 @@ namespace geocone
           longest > 0. ? std::ceil(line.length / longest - 1e-9) : 1;
         const Tensor<1, dim> part = (line.b - line.a) / n;
         for (unsigned int i = 0; i < n; ++i)
-          lines.push_back({line.a + i * part,
-                           line.a + (i + 1.) * part,
-                           line.length / n});
+          lines.push_back(
+            {line.a + i * part, line.a + (i + 1.) * part, line.length / n});
       }
   }
 } // namespace geocone

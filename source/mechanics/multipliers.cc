@@ -73,7 +73,7 @@ namespace geocone
                         const Constraints &constraints,
                         const Vector      &prescribed)
   {
-    comm = prescribed.get_mpi_communicator();
+    comm          = prescribed.get_mpi_communicator();
     using RowName = std::array<unsigned int, 3>;
     struct Row
     {
@@ -107,9 +107,9 @@ namespace geocone
     unsigned int n_dofs = 0;
     for (auto &entry : place)
       entry.second = n_dofs++;
-    VectorXd          is_free = VectorXd::Zero(n_dofs), is_held = is_free,
-             value            = is_free;
-    const auto       &layout  = *space.partitioner();
+    VectorXd is_free = VectorXd::Zero(n_dofs), is_held = is_free,
+             value     = is_free;
+    const auto &layout = *space.partitioner();
     for (const auto &[dof, j] : place)
       if (layout.in_local_range(dof))
         {
@@ -125,8 +125,8 @@ namespace geocone
     const auto name_of = [&](const unsigned int condition) {
       return scene.dirichlet.list[condition]->parameter("Imposed on");
     };
-    MatrixXd full = MatrixXd::Zero(rows.size(), n_dofs);
-    VectorXd target(rows.size());
+    MatrixXd             full = MatrixXd::Zero(rows.size(), n_dofs);
+    VectorXd             target(rows.size());
     unsigned int         r = 0;
     std::vector<RowName> names;
     for (const auto &[name, row] : rows)
@@ -249,8 +249,7 @@ namespace geocone
     for (unsigned int j = 0; j < touched.size(); ++j)
       {
         weighted.col(j) =
-          H.col(j) /
-          (scale != nullptr ? scale->local_element(touched[j]) : 1.);
+          H.col(j) / (scale != nullptr ? scale->local_element(touched[j]) : 1.);
         own[j] = residual.local_element(touched[j]);
       }
     const unsigned int n = H.rows();

@@ -68,21 +68,21 @@ namespace geocone
         : dealii::Quadrature<dim>(dealii::QGauss<dim>(space.degree() + 2)));
     std::vector<dealii::types::global_dof_index> nodes;
     for (const auto &cell : mesh.own_cells())
-        {
-          values.reinit(cell);
-          space.cell_nodes(cell, nodes);
-          for (unsigned int q = 0; q < values.weight.size(); ++q)
-            for (unsigned int c = 0; c < dim; ++c)
-              {
-                double u_h = 0.;
-                for (unsigned int i = 0; i < nodes.size(); ++i)
-                  u_h += values.value(i, q) *
-                         u.local_element(dim * space.local_node(nodes[i]) + c);
-                const double exact = fields[c].value(values.position[q], t);
-                sums[0] += values.weight[q] * (u_h - exact) * (u_h - exact);
-                sums[1] += values.weight[q] * exact * exact;
-              }
-        }
+      {
+        values.reinit(cell);
+        space.cell_nodes(cell, nodes);
+        for (unsigned int q = 0; q < values.weight.size(); ++q)
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              double u_h = 0.;
+              for (unsigned int i = 0; i < nodes.size(); ++i)
+                u_h += values.value(i, q) *
+                       u.local_element(dim * space.local_node(nodes[i]) + c);
+              const double exact = fields[c].value(values.position[q], t);
+              sums[0] += values.weight[q] * (u_h - exact) * (u_h - exact);
+              sums[1] += values.weight[q] * exact * exact;
+            }
+      }
     for (unsigned int p = 0; p < points.n_points(); ++p)
       {
         const Mandel exact(fields[2].value(points.position[p], t),

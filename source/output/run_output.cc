@@ -132,11 +132,12 @@ namespace geocone
                               const StepReport  &report)
   {
     if (verbosity >= 2)
-      log.print(format("  step %u, t = %.6g s, h = %.3g s\n"
-                       "    it   residual   length    blend     cone   apex  switched",
-                       step,
-                       time,
-                       h));
+      log.print(
+        format("  step %u, t = %.6g s, h = %.3g s\n"
+               "    it   residual   length    blend     cone   apex  switched",
+               step,
+               time,
+               h));
     for (std::size_t i = 0; i < report.newton.table.size(); ++i)
       {
         const NewtonIteration &line = report.newton.table[i];

@@ -85,8 +85,7 @@ namespace geocone
                        "choose one of them");
     imposition = static_cast<Imposition>(chosen - names.begin());
     if (n_segments == 0)
-      throw InputError(
-        parameter("Segments"), n_segments, ">= 1", "2 is usual");
+      throw InputError(parameter("Segments"), n_segments, ">= 1", "2 is usual");
     if (!(shortening >= 0.))
       throw InputError(
         parameter("Segment shortening"), shortening, ">= 0", "0 is usual");

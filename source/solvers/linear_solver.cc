@@ -66,9 +66,9 @@ namespace geocone
         b.nrow = b.d = x.size() / n_columns;
         b.nzmax      = x.size();
         b.ncol       = n_columns;
-        b.x                    = x.data();
-        b.xtype                = CHOLMOD_REAL;
-        b.dtype                = CHOLMOD_DOUBLE;
+        b.x          = x.data();
+        b.xtype      = CHOLMOD_REAL;
+        b.dtype      = CHOLMOD_DOUBLE;
         cholmod_solve2(CHOLMOD_A,
                        factor,
                        &b,

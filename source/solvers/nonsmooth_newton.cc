@@ -39,7 +39,7 @@ namespace geocone
           linear_solver.solve(rhs);
           return;
         }
-      using Matrix = Eigen::MatrixXd;
+      using Matrix          = Eigen::MatrixXd;
       const std::size_t   n = rhs.size();
       std::vector<double> columns(n * (m + 1), 0.);
       std::copy(rhs.begin(), rhs.end(), columns.begin());
@@ -152,9 +152,10 @@ namespace geocone
     };
     if (globalisation != "automatic" || hints.particles)
       {
-        solve_with(globalisation == "line search"     ? Globalisation::line_search
-                   : globalisation == "elastic blend" ? Globalisation::elastic_blend
-                   : globalisation == "none"          ? Globalisation::none
+        solve_with(globalisation == "line search" ? Globalisation::line_search
+                   : globalisation == "elastic blend"
+                     ? Globalisation::elastic_blend
+                   : globalisation == "none" ? Globalisation::none
                                              : Globalisation::merit_search);
         return report;
       }
@@ -232,7 +233,7 @@ namespace geocone
 
     evaluate();
     record(0., 0.);
-    double damping = 0.; // the blend of the merit search
+    double              damping = 0.; // the blend of the merit search
     std::vector<double> rhs(matrix.n_owned);
     for (bool first = true;; first = false)
       {
@@ -264,12 +265,11 @@ namespace geocone
         // A few apex points can make a Jacobian without mass singular: blend
         // in as little of the elastic stiffness as makes it regular.
         bool         regular = false;
-        const double wanted =
-          first && elastic_first ? 1. :
-          merit                  ? damping :
-          blend && !first        ? std::min(0.5, report.residual) :
-                                   0.;
-        double weight = wanted;
+        const double wanted  = first && elastic_first ? 1.
+                               : merit                ? damping
+                               : blend && !first ? std::min(0.5, report.residual)
+                                                 : 0.;
+        double       weight  = wanted;
         for (const double least : {0., 1e-6, 1e-3, 0.1})
           {
             if (least > 0. && least <= wanted)

@@ -149,12 +149,13 @@ namespace geocone
     for (unsigned int c = 0; c < list.size(); ++c)
       if (list[c]->imposition == Imposition::segments)
         {
-          supports.push_back({c, MovingBoundary(*list[c], scene->geometry, 0.)});
+          supports.push_back(
+            {c, MovingBoundary(*list[c], scene->geometry, 0.)});
           for (MovingBoundary::Line &line : supports.back().boundary.lines)
             {
-              const double         part = list[c]->shortening / 2. *
-                                          cell_size_along(*mesh, *space, line) /
-                                          line.length;
+              const double part = list[c]->shortening / 2. *
+                                  cell_size_along(*mesh, *space, line) /
+                                  line.length;
               const Tensor<1, dim> along = line.b - line.a;
               if (2. * part >= 1.)
                 throw InputError(list[c]->parameter("Segment shortening"),
@@ -228,10 +229,10 @@ namespace geocone
              ++p)
           {
             const Tensor<2, dim> &C = points.affine[p];
-            e.kinetic += points.mass[p] / 2. *
-                         scalar_product(
-                           C,
-                           C * moment(points, p, &points.nodes[c * points.n_nodes]));
+            e.kinetic +=
+              points.mass[p] / 2. *
+              scalar_product(
+                C, C * moment(points, p, &points.nodes[c * points.n_nodes]));
           }
     const MPI_Comm comm = force.get_mpi_communicator();
     e.kinetic           = Utilities::MPI::sum(e.kinetic, comm);
@@ -256,7 +257,7 @@ namespace geocone
                ++p)
             for (unsigned int i = 0; i < n; ++i)
               {
-                const double m = points.mass[p] * points.values[p * n + i];
+                const double   m = points.mass[p] * points.values[p * n + i];
                 Tensor<1, dim> v = points.velocity[p];
                 if (kind == Transfer::apic)
                   v += points.affine[p] *
@@ -286,18 +287,18 @@ namespace geocone
       else
         for (unsigned int i = 0; i < velocity_L.locally_owned_size(); ++i)
           velocity_L.local_element(i) =
-            constraints->has_mass(i) ?
-              velocity_L.local_element(i) / lumped_mass.local_element(i) :
-              0.;
+            constraints->has_mass(i)
+              ? velocity_L.local_element(i) / lumped_mass.local_element(i)
+              : 0.;
       velocity_L.update_ghost_values();
     }
     {
       TimerOutput::Scope scope(timer, "analyse");
       SparseMatrix       next =
         problem->make_pattern(linear_solver->wants_one_triangle());
-      const int changes =
-        next.row_start != matrix.row_start || next.column != matrix.column ||
-        next.global_index != matrix.global_index;
+      const int changes = next.row_start != matrix.row_start ||
+                          next.column != matrix.column ||
+                          next.global_index != matrix.global_index;
       matrix = std::move(next);
       if (Utilities::MPI::max(changes, force.get_mpi_communicator()) > 0)
         linear_solver->analyse(matrix);
@@ -329,16 +330,16 @@ namespace geocone
       {
         for (unsigned int i = 0; i < dst.locally_owned_size(); ++i)
           dst.local_element(i) =
-            constraints.has_mass(i) ?
-              src.local_element(i) / mass.local_element(i) :
-              0.;
+            constraints.has_mass(i)
+              ? src.local_element(i) / mass.local_element(i)
+              : 0.;
       }
     };
     Vector momentum = velocity;
     for (unsigned int i = 0; i < momentum.locally_owned_size(); ++i)
       if (!constraints->has_mass(i))
         momentum.local_element(i) = 0.;
-    velocity = 0.;
+    velocity          = 0.;
     const double norm = momentum.l2_norm();
     if (norm == 0.)
       return;
@@ -386,10 +387,10 @@ namespace geocone
       force.compress(VectorOperation::add);
     for (unsigned int dof = 0; dof < force.locally_owned_size(); ++dof)
       force.local_element(dof) =
-        constraints->has_mass(dof) ?
-          force.local_element(dof) +
-            g[dof % dim] * lumped_mass.local_element(dof) :
-          0.;
+        constraints->has_mass(dof)
+          ? force.local_element(dof) +
+              g[dof % dim] * lumped_mass.local_element(dof)
+          : 0.;
   }
 
   void
@@ -419,9 +420,8 @@ namespace geocone
                     {
                       const Multipliers::Key key{side.condition, d, number};
                       for (unsigned int i = 0; i < point.nodes.size(); ++i)
-                        rows.add_coefficient(key,
-                                             point.nodes[i],
-                                             point.weight * point.values[i]);
+                        rows.add_coefficient(
+                          key, point.nodes[i], point.weight * point.values[i]);
                       rows.add_target(
                         key,
                         point.weight *
@@ -446,8 +446,8 @@ namespace geocone
               const double weight =
                 average ? 1. / std::count(points.held_by.begin() + begin,
                                           points.held_by.begin() + end,
-                                          held) :
-                          1.;
+                                          held)
+                        : 1.;
               space->cell_nodes(points.cells[c], nodes);
               for (unsigned int d = 0; d < dim; ++d)
                 if (condition.components[d])
@@ -456,8 +456,8 @@ namespace geocone
                       held - 1,
                       d,
                       average ? static_cast<unsigned int>(
-                                  points.cells[c]->global_active_cell_index()) :
-                                points.id[p]};
+                                  points.cells[c]->global_active_cell_index())
+                              : points.id[p]};
                     for (unsigned int i = 0; i < n; ++i)
                       rows.add_coefficient(
                         key, nodes[i], weight * points.values[p * n + i]);
@@ -498,16 +498,16 @@ namespace geocone
     problem->begin_step(solved_h, end, &force, velocity_L);
     for (const bool second : {false, true})
       {
-        const Start start =
-          second == (first_start == Start::nodes) ? Start::particles :
-                                                    Start::nodes;
-        v = velocity_L;
+        const Start start = second == (first_start == Start::nodes)
+                              ? Start::particles
+                              : Start::nodes;
+        v                 = velocity_L;
         if (start == Start::nodes)
           for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
             if (had_mass.empty() || had_mass[i])
-              v.local_element(i) = constraints->has_mass(i) ?
-                                     kinematics.velocity.local_element(i) :
-                                     0.;
+              v.local_element(i) = constraints->has_mass(i)
+                                     ? kinematics.velocity.local_element(i)
+                                     : 0.;
         constraints->set_values(v, end);
         SolverReport tried = newton.solve(*problem,
                                           matrix,
@@ -548,7 +548,7 @@ namespace geocone
     report.converged = true;
 
     // From here on the step is accepted.
-    report.quality = problem->quality();
+    report.quality                = problem->quality();
     const MPI_Comm         comm   = v.get_mpi_communicator();
     const Eigen::VectorXd &lambda = problem->multipliers();
     const Multipliers     &rows   = constraints->multipliers;
@@ -556,9 +556,9 @@ namespace geocone
     const Tensor<1, dim>   g      = scene->gravity.at(end);
     for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
       {
-        const double weight =
-          constraints->has_mass(i) ? g[i % dim] * lumped_mass.local_element(i) :
-                                     0.;
+        const double weight = constraints->has_mass(i)
+                                ? g[i % dim] * lumped_mass.local_element(i)
+                                : 0.;
         sums[0] += h * weight * v.local_element(i);
         sums[1] += h * (force.local_element(i) - weight) * v.local_element(i);
         if (constraints->is_prescribed(i))
@@ -588,7 +588,7 @@ namespace geocone
     double dissipation = 0.;
     for (unsigned int p = 0; p < points.n_points(); ++p)
       {
-        Mandel       stress = problem->trial_stress()[p];
+        Mandel       stress  = problem->trial_stress()[p];
         Mandel       plastic = problem->plastic_strain_increment(p);
         const double volume  = points.weight[p];
         dissipation += (h / solved_h) * volume * stress.dot(plastic);
@@ -596,12 +596,12 @@ namespace geocone
           {
             // Extrapolated to the end, and back onto the cone.
             plastic *= 2.;
-            stress = 2. * stress - points.stress[p];
+            stress                   = 2. * stress - points.stress[p];
             const Material &material = scene->materials[points.material[p]];
             if (const auto cone = material.flow_cone())
               {
-                const Mandel on_cone = from_cone_axes(project(
-                  cone->a, cone->k, Mandel(to_cone_axes(stress))));
+                const Mandel on_cone = from_cone_axes(
+                  project(cone->a, cone->k, Mandel(to_cone_axes(stress))));
                 const Mandel strain =
                   material.elasticity().strain(Mandel(stress - on_cone));
                 dissipation += volume * on_cone.dot(strain);
@@ -639,9 +639,9 @@ namespace geocone
           {
             kinematics.supports[c][d] +=
               h * (moves ? rows.mean_target(c, d) : constraints->mean(v, c, d));
-            report.reactions[c][d] = moves ?
-                                       rows.resultant(lambda, c, d) :
-                                       constraints->resultant(residual, c, d);
+            report.reactions[c][d] = moves
+                                       ? rows.resultant(lambda, c, d)
+                                       : constraints->resultant(residual, c, d);
           }
       }
     if (advection != "none")
@@ -700,9 +700,8 @@ namespace geocone
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       {
         const unsigned int *nodes = &points.nodes[c * n];
-        const double        extent[dim] = {
-          points.cells[c]->extent_in_direction(0),
-          points.cells[c]->extent_in_direction(1)};
+        const double extent[dim]  = {points.cells[c]->extent_in_direction(0),
+                                     points.cells[c]->extent_in_direction(1)};
         for (unsigned int p = points.first_point[c];
              p < points.first_point[c + 1];
              ++p)
@@ -731,12 +730,12 @@ namespace geocone
             else
               next.affine = affine_velocity(points, p, nodes, v);
             const Tensor<1, dim> move =
-              h * (advection == "grid velocity"     ? mean_velocity :
-                   advection == "particle velocity" ? next.velocity :
-                                                      Tensor<1, dim>());
+              h * (advection == "grid velocity"       ? mean_velocity
+                   : advection == "particle velocity" ? next.velocity
+                                                      : Tensor<1, dim>());
             if (advection == "none")
               gradient = 0.;
-            next.position = points.position[p] + move;
+            next.position          = points.position[p] + move;
             Tensor<2, dim> stretch = h * gradient;
             for (unsigned int d = 0; d < dim; ++d)
               stretch[d][d] += 1.;
@@ -746,9 +745,8 @@ namespace geocone
 
             if (!std::isfinite(next.position.square()) ||
                 !std::isfinite(next.velocity.norm_square()))
-              obstacle =
-                format("the velocity of particle %u is not a number",
-                       points.id[p]);
+              obstacle = format("the velocity of particle %u is not a number",
+                                points.id[p]);
             else if (!(ratio > 0.05))
               obstacle = format("the volume of particle %u at (%g, %g) would "
                                 "collapse to %.2g of itself",
@@ -785,7 +783,7 @@ namespace geocone
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int d = 0; d < dim; ++d)
         {
-          const double vi = v.local_element(dim * nodes[i] + d);
+          const double         vi = v.local_element(dim * nodes[i] + d);
           const Tensor<1, dim> r =
             space->node_positions()[nodes[i]] - points.position[p];
           for (unsigned int e = 0; e < dim; ++e)
@@ -797,9 +795,9 @@ namespace geocone
     // At a corner of the mesh only one function is left: the limit is the
     // gradient.
     const Tensor<2, dim> D = moment(points, p, nodes);
-    return determinant(D) > 1e-12 * trace(D) * trace(D) && trace(D) > 0. ?
-             B * invert(D) :
-             gradient;
+    return determinant(D) > 1e-12 * trace(D) * trace(D) && trace(D) > 0.
+             ? B * invert(D)
+             : gradient;
   }
 
   void

@@ -7,7 +7,6 @@
 
 #include <geocone/base/parameter_file.h>
 #include <geocone/base/version.h>
-#include <geocone/discretisation/quadrature_points.h>
 #include <geocone/simulation.h>
 
 #include <cstdio>
@@ -28,14 +27,11 @@ struct Parts
   prepare()
   {
     scene.prepare();
+    method.prepare();
     newton.prepare();
-    mesh.prepare(scene);
-    space.prepare(mesh);
-    constraints = std::make_unique<Constraints>(scene, mesh, space);
-    points      = make_quadrature_points(scene, mesh, space);
-    stepper.prepare(scene, mesh, space, *constraints, points, newton, timer);
-    kinematics.velocity.reinit(space.partitioner());
-    kinematics.displacement.reinit(space.partitioner());
+    mesh.prepare(scene, method);
+    space.prepare(mesh, method);
+    stepper.prepare(scene, mesh, space, newton, timer, kinematics, points);
   }
 
   bool
@@ -44,15 +40,15 @@ struct Parts
     return stepper.advance(kinematics, points, newton, timer, t, h).converged;
   }
 
-  Scene                        scene;
-  BackgroundMesh               mesh;
-  Space                        space;
-  NonsmoothNewton              newton;
-  ImplicitFEM                  stepper;
-  dealii::TimerOutput          timer;
-  std::unique_ptr<Constraints> constraints;
-  MaterialPoints               points;
-  Kinematics                   kinematics;
+  Scene               scene;
+  Method              method;
+  BackgroundMesh      mesh;
+  Space               space;
+  NonsmoothNewton     newton;
+  ImplicitFEM         stepper;
+  dealii::TimerOutput timer;
+  MaterialPoints      points;
+  Kinematics          kinematics;
 };
 
 bool

@@ -43,8 +43,9 @@ namespace geocone
     auto
     own_cells() const
     {
-      return dealii::filter_iterators(tria->active_cell_iterators(),
-                                      dealii::IteratorFilters::LocallyOwnedCell());
+      return dealii::filter_iterators(
+        tria->active_cell_iterators(),
+        dealii::IteratorFilters::LocallyOwnedCell());
     }
 
     /** Coordinates of the lines of a tensor grid; empty for other meshes. */

@@ -56,8 +56,9 @@ namespace geocone
 
     std::unique_ptr<dealii::Particles::ParticleHandler<dim>> handler;
 
-    MPI_Comm                                                    comm;
-    std::vector<std::pair<unsigned int, dealii::Point<dim>>> lost; ///< in move()
+    MPI_Comm comm;
+    std::vector<std::pair<unsigned int, dealii::Point<dim>>>
+                 lost; ///< in move()
     unsigned int n_lost_all = 0;
   };
 } // namespace geocone

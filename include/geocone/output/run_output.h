@@ -148,7 +148,7 @@ namespace geocone
 
     /** Sums since the start (J/m), and the least loss of a step. */
     double work = 0., dissipation = 0., loss = 0., least_loss = 0.;
-    double   energy_n = 0.; ///< kinetic, elastic and potential, at the last step
+    double energy_n = 0.; ///< kinetic, elastic and potential, at the last step
     Energies initial;
   };
 } // namespace geocone

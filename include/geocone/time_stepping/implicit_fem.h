@@ -67,7 +67,7 @@ namespace geocone
   private:
     bool inertia = false;
 
-    const Scene                        *scene       = nullptr;
+    const Scene                        *scene = nullptr;
     std::unique_ptr<Constraints>        constraints;
     std::unique_ptr<Loads>              loads;
     std::unique_ptr<IncrementalProblem> problem;

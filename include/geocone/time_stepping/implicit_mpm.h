@@ -178,10 +178,10 @@ namespace geocone
 
     Particles particles;
 
-    const Scene          *scene  = nullptr;
-    const BackgroundMesh *mesh   = nullptr;
-    const Space          *space  = nullptr;
-    Transfer              kind   = Transfer::flip;
+    const Scene          *scene       = nullptr;
+    const BackgroundMesh *mesh        = nullptr;
+    const Space          *space       = nullptr;
+    Transfer              kind        = Transfer::flip;
     Start                 first_start = Start::nodes;
     dealii::Point<dim>    datum; ///< of the potential energy
 
