@@ -199,6 +199,8 @@ namespace geocone
           }
         points.first_point.push_back(p);
       }
+    if (space.has_b_bar())
+      average_gradients(points);
     return points;
   }
 

@@ -111,6 +111,8 @@ namespace geocone
     points.plastic_strain.assign(points.n_points(), Mandel::Zero());
     points.cumulative_plastic_strain.assign(points.n_points(), 0.);
     points.plastic_strain_rate.assign(points.n_points(), 0.);
+    if (space.has_b_bar())
+      average_gradients(points);
     return points;
   }
 } // namespace geocone

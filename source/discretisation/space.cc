@@ -46,6 +46,10 @@ namespace geocone
                   basis,
                   "Of Q2 and Q3: Lagrange | Bernstein | automatic: Lagrange's "
                   "for FEM, Bernstein's, which are not negative, for MPM.");
+    add_parameter("B-bar",
+                  b_bar,
+                  "For Q1: the volumetric strain of a cell is its mean over "
+                  "the cell's points, against locking.");
   }
 
   void
@@ -82,6 +86,11 @@ namespace geocone
                        "automatic | Lagrange | Bernstein",
                        "choose one of them");
     p = name.back() - '0';
+    if (b_bar && name != "Q1")
+      throw InputError("Discretisation/B-bar",
+                       "true",
+                       "false, but for Q1",
+                       "elements and splines of higher degree do not need it");
 
     n_nodes_per_cell = simplicial ? (p + 1) * (p + 2) / 2 : (p + 1) * (p + 1);
     const IndexSet owned =

@@ -95,12 +95,13 @@ namespace geocone
       "Linear systems to solve before the step is given up and cut. "
       "0: 150 for associated flow (slow starts are worth waiting "
       "for), 60 for theta >= phi/2 and for the merit search, otherwise "
-      "15 with the line search and 30 with the elastic blend.");
+      "15 with the line search (30 with MPM) and 30 with the elastic blend.");
     add_parameter(
       "Globalisation",
       globalisation,
       "automatic | line search | elastic blend | merit search | none. "
-      "Automatic: for MPM the merit search; for FEM "
+      "Automatic: for MPM the line search, and for theta < phi/2 the merit "
+      "search from the second start; for FEM "
       "the elastic blend for theta < phi/2 without inertia, the "
       "line search otherwise; where that fails the other one, but "
       "for theta < phi/2 with inertia. None: plastic steps often fail.");
@@ -141,7 +142,7 @@ namespace geocone
     SolverReport report;
     const auto   solve_with = [&](const Globalisation kind) {
       attempt(kind,
-              hints.elastic_first,
+              hints,
               problem,
               matrix,
               linear_solver,
@@ -150,17 +151,22 @@ namespace geocone
               residual,
               report);
     };
-    if (globalisation != "automatic" || hints.particles)
+    const bool hard = problem.non_associativity() > hard_flow;
+    if (globalisation != "automatic")
       {
-        solve_with(globalisation == "line search" ? Globalisation::line_search
-                   : globalisation == "elastic blend"
-                     ? Globalisation::elastic_blend
-                   : globalisation == "none" ? Globalisation::none
-                                             : Globalisation::merit_search);
+        solve_with(globalisation == "line search"     ? Globalisation::line_search
+                   : globalisation == "elastic blend" ? Globalisation::elastic_blend
+                   : globalisation == "merit search"  ? Globalisation::merit_search
+                                                      : Globalisation::none);
+        return report;
+      }
+    if (hints.particles)
+      {
+        solve_with(hard && hints.elastic_first ? Globalisation::merit_search :
+                                                 Globalisation::line_search);
         return report;
       }
 
-    const bool   hard        = problem.non_associativity() > hard_flow;
     const bool   blend_first = hard && !problem.has_inertia();
     const Vector start       = v;
     solve_with(blend_first ? Globalisation::elastic_blend
@@ -179,7 +185,7 @@ namespace geocone
 
   void
   NonsmoothNewton::attempt(const Globalisation globalisation,
-                           const bool          elastic_first,
+                           const Hints        &hints,
                            IncrementalProblem &problem,
                            SparseMatrix       &matrix,
                            LinearSolver       &linear_solver,
@@ -193,12 +199,14 @@ namespace geocone
     const bool         blend   = globalisation == Globalisation::elastic_blend;
     const bool         search  = globalisation == Globalisation::line_search;
     const bool         merit   = globalisation == Globalisation::merit_search;
+    const bool         hard    = problem.non_associativity() > hard_flow;
     const unsigned int allowed = max_iterations > 0       ? max_iterations
                                  : merit                  ? 60
+                                 : hints.particles && hard ? 30
                                  : problem.is_symmetric() ? 150
-                                 : problem.non_associativity() <= hard_flow ? 60
-                                 : blend                                    ? 30
-                                         : 15;
+                                 : !hard                  ? 60
+                                 : blend                  ? 30
+                                                          : 15;
     const unsigned int limit   = report.iterations + allowed;
 
     Vector         direction = problem.make_vector();
@@ -265,7 +273,7 @@ namespace geocone
         // A few apex points can make a Jacobian without mass singular: blend
         // in as little of the elastic stiffness as makes it regular.
         bool         regular = false;
-        const double wanted  = first && elastic_first ? 1.
+        const double wanted  = first && hints.elastic_first ? 1.
                                : merit                ? damping
                                : blend && !first ? std::min(0.5, report.residual)
                                                  : 0.;

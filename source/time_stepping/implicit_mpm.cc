@@ -78,8 +78,8 @@ namespace geocone
                   start_name,
                   "Where Newton's method starts: grid velocity (of the last "
                   "step; best for slow loading) | particle velocity (vL, with "
-                  "the elastic tangent first) | automatic: the one that "
-                  "worked last, the other if it fails.");
+                  "the elastic tangent first) | automatic: the former, and "
+                  "the latter if it fails.");
     add_parameter("Largest move",
                   largest_move,
                   "A step in which a particle would move farther than so many "
@@ -119,8 +119,10 @@ namespace geocone
         section + "Largest move", largest_move, "> 0 cells", "3 is usual");
     kind     = transfer_name == "FLIP" ? Transfer::flip : Transfer::apic;
     midpoint = integration == "midpoint";
-    first_start =
-      start_name == "particle velocity" ? Start::particles : Start::nodes;
+    if (start_name != "particle velocity")
+      starts.push_back(Start::nodes);
+    if (start_name != "grid velocity")
+      starts.push_back(Start::particles);
     if (!space->is_non_negative() && consistent_mass < 1.)
       throw InputError("Discretisation/Basis",
                        "Lagrange",
@@ -496,12 +498,9 @@ namespace geocone
     report.rows        = constraints->multipliers.n_given();
 
     problem->begin_step(solved_h, end, &force, velocity_L);
-    for (const bool second : {false, true})
+    for (const Start start : starts)
       {
-        const Start start = second == (first_start == Start::nodes)
-                              ? Start::particles
-                              : Start::nodes;
-        v                 = velocity_L;
+        v = velocity_L;
         if (start == Start::nodes)
           for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
             if (had_mass.empty() || had_mass[i])
@@ -524,12 +523,6 @@ namespace geocone
                            report.newton.table.end());
         report.newton = std::move(tried);
         if (report.newton.converged)
-          {
-            if (start_name == "automatic")
-              first_start = start;
-            break;
-          }
-        if (start_name != "automatic")
           break;
       }
     if (!report.newton.converged)
@@ -615,7 +608,7 @@ namespace geocone
         points.cumulative_plastic_strain[p] += plastic.norm();
         points.plastic_strain_rate[p] = plastic.norm() / h;
         points.weight[p]              = moved[p].volume;
-        points.displacement[p] += moved[p].position - points.position[p];
+        points.displacement[p] += moved[p].displacement;
         points.position[p] = moved[p].position;
         points.velocity[p] = moved[p].velocity;
         points.affine[p]   = moved[p].affine;

@@ -84,6 +84,10 @@ namespace geocone
     std::vector<unsigned int> held_by;
     /** @} */
   };
+
+  /** Fills the mean gradients, for B-bar. */
+  void
+  average_gradients(MaterialPoints &points);
 } // namespace geocone
 
 #endif

@@ -82,6 +82,13 @@ namespace geocone
       return p == 1 || is_spline() || basis == "Bernstein";
     }
 
+    /** Whether volumetric strains are averaged over each cell (B-bar). */
+    bool
+    has_b_bar() const
+    {
+      return b_bar;
+    }
+
     unsigned int
     nodes_per_cell() const
     {
@@ -162,6 +169,7 @@ namespace geocone
 
     std::string name  = "automatic";
     std::string basis = "automatic";
+    bool        b_bar = false;
 
     const BackgroundMesh *mesh             = nullptr;
     unsigned int          p                = 0;

@@ -24,7 +24,9 @@ namespace geocone
 
   /**
    * Exact displacement and stress at the end of the run, as formulas in x, y, t;
-   * for verification by manufactured or analytical solutions.
+   * for verification by manufactured or analytical solutions. Of points that
+   * move, x and y are where they were when displacements began to count, and
+   * their errors are sums over the points, weighted by volume.
    */
   class ExactSolution : public dealii::ParameterAcceptor
   {
@@ -40,6 +42,7 @@ namespace geocone
       return given;
     }
 
+    /** @param displacement of nodes that stay; empty where points move */
     FieldErrors
     errors(const BackgroundMesh &mesh,
            const Space          &space,

@@ -55,10 +55,11 @@ namespace geocone
    *    the diagonal of the elastic Jacobian; where that stalls the tangent is
    *    blended, w = max(0.02, 3 w), until it works again;
    *  - none: full Newton steps;
-   *  - automatic: for particles the merit search. For FEM the elastic blend for
-   *    theta < phi/2 without inertia, the line search otherwise; where that
-   *    fails the other one from the same start, but for associated flow and for
-   *    theta < phi/2 with inertia, where a shorter step is the better cure
+   *  - automatic: for particles the line search, but the merit search for theta <
+   *    phi/2 after an elastic start. For FEM the elastic blend for theta < phi/2
+   *    without inertia, the line search otherwise; where that fails the other
+   *    one from the same start, but for associated flow and for theta < phi/2
+   *    with inertia, where a shorter step is the better cure
    *    (doc/performance.md).
    */
   class NonsmoothNewton : public dealii::ParameterAcceptor
@@ -115,7 +116,7 @@ namespace geocone
     /** solve() with one globalisation; what it spends is added to the report. */
     void
     attempt(const Globalisation  globalisation,
-            const bool           elastic_first,
+            const Hints         &hints,
             IncrementalProblem  &problem,
             SparseMatrix        &matrix,
             LinearSolver        &linear_solver,

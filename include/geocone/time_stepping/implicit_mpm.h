@@ -91,7 +91,7 @@ namespace geocone
       apic
     };
 
-    /** Where Newton's method starts. */
+    /** Where Newton's method may start. */
     enum class Start
     {
       nodes,    ///< the velocities of the nodes after the last step
@@ -109,6 +109,7 @@ namespace geocone
     struct Moved
     {
       dealii::Point<dim>     position;
+      dealii::Tensor<1, dim> displacement; ///< of the step
       dealii::Tensor<1, dim> velocity;
       dealii::Tensor<2, dim> affine;
       double                 volume;
@@ -182,7 +183,7 @@ namespace geocone
     const BackgroundMesh *mesh        = nullptr;
     const Space          *space       = nullptr;
     Transfer              kind        = Transfer::flip;
-    Start                 first_start = Start::nodes;
+    std::vector<Start>    starts; ///< to be tried in this order
     dealii::Point<dim>    datum; ///< of the potential energy
 
     std::vector<Side> supports, loads;
