@@ -203,16 +203,26 @@ namespace geocone
                   }
                 run_output.add_step(record);
                 if (run_output.verbosity >= 1)
-                  log.progress(format(
-                    "step %u/%u  t = %.4g s  u = %.4g mm  load = %.1f N/m  %u "
-                    "iterations  %.0f s left",
-                    step,
-                    n_steps,
-                    t,
-                    1e3 * record.displacement,
-                    record.load,
-                    record.iterations,
-                    total.wall_time() / step * (n_steps - step)));
+                  {
+                    const std::string result =
+                      observation.conditions.empty() ?
+                        format("kinetic energy = %.3g J/m  plastic strain <= "
+                               "%.3g",
+                               record.last.energies.kinetic,
+                               record.last.largest_plastic_strain) :
+                        format("u = %.4g mm  load = %.1f N/m",
+                               1e3 * record.displacement,
+                               record.load);
+                    log.progress(
+                      format("step %u/%u  t = %.4g s  %s  %u iterations  %.0f s "
+                             "left",
+                             step,
+                             n_steps,
+                             t,
+                             result.c_str(),
+                             record.iterations,
+                             total.wall_time() / step * (n_steps - step)));
+                  }
 
                 if (i + 1 == sizes.size() ||
                     (stage->output_every > 0 &&

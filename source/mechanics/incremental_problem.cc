@@ -334,6 +334,8 @@ namespace geocone
     for (unsigned int node = 0; node < n_local_nodes; ++node)
       {
         auto &list = neighbours[node];
+        // Of an owned node all points may be on other ranks.
+        list.push_back(node);
         std::sort(list.begin(), list.end());
         list.erase(std::unique(list.begin(), list.end()), list.end());
         for (unsigned int c = 0; c < dim; ++c)

@@ -98,6 +98,7 @@ namespace geocone
                                "complementarity (-)",
                                "plastic points (-)",
                                "apex points (-)",
+                               "largest plastic strain (-)",
                                "unknowns (-)",
                                "multipliers (-)",
                                "multiplier rows given (-)",
@@ -196,6 +197,7 @@ namespace geocone
                                report.quality.complementarity,
                                double(last.n_cone + last.n_apex),
                                double(last.n_apex),
+                               report.largest_plastic_strain,
                                double(report.unknowns),
                                double(report.multipliers),
                                double(report.rows),
@@ -285,6 +287,8 @@ namespace geocone
                        {"dual_cone_violation_max", quality.dual_violation}};
     if (!records.empty())
       {
+        json["state"] = {{"largest_plastic_strain",
+                          records.back().last.largest_plastic_strain}};
         const Energies &e = records.back().last.energies;
         // Potential energy counts from the lower left corner of the mesh.
         const double released = initial.potential - e.potential;

@@ -157,6 +157,8 @@ namespace geocone
           }
       }
     report.energies               = state_energies(kinematics, points, t + h);
+    report.largest_plastic_strain =
+      largest_plastic_strain(points, v.get_mpi_communicator());
     report.energies.external_work = sums[0];
     report.energies.dissipation   = sums[1];
     return report;

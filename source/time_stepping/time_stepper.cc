@@ -25,6 +25,15 @@ namespace geocone
   }
 
   double
+  largest_plastic_strain(const MaterialPoints &points, const MPI_Comm comm)
+  {
+    double largest = 0.;
+    for (const double strain : points.cumulative_plastic_strain)
+      largest = std::max(largest, strain);
+    return Utilities::MPI::max(largest, comm);
+  }
+
+  double
   energy_identity_error(const IncrementalProblem &problem,
                         const MaterialPoints     &points,
                         const Materials          &materials,

@@ -53,6 +53,9 @@ namespace geocone
     unsigned int multipliers = 0; ///< independent rows of H
     unsigned int rows        = 0; ///< rows of H that were given
 
+    /** Largest cumulative plastic strain of all points. */
+    double largest_plastic_strain = 0.;
+
     /**
      * Defect of the discrete energy identity of the step on the grid,
      *   dE_kin + dE_el + sum V s'(-z) + |v - vL|_M^2/2 + sum V ds'S ds/2 = work,
@@ -66,6 +69,10 @@ namespace geocone
   elastic_energy(const MaterialPoints &points,
                  const Materials      &materials,
                  const MPI_Comm        comm);
+
+  /** Largest cumulative plastic strain of the points of all ranks. */
+  double
+  largest_plastic_strain(const MaterialPoints &points, const MPI_Comm comm);
 
   /** Identity defect of the last step that a problem solved. Collective. */
   double
