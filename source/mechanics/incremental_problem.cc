@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/log.h>
 #include <geocone/mechanics/incremental_problem.h>
 #include <geocone/mechanics/point_kernels.h>
 
@@ -491,6 +492,23 @@ namespace geocone
       return Mandel::Zero();
     return strain[p] - materials[points.material[p]].elasticity().strain(
                          Mandel(stress[p] - points.stress[p]));
+  }
+
+  std::string
+  IncrementalProblem::not_a_number() const
+  {
+    std::string where;
+    for (unsigned int p = 0; p < points.n_points() && where.empty(); ++p)
+      if (!strain[p].allFinite() || !stress[p].allFinite())
+        where = format(" at the point %u (%g, %g)",
+                       points.id.empty() ? p : points.id[p],
+                       points.position[p][0],
+                       points.position[p][1]);
+    for (const std::string &text :
+         Utilities::MPI::all_gather(layout->get_mpi_communicator(), where))
+      if (!text.empty())
+        return text;
+    return "";
   }
 
   Quality

@@ -247,7 +247,8 @@ namespace geocone
       {
         if (!std::isfinite(state.norm))
           {
-            report.reason = "the residual is not a number";
+            report.reason =
+              "the residual is not a number" + problem.not_a_number();
             return;
           }
         if (!(first && jumps) &&

@@ -177,6 +177,10 @@ namespace geocone
     Quality
     quality() const;
 
+    /** Names a point whose trial state is not a number, or nothing. Collective. */
+    std::string
+    not_a_number() const;
+
     /** @name Trial states at the last residual(), by point */
     /** @{ */
     const std::vector<Mandel> &
