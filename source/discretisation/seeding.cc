@@ -311,8 +311,8 @@ namespace geocone
       // The first material has what the others leave, which may be nothing.
       for (unsigned int i = 1; i < n.size(); ++i)
         if (n[i] == 0)
-          throw InputError("the region of the material '" + materials.name(i) +
-                           "' is a region without points" + remedy);
+          throw InputError("no particle lies in the region of the material '" +
+                           materials.name(i) + "'" + remedy);
     }
   } // namespace
 

@@ -89,8 +89,9 @@ namespace geocone
     if (b_bar && name != "Q1")
       throw InputError("Discretisation/B-bar",
                        "true",
-                       "false, but for Q1",
-                       "elements and splines of higher degree do not need it");
+                       "true for Q1 only",
+                       "elements and splines of higher degree do not need it: "
+                       "set B-bar = false, or Element = Q1");
 
     n_nodes_per_cell = simplicial ? (p + 1) * (p + 2) / 2 : (p + 1) * (p + 1);
     const IndexSet owned =

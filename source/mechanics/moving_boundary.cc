@@ -88,8 +88,8 @@ namespace geocone
       throw InputError(condition.parameter("Sides"),
                        Patterns::Tools::to_string(condition.sides),
                        "sides of a body that is a box or a polygon",
-                       "set 'Imposed on = nodes' on sides of the background "
-                       "mesh");
+                       "describe the body as one of them; velocities may also be "
+                       "imposed on nodes of the background mesh");
     // Outlines may run either way.
     double area = 0.;
     for (std::size_t i = 0; i < geometry.outline.size(); ++i)

@@ -40,7 +40,7 @@ namespace geocone
     touched.clear();
     H.resize(0, 0);
     q.resize(0);
-    asked.resize(0);
+    asked.clear();
     row_sum.resize(0);
     given = 0;
   }
@@ -122,39 +122,46 @@ namespace geocone
     is_held = sum_over_ranks(is_held, comm);
     value   = sum_over_ranks(value, comm);
 
-    const auto name_of = [&](const unsigned int condition) {
-      return scene.dirichlet.list[condition]->parameter("Imposed on");
-    };
     MatrixXd             full = MatrixXd::Zero(rows.size(), n_dofs);
     VectorXd             target(rows.size());
-    unsigned int         r = 0;
+    double               scale = 0.; // of the velocities
+    unsigned int         r     = 0;
     std::vector<RowName> names;
     for (const auto &[name, row] : rows)
       {
-        double all = 0., supported = 0.;
+        double all = 0., supported = 0., free = 0.;
         for (const auto &[dof, coefficient] : row.coefficients)
           {
             const unsigned int j = place[dof];
             all += coefficient;
             if (is_free[j] != 0. || is_held[j] != 0.)
               supported += coefficient;
+            if (is_free[j] != 0.)
+              free += std::abs(coefficient);
           }
         if (!(supported > 1e-8 * all))
           throw InputError(
-            name_of(name[0]),
+            scene.dirichlet.list[name[0]]->parameter("Box"),
             scene.dirichlet.list[name[0]]->part(),
-            "a place with material",
-            "no particle is near it: no function supports the constraint. "
-            "Check its sides and its box, or whether the body has left it");
+            "a part of a side with particles near it",
+            "no function with mass supports the constraint: check its sides "
+            "and its box, or whether the body has left it");
+        asked.push_back({{name[0], name[1], name[2]}, row.target, all});
         target[r] = row.target;
+        scale     = std::max(scale, std::abs(row.target));
+        // On prescribed nodes but for a rounding.
+        const bool is_fixed = free < rank_tolerance * supported;
         for (const auto &[dof, coefficient] : row.coefficients)
           {
             const unsigned int j = place[dof];
             const double       c = coefficient * (all / supported);
-            if (is_free[j] != 0.)
+            if (is_free[j] != 0. && !is_fixed)
               full(r, j) = c;
             else if (is_held[j] != 0.)
-              target[r] -= c * value[j];
+              {
+                target[r] -= c * value[j];
+                scale = std::max(scale, std::abs(c * value[j]));
+              }
           }
         names.push_back(name);
         ++r;
@@ -168,13 +175,11 @@ namespace geocone
     std::sort(kept.begin(), kept.end());
     MatrixXd independent(rank, n_dofs);
     q.resize(rank);
-    asked.resize(rank);
     keys.clear();
     for (unsigned int k = 0; k < rank; ++k)
       {
         independent.row(k) = full.row(kept[k]);
         q[k]               = target[kept[k]];
-        asked[k]           = rows[names[kept[k]]].target;
         keys.push_back(
           {names[kept[k]][0], names[kept[k]][1], names[kept[k]][2]});
       }
@@ -182,24 +187,27 @@ namespace geocone
     if (rank < rows.size())
       {
         // The others as combinations of those kept.
-        const Eigen::ColPivHouseholderQR<MatrixXd> basis(
-          independent.transpose());
-        const double scale = target.cwiseAbs().maxCoeff();
+        Eigen::ColPivHouseholderQR<MatrixXd> basis;
+        if (rank > 0)
+          basis.compute(independent.transpose());
         for (unsigned int i = 0; i < rows.size(); ++i)
           if (!std::binary_search(kept.begin(), kept.end(), i))
             {
-              const VectorXd factors = basis.solve(full.row(i).transpose());
-              if (std::abs(factors.dot(q) - target[i]) > 1e-4 * scale)
+              const double left =
+                rank > 0 ? VectorXd(basis.solve(full.row(i).transpose())).dot(q)
+                         : 0.;
+              if (std::abs(left - target[i]) > 1e-4 * scale)
                 throw InputError(
-                  name_of(names[i][0]),
-                  scene.dirichlet.list[names[i][0]]->part(),
+                  scene.dirichlet.list[names[i][0]]->parameter(
+                    names[i][1] == 0 ? "Velocity x" : "Velocity y"),
+                  scene.dirichlet.list[names[i][0]]->formula(names[i][1]),
                   "velocities that the functions of the space can take",
                   format("its rows depend on each other but contradict: %g m/s "
                          "is asked where the others leave %g m/s; impose "
                          "segments or cell averages, or a velocity that is "
                          "the same for all its points",
-                         target[i],
-                         factors.dot(q)));
+                         rows[names[i]].target,
+                         rows[names[i]].target - target[i] + left));
             }
       }
 
@@ -275,14 +283,13 @@ namespace geocone
   Multipliers::mean_target(const unsigned int condition,
                            const unsigned int component) const
   {
-    double       sum = 0.;
-    unsigned int n   = 0;
-    for (unsigned int k = 0; k < n_rows(); ++k)
-      if (keys[k].condition == condition && keys[k].component == component)
+    double sum = 0., weight = 0.;
+    for (const Asked &row : asked)
+      if (row.key.condition == condition && row.key.component == component)
         {
-          sum += asked[k];
-          ++n;
+          sum += row.target;
+          weight += row.weight;
         }
-    return n > 0 ? sum / n : 0.;
+    return weight > 0. ? sum / weight : 0.;
   }
 } // namespace geocone

@@ -34,7 +34,7 @@ namespace geocone
     for (const auto &condition : scene->dirichlet.list)
       if (condition->moves())
         throw InputError(condition->parameter("Imposed on"),
-                         "points, cell averages or segments",
+                         condition->imposed_on,
                          "nodes with FEM",
                          "impose it on nodes, or set Discretisation/Method = "
                          "MPM");

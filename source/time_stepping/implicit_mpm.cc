@@ -101,10 +101,11 @@ namespace geocone
                          a + " | " + b + (c.empty() ? "" : " | " + c),
                          "choose one of them");
     };
-    const auto part = [&](const std::string &entry, const double value) {
+    const auto part = [&](const std::string &entry,
+                          const double       value,
+                          const std::string &remedy) {
       if (!(value >= 0. && value <= 1.))
-        throw InputError(
-          section + entry, value, "0 to 1", "see geocone --help");
+        throw InputError(section + entry, value, "0 to 1", remedy);
     };
     choose("Transfer", transfer_name, "FLIP", "APIC");
     choose(
@@ -112,8 +113,10 @@ namespace geocone
     choose("Integration", integration, "backward Euler", "midpoint");
     choose(
       "Start", start_name, "automatic", "grid velocity", "particle velocity");
-    part("FLIP part", flip_part);
-    part("Consistent mass part", consistent_mass);
+    part("FLIP part", flip_part, "1 is FLIP, 0 is PIC");
+    part("Consistent mass part",
+         consistent_mass,
+         "0 (lumped) is usual; up to 0.999 is safe");
     if (!(largest_move > 0.))
       throw InputError(
         section + "Largest move", largest_move, "> 0 cells", "3 is usual");

@@ -22,10 +22,11 @@ namespace geocone
 
   /**
    * Points on the line from a to b for sums that are integrals over it, exact for
-   * the products of the shape functions along each cell that it crosses: Gauss
-   * points on each cell's part of the line. Weights sum up, over all ranks, to
-   * the part of the line that lies in the mesh. A line along the border of two
-   * cells belongs to the cell on its left, seen from a to b.
+   * the shape functions along each cell that it crosses: Gauss points on each
+   * cell's part of the line. Weights sum up, over all ranks, to the part of the
+   * line that lies in the mesh. A line along the border of two cells belongs to
+   * the cell on its left, seen from a to b, and one along the border of the mesh
+   * to the mesh if that is on its left.
    */
   std::vector<BoundaryPoint>
   points_on_line(const BackgroundMesh     &mesh,

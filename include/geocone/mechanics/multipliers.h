@@ -128,7 +128,15 @@ namespace geocone
     std::vector<unsigned int> touched;
     Eigen::MatrixXd           H;
     Eigen::VectorXd           q; ///< without what prescribed dofs contribute
-    Eigen::VectorXd           asked, row_sum;
+    Eigen::VectorXd           row_sum;
+
+    /** Of a row that was given: its right-hand side and the sum of its N. */
+    struct Asked
+    {
+      Key    key;
+      double target, weight;
+    };
+    std::vector<Asked> asked;
   };
 } // namespace geocone
 

@@ -48,6 +48,13 @@ namespace geocone
     std::optional<std::array<dealii::Point<dim>, 2>>
     box_corners() const;
 
+    /** The formula of a component as text, for messages. */
+    const std::string &
+    formula(const unsigned int component) const
+    {
+      return texts[component];
+    }
+
     /** The full name of one of its parameters, for messages. */
     std::string
     parameter(const std::string &entry) const;
@@ -76,7 +83,8 @@ namespace geocone
       cell_averages,
       segments
     };
-    Imposition imposition = Imposition::nodes;
+    Imposition  imposition = Imposition::nodes;
+    std::string imposed_on = "nodes"; ///< its name
 
     /** Number of parts for `segments`. */
     unsigned int n_segments = 2;
@@ -98,7 +106,6 @@ namespace geocone
     const std::string               quantity;
     const std::string               unset;
     std::array<std::string, dim>    texts;
-    std::string                     imposed_on = "nodes";
     std::vector<dealii::Point<dim>> box;
   };
 

@@ -1,0 +1,60 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef tests_discretisation_setup_h
+#define tests_discretisation_setup_h
+
+#include <geocone/base/version.h>
+#include <geocone/discretisation/particles.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cstdio>
+
+/** Scene, mesh, space and seeding of a parameter file with overrides. */
+struct Setup
+{
+  Setup(const std::string &file_name, const std::vector<std::string> &overrides)
+    : file((dealii::ParameterAcceptor::clear(),
+            GEOCONE_SOURCE_DIR "/tests/" + file_name),
+           overrides)
+    , scene(file)
+    , mesh(MPI_COMM_WORLD)
+    , particles(file)
+  {}
+
+  void
+  prepare()
+  {
+    file.parse();
+    method.prepare();
+    scene.prepare();
+    mesh.prepare(scene, method);
+    space.prepare(mesh, method);
+  }
+
+  geocone::ParameterFile  file;
+  geocone::Method         method;
+  geocone::Scene          scene;
+  geocone::BackgroundMesh mesh;
+  geocone::Space          space;
+  geocone::Particles      particles;
+};
+
+inline bool
+speaks()
+{
+  return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+}
+
+/** Prints a verdict on what must hold on all ranks. Collective. */
+inline void
+print(const std::string &what, const bool holds)
+{
+  const bool all =
+    dealii::Utilities::MPI::min(holds ? 1 : 0, MPI_COMM_WORLD) == 1;
+  if (speaks())
+    std::printf("  %s: %s\n", what.c_str(), all ? "yes" : "NO");
+}
+
+#endif

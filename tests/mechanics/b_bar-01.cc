@@ -1,0 +1,257 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// The incremental problem over particles in an elastoplastic state, with and
+// without mean gradients (B-bar) and a consistent mass: the assembled Jacobian
+// and apply_tangent() must be the derivative of the residual, one stored
+// triangle must be that of the whole matrix, B-bar must give every point of a
+// cell the mean volumetric strain of the cell and leave the deviator as it is,
+// and the mass must be that of the particles.
+
+#include <geocone/mechanics/incremental_problem.h>
+
+#include "../discretisation/setup.h"
+
+#include <cmath>
+
+using namespace geocone;
+
+/** Numbers without a pattern. */
+double
+some(const unsigned int i)
+{
+  return std::sin(12.9898 * i + 0.3) * std::cos(4.1414 * i);
+}
+
+/** The means of the gradients of each cell, weighted by volume. */
+std::vector<double>
+mean_gradients(const MaterialPoints &points)
+{
+  const unsigned int  m = dim * points.n_nodes;
+  std::vector<double> mean(points.n_cells() * m, 0.);
+  for (unsigned int c = 0; c < points.n_cells(); ++c)
+    {
+      double volume = 0.;
+      for (unsigned int p = points.first_point[c];
+           p < points.first_point[c + 1];
+           ++p)
+        {
+          volume += points.weight[p];
+          for (unsigned int i = 0; i < m; ++i)
+            mean[c * m + i] += points.weight[p] * points.gradients[p * m + i];
+        }
+      for (unsigned int i = 0; i < m; ++i)
+        mean[c * m + i] /= volume;
+    }
+  return mean;
+}
+
+void
+check(const std::string &element,
+      const bool         b_bar,
+      const double       consistent_part,
+      const std::string &dilatancy)
+{
+  Setup setup("discretisation/box.prm",
+              {"Discretisation/Element = " + element,
+               "Boundary conditions/Names = bottom, left",
+               "Particles/Layout = random",
+               "Particles/Number = 300",
+               "Materials/soil/Cohesion = 50",
+               "Materials/soil/Dilatancy angle = " + dilatancy});
+  setup.prepare();
+  setup.particles.prepare(setup.scene, setup.mesh, setup.space);
+  MaterialPoints points = setup.particles.collect(setup.mesh, setup.space);
+  if (b_bar)
+    points.mean_gradients = mean_gradients(points);
+  else
+    points.mean_gradients.clear();
+  const double h = 0.01;
+  for (unsigned int p = 0; p < points.n_points(); ++p)
+    points.stress[p] = {-300. + 50. * some(7 * p),
+                        -300. + 50. * some(7 * p + 1),
+                        30. * some(7 * p + 2)};
+  if (speaks())
+    std::printf("%s, %s, consistent part %g, dilatancy %s\n",
+                element.c_str(),
+                b_bar ? "B-bar" : "plain",
+                consistent_part,
+                dilatancy.c_str());
+
+  const auto &layout = setup.space.partitioner();
+  Vector      mass(layout);
+  for (unsigned int c = 0; c < points.n_cells(); ++c)
+    for (unsigned int p = points.first_point[c]; p < points.first_point[c + 1];
+         ++p)
+      for (unsigned int i = 0; i < points.n_nodes; ++i)
+        for (unsigned int d = 0; d < dim; ++d)
+          mass.local_element(dim * points.nodes[c * points.n_nodes + i] + d) +=
+            points.mass[p] * points.values[p * points.n_nodes + i];
+  Constraints constraints(setup.scene, setup.mesh, setup.space);
+  constraints.number_unknowns(&mass);
+  IncrementalProblem problem(
+    points, setup.scene.materials, constraints, layout, &mass, consistent_part);
+
+  const unsigned int n = mass.locally_owned_size();
+  Vector             v(layout), vL(layout), dv(layout), one(layout), R(layout);
+  for (unsigned int i = 0; i < n; ++i)
+    {
+      v.local_element(i)  = 1e-4 * some(i);
+      vL.local_element(i) = 1e-4 * some(i + 1000);
+      if (constraints.is_free(i))
+        dv.local_element(i) = 1e-4 * some(i + 2000);
+      one.local_element(i) = i % dim == 0;
+    }
+  problem.begin_step(h, h, nullptr, vL);
+
+  // The mass: of a unit velocity, all that the particles have.
+  problem.apply_mass(R, one);
+  double total = 0., of_points = 0.;
+  for (unsigned int i = 0; i < n; ++i)
+    total += R.local_element(i);
+  for (const double m : points.mass)
+    of_points += m;
+  print("the mass is that of the particles",
+        std::abs(total - of_points) < 1e-12 * of_points);
+
+  const ResidualReport report = problem.residual(R, v);
+  const auto           modes  = problem.modes();
+  print("there are elastic and plastic points",
+        report.n_cone > 20 &&
+          report.n_cone + report.n_apex + 20 < points.n_points());
+
+  // Strains: those of B v, with the mean of their traces.
+  const unsigned int nn          = points.n_nodes;
+  double             trace_error = 0., shear_error = 0., spread = 0.;
+  for (unsigned int c = 0; c < points.n_cells(); ++c)
+    {
+      std::vector<Mandel> e;
+      double              mean = 0., volume = 0.;
+      for (unsigned int p = points.first_point[c];
+           p < points.first_point[c + 1];
+           ++p)
+        {
+          e.push_back(Mandel::Zero());
+          for (unsigned int i = 0; i < nn; ++i)
+            {
+              const unsigned int dof = dim * points.nodes[c * nn + i];
+              const double       gx  = points.gradients[2 * p * nn + i],
+                           gy        = points.gradients[(2 * p + 1) * nn + i];
+              const double vx        = h * v.local_element(dof),
+                           vy        = h * v.local_element(dof + 1);
+              e.back() += Mandel(gx * vx, gy * vy, (gy * vx + gx * vy) / sqrt2);
+            }
+          mean += points.weight[p] * (e.back()[0] + e.back()[1]);
+          volume += points.weight[p];
+        }
+      mean /= volume;
+      for (unsigned int q = 0; q < e.size(); ++q)
+        {
+          const Mandel &got =
+            problem.strain_increment()[points.first_point[c] + q];
+          const double trace = e[q][0] + e[q][1];
+          spread             = std::max(spread, std::abs(trace - mean));
+          trace_error        = std::max(
+            trace_error, std::abs(got[0] + got[1] - (b_bar ? mean : trace)));
+          shear_error = std::max({shear_error,
+                                  std::abs(got[0] - got[1] - e[q][0] + e[q][1]),
+                                  std::abs(got[2] - e[q][2])});
+        }
+    }
+  print(b_bar ? "volumetric strains are the means"
+              : "volumetric strains are those of the points",
+        trace_error < 1e-12 * spread);
+  print("deviators are those of the points", shear_error < 1e-12 * spread);
+
+  // Central differences of the residual, along one direction, where no point
+  // changes its mode.
+  const double e = 1e-6;
+  Vector       above(layout), below(layout), difference(layout), moved = v;
+  moved.add(e, dv);
+  problem.residual(above, moved);
+  bool same = problem.modes() == modes;
+  moved.add(-2. * e, dv);
+  problem.residual(below, moved);
+  same &= problem.modes() == modes;
+  print("no mode changes", same);
+  difference.add(1. / (2. * e), above, -1. / (2. * e), below);
+
+  problem.residual(R, v);
+  Vector tangent(layout);
+  problem.apply_tangent(tangent, dv);
+  double error = 0., size = 0.;
+  for (unsigned int i = 0; i < n; ++i)
+    {
+      error = std::max(
+        error,
+        std::abs(tangent.local_element(i) - difference.local_element(i)));
+      size = std::max(size, std::abs(tangent.local_element(i)));
+    }
+  print("the tangent is the derivative, in all rows", error < 1e-7 * size);
+
+  SparseMatrix whole = problem.make_pattern(false);
+  problem.linearise(whole);
+  error = 0.;
+  for (unsigned int i = 0; i < n; ++i)
+    if (constraints.is_free(i))
+      {
+        const int row = constraints.free_row[i];
+        double    sum = 0.;
+        for (unsigned int j = 0; j < n; ++j)
+          if (constraints.is_free(j))
+            {
+              const int  column = constraints.free_row[j];
+              const auto begin  = whole.column.begin() + whole.row_start[row],
+                         end = whole.column.begin() + whole.row_start[row + 1];
+              const auto place = std::lower_bound(begin, end, column);
+              if (place != end && *place == column)
+                sum += whole.value[place - whole.column.begin()] *
+                       dv.local_element(j);
+            }
+        error = std::max(error, std::abs(sum - tangent.local_element(i)));
+      }
+  print("so is the matrix", error < 1e-12 * size);
+
+  if (problem.is_symmetric())
+    {
+      SparseMatrix triangle = problem.make_pattern(true);
+      problem.linearise(triangle);
+      double      asymmetry = 0., other = 0., largest = 0.;
+      const int   n_rows  = whole.n_rows();
+      std::size_t n_lower = 0;
+      for (int row = 0; row < n_rows; ++row)
+        for (int k = whole.row_start[row]; k < whole.row_start[row + 1]; ++k)
+          {
+            const int    column = whole.column[k];
+            const double x      = whole.value[k];
+            largest             = std::max(largest, std::abs(x));
+            asymmetry           = std::max(
+              asymmetry, std::abs(x - whole.value[whole.entry(column, row)]));
+            if (column <= row)
+              {
+                ++n_lower;
+                other = std::max(
+                  other,
+                  std::abs(x - triangle.value[triangle.entry(row, column)]));
+              }
+          }
+      print("the matrix is symmetric", asymmetry < 1e-13 * largest);
+      print("one triangle is that of the whole",
+            other < 1e-13 * largest && triangle.column.size() == n_lower);
+    }
+}
+
+int
+main(int argc, char **argv)
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi_session(argc, argv, 1);
+  for (const double consistent_part : {0., 0.6, 1.})
+    {
+      check("Q1", true, consistent_part, "25");
+      check("Q1", true, consistent_part, "10");
+    }
+  check("Q1", false, 0.6, "25");
+  check("B-spline 2", false, 0.6, "25");
+  check("B-spline 3", false, 0.6, "25");
+  check("B-spline 3", false, 0.6, "10");
+}
