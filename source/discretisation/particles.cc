@@ -84,9 +84,14 @@ namespace geocone
 
     handler = std::make_unique<dealii::Particles::ParticleHandler<dim>>(
       mesh.triangulation(), mesh.mapping(), n_properties);
-    handler->signals.particle_lost.connect([this](const auto &particle, auto) {
-      lost.emplace_back(particle->get_id(), particle->get_location());
-    });
+    handler->signals.particle_lost.connect(
+      [this](const auto &particle, const auto &cell) {
+        const auto properties = particle->get_properties();
+        lost.push_back({static_cast<unsigned int>(particle->get_id()),
+                        particle->get_location(),
+                        {properties.begin(), properties.end()},
+                        cell});
+      });
 
     unsigned int       first = 0;
     const unsigned int n     = seeds.size();
@@ -126,7 +131,7 @@ namespace geocone
         break;
       }
     handler->update_cached_numbers();
-    handler->sort_particles_into_subdomains_and_cells();
+    sort();
 
     if (space.degree() == 3 && !space.is_spline() &&
         seeding.points_per_direction() > 0 &&
@@ -205,6 +210,32 @@ namespace geocone
   }
 
   void
+  Particles::sort()
+  {
+    const std::vector<Lost> lost_before = std::move(lost);
+    lost.clear();
+    handler->sort_particles_into_subdomains_and_cells();
+    // A particle on a face may seem to lie outside of all cells, by rounding:
+    // those are tried again a little nearer to where they came from.
+    if (Utilities::MPI::sum(lost.size(), comm) > 0)
+      {
+        const std::vector<Lost> again = std::move(lost);
+        lost.clear();
+        for (const Lost &particle : again)
+          handler->insert_particle(
+            particle.position +
+              1e-10 * (particle.last_cell->center() - particle.position),
+            Point<dim>(-1., -1.),
+            particle.id,
+            particle.last_cell,
+            ArrayView<const double>(particle.properties));
+        handler->update_cached_numbers();
+        handler->sort_particles_into_subdomains_and_cells();
+      }
+    lost.insert(lost.begin(), lost_before.begin(), lost_before.end());
+  }
+
+  void
   Particles::move(const MaterialPoints &points)
   {
     // The library finds a particle in the cells around its old one, which on
@@ -255,7 +286,7 @@ namespace geocone
               Tensor<1, dim>({state[still_to_go] / n_parts,
                               state[still_to_go + 1] / n_parts}));
           }
-        handler->sort_particles_into_subdomains_and_cells();
+        sort();
       }
 
     const unsigned int n_now = Utilities::MPI::sum(lost.size(), comm);
@@ -265,9 +296,9 @@ namespace geocone
         std::string which;
         if (!lost.empty())
           which = format("particle %u at (%g, %g)",
-                         lost[0].first,
-                         lost[0].second[0],
-                         lost[0].second[1]);
+                         lost[0].id,
+                         lost[0].position[0],
+                         lost[0].position[1]);
         for (const std::string &text : Utilities::MPI::all_gather(comm, which))
           if (!text.empty())
             which = text;

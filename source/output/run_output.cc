@@ -401,8 +401,10 @@ namespace geocone
               out << format("error %.5g %%\n",
                             100. * limit["relative_error"].get<double>());
           }
+        // Bodies left to themselves have their initial energy only.
+        const double turnover = std::abs(work) + std::abs(dissipation);
         const double scale =
-          std::max(1e-300, std::abs(work) + std::abs(dissipation));
+          turnover > 0. ? turnover : std::max(initial.state(), 1e-300);
         const Energies &e = records.back().last.energies;
         out << format("elastic %.6g %% dissipated %.6g %% kinetic %.4g %% of "
                       "the work\n",

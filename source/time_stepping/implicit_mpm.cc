@@ -193,6 +193,19 @@ namespace geocone
                                        mesh->triangulation().get_communicator(),
                                        scene->materials.symmetric());
     force.reinit(space->partitioner());
+    if (kind == Transfer::apic)
+      for (unsigned int p = 0; p < points.n_points(); ++p)
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            // Its gradient, exact for linear ones.
+            Tensor<1, dim> r;
+            r[d] = 1e-4 * std::sqrt(points.weight[p]);
+            const Tensor<1, dim> change =
+              scene->initial_velocity.at(points.position[p] + r) -
+              scene->initial_velocity.at(points.position[p] - r);
+            for (unsigned int c = 0; c < dim; ++c)
+              points.affine[p][c][d] = change[c] / (2. * r[d]);
+          }
     begin(points, timer);
     for (unsigned int c = 0; c < list.size(); ++c)
       {
@@ -727,12 +740,15 @@ namespace geocone
                               (1. - flip_part) * new_velocity;
             else
               next.affine = affine_velocity(points, p, nodes, v);
-            const Tensor<1, dim> move =
-              h * (advection == "grid velocity"       ? mean_velocity
-                   : advection == "particle velocity" ? next.velocity
-                                                      : Tensor<1, dim>());
+            next.displacement =
+              h * (advection == "particle velocity" ? next.velocity
+                                                    : mean_velocity);
+            Tensor<1, dim> move = next.displacement;
             if (advection == "none")
-              gradient = 0.;
+              {
+                move     = 0.;
+                gradient = 0.;
+              }
             next.position          = points.position[p] + move;
             Tensor<2, dim> stretch = h * gradient;
             for (unsigned int d = 0; d < dim; ++d)

@@ -43,16 +43,20 @@ namespace geocone
   {
     // Kinetic: (v + vL)'M(v - vL)/2 + |v - vL|_M^2/2 = v'M(v - vL), and alike
     // for the elastic energy: no small differences of large numbers.
-    double kinetic = 0.;
+    double kinetic = 0., kinetic_energy = 0.;
     if (problem.has_inertia())
       {
         Vector change = v, momentum = problem.make_vector();
+        change.update_ghost_values();
+        problem.apply_mass(momentum, change);
+        kinetic_energy = v * momentum / 2.;
         change -= velocity_L;
         change.update_ghost_values();
         problem.apply_mass(momentum, change);
         kinetic = v * momentum;
       }
-    std::array<double, 2> sums = {};
+    // The elastic and the plastic term, and the elastic energy.
+    std::array<double, 3> sums = {};
     for (unsigned int p = 0; p < points.n_points(); ++p)
       {
         const Mandel &s = problem.trial_stress()[p];
@@ -61,11 +65,16 @@ namespace geocone
                      Mandel(s - points.stress[p])));
         sums[1] +=
           points.weight[p] * s.dot(problem.plastic_strain_increment(p));
+        sums[2] += points.weight[p] / 2. *
+                   s.dot(materials[points.material[p]].elasticity().strain(s));
       }
-    Utilities::MPI::sum(ArrayView<const double>(sums.data(), 2),
+    Utilities::MPI::sum(ArrayView<const double>(sums.data(), 3),
                         v.get_mpi_communicator(),
-                        ArrayView<double>(sums.data(), 2));
-    const double largest = std::max({std::abs(kinetic),
+                        ArrayView<double>(sums.data(), 3));
+    // Steps in which next to nothing happens are rounding of the energies.
+    const double largest = std::max({1e-4 * kinetic_energy,
+                                     1e-4 * sums[2],
+                                     std::abs(kinetic),
                                      std::abs(sums[0]),
                                      std::abs(sums[1]),
                                      std::abs(work),

@@ -51,15 +51,27 @@ namespace geocone
     }
 
   private:
+    /** A particle without a cell. */
+    struct Lost
+    {
+      unsigned int                                     id;
+      dealii::Point<dim>                               position;
+      std::vector<double>                              properties;
+      dealii::Triangulation<dim>::active_cell_iterator last_cell;
+    };
+
+    /** Finds the cells and ranks of all particles. Collective. */
+    void
+    sort();
+
     Seeding     seeding;
     std::string outflow = "error";
 
     std::unique_ptr<dealii::Particles::ParticleHandler<dim>> handler;
 
-    MPI_Comm comm;
-    std::vector<std::pair<unsigned int, dealii::Point<dim>>>
-                 lost; ///< in move()
-    unsigned int n_lost_all = 0;
+    MPI_Comm          comm;
+    std::vector<Lost> lost; ///< in move()
+    unsigned int      n_lost_all = 0;
   };
 } // namespace geocone
 
