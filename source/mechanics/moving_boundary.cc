@@ -85,11 +85,12 @@ namespace geocone
   lines_of_body(const BoundaryCondition &condition, const Geometry &geometry)
   {
     if (geometry.outline.empty())
-      throw InputError(condition.parameter("Sides"),
-                       Patterns::Tools::to_string(condition.sides),
-                       "sides of a body that is a box or a polygon",
-                       "describe the body as one of them; velocities may also be "
-                       "imposed on nodes of the background mesh");
+      throw InputError(
+        condition.parameter("Sides"),
+        Patterns::Tools::to_string(condition.sides),
+        "sides of a body that is a box or a polygon",
+        "describe the body as one of them; velocities may also be "
+        "imposed on nodes of the background mesh");
     // Outlines may run either way.
     double area = 0.;
     for (std::size_t i = 0; i < geometry.outline.size(); ++i)

@@ -287,8 +287,8 @@ namespace geocone
                        {"dual_cone_violation_max", quality.dual_violation}};
     if (!records.empty())
       {
-        json["state"] = {{"largest_plastic_strain",
-                          records.back().last.largest_plastic_strain}};
+        json["state"]     = {{"largest_plastic_strain",
+                              records.back().last.largest_plastic_strain}};
         const Energies &e = records.back().last.energies;
         // Potential energy counts from the lower left corner of the mesh.
         const double released = initial.potential - e.potential;

@@ -154,16 +154,17 @@ namespace geocone
     const bool hard = problem.non_associativity() > hard_flow;
     if (globalisation != "automatic")
       {
-        solve_with(globalisation == "line search"     ? Globalisation::line_search
-                   : globalisation == "elastic blend" ? Globalisation::elastic_blend
-                   : globalisation == "merit search"  ? Globalisation::merit_search
-                                                      : Globalisation::none);
+        solve_with(
+          globalisation == "line search"     ? Globalisation::line_search
+          : globalisation == "elastic blend" ? Globalisation::elastic_blend
+          : globalisation == "merit search"  ? Globalisation::merit_search
+                                             : Globalisation::none);
         return report;
       }
     if (hints.particles)
       {
-        solve_with(hard && hints.elastic_first ? Globalisation::merit_search :
-                                                 Globalisation::line_search);
+        solve_with(hard && hints.elastic_first ? Globalisation::merit_search
+                                               : Globalisation::line_search);
         return report;
       }
 
@@ -200,13 +201,13 @@ namespace geocone
     const bool         search  = globalisation == Globalisation::line_search;
     const bool         merit   = globalisation == Globalisation::merit_search;
     const bool         hard    = problem.non_associativity() > hard_flow;
-    const unsigned int allowed = max_iterations > 0       ? max_iterations
-                                 : merit                  ? 60
+    const unsigned int allowed = max_iterations > 0        ? max_iterations
+                                 : merit                   ? 60
                                  : hints.particles && hard ? 30
-                                 : problem.is_symmetric() ? 150
-                                 : !hard                  ? 60
-                                 : blend                  ? 30
-                                                          : 15;
+                                 : problem.is_symmetric()  ? 150
+                                 : !hard                   ? 60
+                                 : blend                   ? 30
+                                                           : 15;
     const unsigned int limit   = report.iterations + allowed;
 
     Vector         direction = problem.make_vector();
@@ -275,7 +276,7 @@ namespace geocone
         // in as little of the elastic stiffness as makes it regular.
         bool         regular = false;
         const double wanted  = first && hints.elastic_first ? 1.
-                               : merit                ? damping
+                               : merit                      ? damping
                                : blend && !first ? std::min(0.5, report.residual)
                                                  : 0.;
         double       weight  = wanted;

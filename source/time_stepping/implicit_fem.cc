@@ -156,7 +156,7 @@ namespace geocone
             report.reactions[c][d] = constraints->resultant(residual, c, d);
           }
       }
-    report.energies               = state_energies(kinematics, points, t + h);
+    report.energies = state_energies(kinematics, points, t + h);
     report.largest_plastic_strain =
       largest_plastic_strain(points, v.get_mpi_communicator());
     report.energies.external_work = sums[0];

@@ -674,9 +674,8 @@ namespace geocone
     points = particles.collect(*mesh, *space);
     begun  = false;
 
-    report.energies = state_energies(kinematics, points, t + h);
-    report.largest_plastic_strain =
-      largest_plastic_strain(points, comm);
+    report.energies               = state_energies(kinematics, points, t + h);
+    report.largest_plastic_strain = largest_plastic_strain(points, comm);
     report.energies.external_work =
       sums[1] + Utilities::MPI::sum(work_of_change, comm);
     report.energies.dissipation = Utilities::MPI::sum(dissipation, comm);

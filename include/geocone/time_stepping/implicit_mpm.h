@@ -179,12 +179,12 @@ namespace geocone
 
     Particles particles;
 
-    const Scene          *scene       = nullptr;
-    const BackgroundMesh *mesh        = nullptr;
-    const Space          *space       = nullptr;
-    Transfer              kind        = Transfer::flip;
+    const Scene          *scene = nullptr;
+    const BackgroundMesh *mesh  = nullptr;
+    const Space          *space = nullptr;
+    Transfer              kind  = Transfer::flip;
     std::vector<Start>    starts; ///< to be tried in this order
-    dealii::Point<dim>    datum; ///< of the potential energy
+    dealii::Point<dim>    datum;  ///< of the potential energy
 
     std::vector<Side> supports, loads;
 
