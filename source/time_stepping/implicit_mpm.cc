@@ -739,9 +739,21 @@ namespace geocone
                               (1. - flip_part) * new_velocity;
             else
               next.affine = affine_velocity(points, p, nodes, v);
-            next.displacement =
-              h * (advection == "particle velocity" ? next.velocity
-                                                    : mean_velocity);
+            next.displacement = h * mean_velocity;
+            if (advection == "particle velocity")
+              {
+                // Particles held one by one stay in their row: out of it, their
+                // rows would prescribe a gradient as well.
+                const BoundaryCondition *holder =
+                  points.held_by[p] > 0
+                    ? scene->dirichlet.list[points.held_by[p] - 1].get()
+                    : nullptr;
+                for (unsigned int d = 0; d < dim; ++d)
+                  if (holder == nullptr ||
+                      holder->imposition != Imposition::points ||
+                      !holder->components[d])
+                    next.displacement[d] = h * next.velocity[d];
+              }
             Tensor<1, dim> move = next.displacement;
             if (advection == "none")
               {
