@@ -102,4 +102,14 @@ namespace geocone
     va_end(arguments);
     return buffer.data();
   }
+
+  std::string
+  text_of_any_rank(const MPI_Comm comm, const std::string &text)
+  {
+    for (const std::string &other :
+         dealii::Utilities::MPI::all_gather(comm, text))
+      if (!other.empty())
+        return other;
+    return "";
+  }
 } // namespace geocone

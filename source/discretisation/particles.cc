@@ -42,16 +42,10 @@ namespace geocone
                  const double             volume)
     {
       for (const auto &[name, id] : geometry.sides)
-        if (std::count(condition.sides.begin(), condition.sides.end(), name) +
-              std::count(
-                condition.sides.begin(), condition.sides.end(), "all") >
-            0)
+        if (condition.is_on_side(name))
           {
-            const auto           ends  = geometry.side_ends(id);
-            const Tensor<1, dim> along = ends[1] - ends[0];
-            const double         s     = std::max(
-              0., std::min(1., (x - ends[0]) * along / along.norm_square()));
-            const Point<dim> foot = ends[0] + s * along;
+            const auto       ends = geometry.side_ends(id);
+            const Point<dim> foot = nearest_on_segment(x, ends[0], ends[1]);
             if (foot.distance(x) < std::sqrt(volume) && condition.in_box(foot))
               return true;
           }
@@ -97,38 +91,33 @@ namespace geocone
     const unsigned int n     = seeds.size();
     MPI_Exscan(&n, &first, 1, MPI_UNSIGNED, MPI_SUM, comm);
     const auto &conditions = scene.dirichlet.list;
-    for (const auto &cell : mesh.own_cells())
+    // Any cell will do: sorting finds the right one.
+    const auto cells = mesh.own_cells();
+    for (unsigned int i = 0; i < n; ++i)
       {
-        // Any cell will do: sorting finds the right one.
-        for (unsigned int i = 0; i < n; ++i)
-          {
-            const Seed         &seed = seeds[i];
-            std::vector<double> properties(n_properties, 0.);
-            properties[volume]   = seed.volume;
-            properties[material] = seed.material;
-            properties[mass] =
-              seed.volume * scene.materials[seed.material].density();
-            for (unsigned int c = 0; c < dim; ++c)
-              properties[velocity + c] = seed.velocity[c];
-            for (unsigned int c = 0; c < n_mandel; ++c)
-              properties[stress + c] = seed.stress[c];
-            for (unsigned int c = 0; c < conditions.size(); ++c)
-              if (conditions[c]->imposition ==
-                    BoundaryCondition::Imposition::points ||
-                  conditions[c]->imposition ==
-                    BoundaryCondition::Imposition::cell_averages)
-                if (in_first_row(*conditions[c],
-                                 scene.geometry,
-                                 seed.position,
-                                 seed.volume))
-                  properties[held_by] = c + 1;
-            handler->insert_particle(seed.position,
-                                     Point<dim>(-1., -1.),
-                                     first + i,
-                                     cell,
-                                     ArrayView<const double>(properties));
-          }
-        break;
+        const Seed         &seed = seeds[i];
+        std::vector<double> properties(n_properties, 0.);
+        properties[volume]   = seed.volume;
+        properties[material] = seed.material;
+        properties[mass] =
+          seed.volume * scene.materials[seed.material].density();
+        for (unsigned int c = 0; c < dim; ++c)
+          properties[velocity + c] = seed.velocity[c];
+        for (unsigned int c = 0; c < n_mandel; ++c)
+          properties[stress + c] = seed.stress[c];
+        for (unsigned int c = 0; c < conditions.size(); ++c)
+          if (conditions[c]->imposition ==
+                BoundaryCondition::Imposition::points ||
+              conditions[c]->imposition ==
+                BoundaryCondition::Imposition::cell_averages)
+            if (in_first_row(
+                  *conditions[c], scene.geometry, seed.position, seed.volume))
+              properties[held_by] = c + 1;
+        handler->insert_particle(seed.position,
+                                 Point<dim>(-1., -1.),
+                                 first + i,
+                                 *cells.begin(),
+                                 ArrayView<const double>(properties));
       }
     handler->update_cached_numbers();
     sort();
@@ -299,12 +288,9 @@ namespace geocone
                          lost[0].id,
                          lost[0].position[0],
                          lost[0].position[1]);
-        for (const std::string &text : Utilities::MPI::all_gather(comm, which))
-          if (!text.empty())
-            which = text;
         throw StepFailure(
           format("%u particles left the background mesh, e.g. ", n_now) +
-          which +
+          text_of_any_rank(comm, which) +
           "\n  remedy:  enlarge 'Mesh/Box', or let them go with "
           "'Particles/Outflow = count'");
       }

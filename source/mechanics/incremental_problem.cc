@@ -504,11 +504,7 @@ namespace geocone
                        points.id.empty() ? p : points.id[p],
                        points.position[p][0],
                        points.position[p][1]);
-    for (const std::string &text :
-         Utilities::MPI::all_gather(layout->get_mpi_communicator(), where))
-      if (!text.empty())
-        return text;
-    return "";
+    return text_of_any_rank(layout->get_mpi_communicator(), where);
   }
 
   Quality

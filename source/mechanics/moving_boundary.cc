@@ -103,9 +103,7 @@ namespace geocone
 
     std::vector<MovingBoundary::Line> lines;
     for (const auto &[name, id] : geometry.sides)
-      if (std::count(condition.sides.begin(), condition.sides.end(), name) +
-            std::count(condition.sides.begin(), condition.sides.end(), "all") >
-          0)
+      if (condition.is_on_side(name))
         {
           auto [a, b] = geometry.side_ends(id);
           if (area < 0.)

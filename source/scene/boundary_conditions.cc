@@ -112,6 +112,14 @@ namespace geocone
   }
 
   bool
+  BoundaryCondition::is_on_side(const std::string &side) const
+  {
+    return std::any_of(sides.begin(), sides.end(), [&](const auto &listed) {
+      return listed == side || listed == "all";
+    });
+  }
+
+  bool
   BoundaryCondition::in_box(const dealii::Point<dim> &x) const
   {
     if (box.empty())

@@ -69,15 +69,23 @@ namespace geocone
     return inside;
   }
 
+  Point<dim>
+  nearest_on_segment(const Point<dim> &x,
+                     const Point<dim> &a,
+                     const Point<dim> &b)
+  {
+    const dealii::Tensor<1, dim> side = b - a;
+    const double                 s =
+      std::max(0., std::min(1., (x - a) * side / side.norm_square()));
+    return a + s * side;
+  }
+
   double
   distance_to_segment(const Point<dim> &x,
                       const Point<dim> &a,
                       const Point<dim> &b)
   {
-    const dealii::Tensor<1, dim> side = b - a;
-    const double                 s =
-      std::max(0., std::min(1., (x - a) * side / side.norm_square()));
-    return (x - (a + s * side)).norm();
+    return x.distance(nearest_on_segment(x, a, b));
   }
 
   void

@@ -3,7 +3,6 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
-#include <geocone/mechanics/point_kernels.h>
 #include <geocone/time_stepping/implicit_mpm.h>
 
 #include <deal.II/base/mpi.h>
@@ -30,21 +29,6 @@ namespace geocone
       return {mean + h, mean - h, sqrt2 * (s * half + c * shear)};
     }
 
-    /** The longest part of a line in one cell (m). */
-    double
-    cell_size_along(const BackgroundMesh       &mesh,
-                    const Space                &space,
-                    const MovingBoundary::Line &line)
-    {
-      double longest = 0.;
-      // The middle one of the five Gauss points of a cell has this weight.
-      const double middle = 128. / 450.;
-      const auto   points = points_on_line(mesh, space, line.a, line.b);
-      for (std::size_t i = 2; i < points.size(); i += 5)
-        longest = std::max(longest, points[i].weight / middle * line.length);
-      return Utilities::MPI::max(longest,
-                                 mesh.triangulation().get_communicator());
-    }
   } // namespace
 
   ImplicitMPM::ImplicitMPM(const ParameterFile &file)
@@ -150,39 +134,7 @@ namespace geocone
     space = &space_;
     check_parameters();
 
-    const auto &list = scene->dirichlet.list;
-    for (unsigned int c = 0; c < list.size(); ++c)
-      if (list[c]->imposition == Imposition::segments)
-        {
-          supports.push_back(
-            {c, MovingBoundary(*list[c], scene->geometry, 0.)});
-          for (MovingBoundary::Line &line : supports.back().boundary.lines)
-            {
-              const double part = list[c]->shortening / 2. *
-                                  cell_size_along(*mesh, *space, line) /
-                                  line.length;
-              const Tensor<1, dim> along = line.b - line.a;
-              if (2. * part >= 1.)
-                throw InputError(list[c]->parameter("Segment shortening"),
-                                 list[c]->shortening,
-                                 "less than the side has cells",
-                                 "take smaller cells or a smaller number");
-              line.a += part * along;
-              line.b -= part * along;
-              line.length *= 1. - 2. * part;
-            }
-        }
-      else if (list[c]->moves())
-        lines_of_body(*list[c], scene->geometry); // checks the names
-    const auto &tractions = scene->tractions.list;
-    for (unsigned int c = 0; c < tractions.size(); ++c)
-      {
-        double size = 0.;
-        for (const auto &line : lines_of_body(*tractions[c], scene->geometry))
-          size = std::max(size, cell_size_along(*mesh, *space, line));
-        loads.push_back(
-          {c, MovingBoundary(*tractions[c], scene->geometry, size)});
-      }
+    moving = std::make_unique<MovingConditions>(*scene, *mesh, *space);
 
     const std::string warning = particles.prepare(*scene, *mesh, *space);
     points                    = particles.collect(*mesh, *space);
@@ -207,24 +159,13 @@ namespace geocone
               points.affine[p][c][d] = change[c] / (2. * r[d]);
           }
     begin(points, timer);
-    for (unsigned int c = 0; c < list.size(); ++c)
-      {
-        const unsigned int n_held =
-          std::count(points.held_by.begin(), points.held_by.end(), c + 1);
-        if ((list[c]->imposition == Imposition::points ||
-             list[c]->imposition == Imposition::cell_averages) &&
-            Utilities::MPI::sum(n_held, force.get_mpi_communicator()) == 0)
-          throw InputError(list[c]->parameter("Box"),
-                           list[c]->part(),
-                           "a part of a side with particles under it",
-                           "this condition holds no particle: check its sides "
-                           "and its box");
-      }
+    moving->check_held_particles(points);
     Vector v = problem->make_vector();
     constraints->set_values(v, 0.);
-    make_rows(points, v, 0.); // refuses what it must before the run
+    moving->make_rows(
+      points, v, 0., *constraints); // refuses what it must before the run
     kinematics.velocity = velocity_L;
-    kinematics.supports.resize(list.size());
+    kinematics.supports.resize(scene->dirichlet.list.size());
     return warning;
   }
 
@@ -383,109 +324,13 @@ namespace geocone
   {
     force                  = 0.;
     const Tensor<1, dim> g = scene->gravity.at(t);
-    for (const Side &side : loads)
-      for (const MovingBoundary::Line &line : side.boundary.lines)
-        for (const BoundaryPoint &point :
-             points_on_line(*mesh, *space, line.a, line.b))
-          for (unsigned int d = 0; d < dim; ++d)
-            if (const auto &traction =
-                  scene->tractions.list[side.condition]->components[d])
-              {
-                // A dead load: per length at the start.
-                const double f = traction->value(point.position, t) *
-                                 point.weight * line.length;
-                for (unsigned int i = 0; i < point.nodes.size(); ++i)
-                  {
-                    const unsigned int dof =
-                      dim * space->local_node(point.nodes[i]) + d;
-                    force.local_element(dof) += f * point.values[i];
-                  }
-              }
-    if (!loads.empty())
-      force.compress(VectorOperation::add);
+    moving->add_tractions(force, t);
     for (unsigned int dof = 0; dof < force.locally_owned_size(); ++dof)
       force.local_element(dof) =
         constraints->has_mass(dof)
           ? force.local_element(dof) +
               g[dof % dim] * lumped_mass.local_element(dof)
           : 0.;
-  }
-
-  void
-  ImplicitMPM::make_rows(const MaterialPoints &points,
-                         const Vector         &prescribed,
-                         const double          t)
-  {
-    Multipliers &rows = constraints->multipliers;
-    rows.clear();
-    const auto &list = scene->dirichlet.list;
-    for (const Side &side : supports)
-      {
-        const BoundaryCondition &condition = *list[side.condition];
-        unsigned int             number    = 0;
-        for (const MovingBoundary::Line &line : side.boundary.lines)
-          {
-            const Tensor<1, dim> part =
-              (line.b - line.a) / condition.n_segments;
-            for (unsigned int s = 0; s < condition.n_segments; ++s, ++number)
-              for (const BoundaryPoint &point :
-                   points_on_line(*mesh,
-                                  *space,
-                                  line.a + s * part,
-                                  line.a + (s + 1.) * part))
-                for (unsigned int d = 0; d < dim; ++d)
-                  if (condition.components[d])
-                    {
-                      const Multipliers::Key key{side.condition, d, number};
-                      for (unsigned int i = 0; i < point.nodes.size(); ++i)
-                        rows.add_coefficient(
-                          key, point.nodes[i], point.weight * point.values[i]);
-                      rows.add_target(
-                        key,
-                        point.weight *
-                          condition.components[d]->value(point.position, t));
-                    }
-          }
-      }
-
-    const unsigned int                   n = points.n_nodes;
-    std::vector<types::global_dof_index> nodes;
-    for (unsigned int c = 0; c < points.n_cells(); ++c)
-      {
-        const unsigned int begin = points.first_point[c],
-                           end   = points.first_point[c + 1];
-        for (unsigned int p = begin; p < end; ++p)
-          if (points.held_by[p] > 0)
-            {
-              const unsigned int       held      = points.held_by[p];
-              const BoundaryCondition &condition = *list[held - 1];
-              const bool               average =
-                condition.imposition == Imposition::cell_averages;
-              const double weight =
-                average ? 1. / std::count(points.held_by.begin() + begin,
-                                          points.held_by.begin() + end,
-                                          held)
-                        : 1.;
-              space->cell_nodes(points.cells[c], nodes);
-              for (unsigned int d = 0; d < dim; ++d)
-                if (condition.components[d])
-                  {
-                    const Multipliers::Key key{
-                      held - 1,
-                      d,
-                      average ? static_cast<unsigned int>(
-                                  points.cells[c]->global_active_cell_index())
-                              : points.id[p]};
-                    for (unsigned int i = 0; i < n; ++i)
-                      rows.add_coefficient(
-                        key, nodes[i], weight * points.values[p * n + i]);
-                    rows.add_target(key,
-                                    weight * condition.components[d]->value(
-                                               points.position[p], t));
-                  }
-            }
-      }
-    rows.assemble(*scene, *space, *constraints, prescribed);
   }
 
   StepReport
@@ -506,7 +351,7 @@ namespace geocone
     {
       TimerOutput::Scope scope(timer, "transfer");
       constraints->set_values(v, end);
-      make_rows(points, v, end);
+      moving->make_rows(points, v, end, *constraints);
       evaluate_force(end);
     }
     report.unknowns    = constraints->n_rows;
@@ -654,17 +499,7 @@ namespace geocone
           }
       }
     if (advection != "none")
-      {
-        for (Side &side : supports)
-          for (MovingBoundary::Line &line : side.boundary.lines)
-            for (Point<dim> *x : {&line.a, &line.b})
-              for (unsigned int d = 0; d < dim; ++d)
-                if (const auto &q =
-                      scene->dirichlet.list[side.condition]->components[d])
-                  (*x)[d] += h * q->value(*x, end);
-        for (Side &side : loads)
-          advect(side.boundary, v, h);
-      }
+      moving->move(v, h, end);
 
     had_mass.resize(v.locally_owned_size());
     for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
@@ -790,11 +625,7 @@ namespace geocone
                          std::abs(move[d]) / extent[d]);
           }
       }
-    for (const std::string &text :
-         Utilities::MPI::all_gather(v.get_mpi_communicator(), obstacle))
-      if (!text.empty())
-        return text;
-    return "";
+    return text_of_any_rank(v.get_mpi_communicator(), obstacle);
   }
 
   Tensor<2, dim>
@@ -823,44 +654,5 @@ namespace geocone
     return determinant(D) > 1e-12 * trace(D) * trace(D) && trace(D) > 0.
              ? B * invert(D)
              : gradient;
-  }
-
-  void
-  ImplicitMPM::advect(MovingBoundary &boundary,
-                      const Vector   &v,
-                      const double    h) const
-  {
-    // Velocity at the ends of all lines, and how many ranks know it.
-    const unsigned int  n_lines = boundary.lines.size();
-    std::vector<double> sums(6 * n_lines, 0.);
-    for (unsigned int l = 0; l < n_lines; ++l)
-      {
-        const MovingBoundary::Line &line  = boundary.lines[l];
-        const Tensor<1, dim>        along = line.b - line.a;
-        // Short lines at the ends, from there into the line.
-        const Point<dim> ends[2][2] = {{line.a, line.a + 1e-6 * along},
-                                       {line.b - 1e-6 * along, line.b}};
-        for (unsigned int e = 0; e < 2; ++e)
-          for (const BoundaryPoint &point :
-               points_on_line(*mesh, *space, ends[e][0], ends[e][1]))
-            {
-              double *s = &sums[6 * l + 3 * e];
-              s[2] += point.weight;
-              for (unsigned int i = 0; i < point.nodes.size(); ++i)
-                for (unsigned int d = 0; d < dim; ++d)
-                  s[d] += point.weight * point.values[i] *
-                          v.local_element(
-                            dim * space->local_node(point.nodes[i]) + d);
-            }
-      }
-    Utilities::MPI::sum(ArrayView<const double>(sums),
-                        v.get_mpi_communicator(),
-                        ArrayView<double>(sums));
-    for (unsigned int l = 0; l < n_lines; ++l)
-      for (unsigned int e = 0; e < 2; ++e)
-        if (const double *s = &sums[6 * l + 3 * e]; s[2] > 0.)
-          for (unsigned int d = 0; d < dim; ++d)
-            (e == 0 ? boundary.lines[l].a : boundary.lines[l].b)[d] +=
-              h * s[d] / s[2];
   }
 } // namespace geocone

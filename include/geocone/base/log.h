@@ -54,6 +54,10 @@ namespace geocone
   /** printf-like formatting into a string. */
   std::string
   format(const char *pattern, ...) __attribute__((format(printf, 1, 2)));
+
+  /** The text of the lowest rank that has one, or nothing. Collective. */
+  std::string
+  text_of_any_rank(const MPI_Comm comm, const std::string &text);
 } // namespace geocone
 
 #endif

@@ -40,6 +40,10 @@ namespace geocone
     void
     prepare();
 
+    /** Whether a side of this name, or all sides, are in the list. */
+    bool
+    is_on_side(const std::string &side) const;
+
     /** Whether a point of one of the sides belongs to the part. */
     bool
     in_box(const dealii::Point<dim> &x) const;

@@ -26,6 +26,12 @@ namespace geocone
   bool
   contains(const Polygon &polygon, const dealii::Point<dim> &x);
 
+  /** The point of the segment ab that is nearest to x. */
+  dealii::Point<dim>
+  nearest_on_segment(const dealii::Point<dim> &x,
+                     const dealii::Point<dim> &a,
+                     const dealii::Point<dim> &b);
+
   /** Distance of x from the segment ab (m). */
   double
   distance_to_segment(const dealii::Point<dim> &x,

@@ -5,7 +5,7 @@
 #define geocone_time_stepping_implicit_mpm_h
 
 #include <geocone/discretisation/particles.h>
-#include <geocone/mechanics/moving_boundary.h>
+#include <geocone/mechanics/moving_conditions.h>
 #include <geocone/time_stepping/time_stepper.h>
 
 namespace geocone
@@ -98,13 +98,6 @@ namespace geocone
       particles ///< vL, with the elastic tangent first
     };
 
-    /** A support or load on a side of the body, and the side. */
-    struct Side
-    {
-      unsigned int   condition;
-      MovingBoundary boundary;
-    };
-
     /** A particle after the step. */
     struct Moved
     {
@@ -124,12 +117,6 @@ namespace geocone
     void
     evaluate_force(const double t);
 
-    /** H v = q of conditions on moving things, q at time t. */
-    void
-    make_rows(const MaterialPoints &points,
-              const Vector         &prescribed,
-              const double          t);
-
     /** vL from momentum, where the mass is partly consistent. */
     void
     solve_mass(Vector &velocity) const;
@@ -145,10 +132,6 @@ namespace geocone
              const Vector         &v_mean,
              const double          h,
              std::vector<Moved>   &moved) const;
-
-    /** Moves a chain of lines by the velocity of the nodes. Collective. */
-    void
-    advect(MovingBoundary &boundary, const Vector &v, const double h) const;
 
     /**
      * C_p = B_p D_p^-1 of APIC (1/s), B_p = sum_i N_i v_i (x_i - x_p)'.
@@ -186,8 +169,7 @@ namespace geocone
     std::vector<Start>    starts; ///< to be tried in this order
     dealii::Point<dim>    datum;  ///< of the potential energy
 
-    std::vector<Side> supports, loads;
-
+    std::unique_ptr<MovingConditions>   moving;
     std::unique_ptr<Constraints>        constraints;
     std::unique_ptr<IncrementalProblem> problem;
     std::unique_ptr<LinearSolver>       linear_solver;

@@ -1,0 +1,67 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mechanics_moving_conditions_h
+#define geocone_mechanics_moving_conditions_h
+
+#include <geocone/discretisation/material_points.h>
+#include <geocone/mechanics/constraints.h>
+#include <geocone/mechanics/moving_boundary.h>
+
+namespace geocone
+{
+  /**
+   * The conditions of a scene on what moves through the mesh: prescribed
+   * velocities of particles and of sides of the body, which become rows H v = q
+   * with multipliers, and tractions on its sides.
+   */
+  class MovingConditions
+  {
+  public:
+    /** @throws InputError if the body has no such sides */
+    MovingConditions(const Scene          &scene,
+                     const BackgroundMesh &mesh,
+                     const Space          &space);
+
+    /** @throws InputError for a condition that holds no particle. Collective. */
+    void
+    check_held_particles(const MaterialPoints &points) const;
+
+    /** Adds the tractions at time t. Collective. */
+    void
+    add_tractions(Vector &force, const double t) const;
+
+    /** Makes the rows H v = q, with q at time t. Collective. */
+    void
+    make_rows(const MaterialPoints &points,
+              const Vector         &prescribed,
+              const double          t,
+              Constraints          &constraints) const;
+
+    /**
+     * Moves the sides over a step h: held ones by their velocity at time t,
+     * loaded ones by that of the nodes. Collective.
+     */
+    void
+    move(const Vector &v, const double h, const double t);
+
+  private:
+    /** A support or load on a side of the body, and the side. */
+    struct Side
+    {
+      unsigned int   condition;
+      MovingBoundary boundary;
+    };
+
+    /** Moves a chain of lines by the velocity of the nodes. Collective. */
+    void
+    advect(MovingBoundary &boundary, const Vector &v, const double h) const;
+
+    const Scene          &scene;
+    const BackgroundMesh &mesh;
+    const Space          &space;
+    std::vector<Side>     supports, loads;
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,247 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/mechanics/moving_conditions.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Imposition = BoundaryCondition::Imposition;
+
+    /** The longest part of a line in one cell (m). */
+    double
+    cell_size_along(const BackgroundMesh       &mesh,
+                    const Space                &space,
+                    const MovingBoundary::Line &line)
+    {
+      double longest = 0.;
+      // The middle one of the five Gauss points of a cell has this weight.
+      const double middle = 128. / 450.;
+      const auto   points = points_on_line(mesh, space, line.a, line.b);
+      for (std::size_t i = 2; i < points.size(); i += 5)
+        longest = std::max(longest, points[i].weight / middle * line.length);
+      return Utilities::MPI::max(longest,
+                                 mesh.triangulation().get_communicator());
+    }
+  } // namespace
+
+  MovingConditions::MovingConditions(const Scene          &scene,
+                                     const BackgroundMesh &mesh,
+                                     const Space          &space)
+    : scene(scene)
+    , mesh(mesh)
+    , space(space)
+  {
+    const auto &list = scene.dirichlet.list;
+    for (unsigned int c = 0; c < list.size(); ++c)
+      if (list[c]->imposition == Imposition::segments)
+        {
+          supports.push_back({c, MovingBoundary(*list[c], scene.geometry, 0.)});
+          for (MovingBoundary::Line &line : supports.back().boundary.lines)
+            {
+              const double part = list[c]->shortening / 2. *
+                                  cell_size_along(mesh, space, line) /
+                                  line.length;
+              const Tensor<1, dim> along = line.b - line.a;
+              if (2. * part >= 1.)
+                throw InputError(list[c]->parameter("Segment shortening"),
+                                 list[c]->shortening,
+                                 "less than the side has cells",
+                                 "take smaller cells or a smaller number");
+              line.a += part * along;
+              line.b -= part * along;
+              line.length *= 1. - 2. * part;
+            }
+        }
+      else if (list[c]->moves())
+        lines_of_body(*list[c], scene.geometry); // checks the names
+    const auto &tractions = scene.tractions.list;
+    for (unsigned int c = 0; c < tractions.size(); ++c)
+      {
+        double size = 0.;
+        for (const auto &line : lines_of_body(*tractions[c], scene.geometry))
+          size = std::max(size, cell_size_along(mesh, space, line));
+        loads.push_back(
+          {c, MovingBoundary(*tractions[c], scene.geometry, size)});
+      }
+  }
+
+  void
+  MovingConditions::check_held_particles(const MaterialPoints &points) const
+  {
+    const auto &list = scene.dirichlet.list;
+    for (unsigned int c = 0; c < list.size(); ++c)
+      {
+        const unsigned int n_held =
+          std::count(points.held_by.begin(), points.held_by.end(), c + 1);
+        if ((list[c]->imposition == Imposition::points ||
+             list[c]->imposition == Imposition::cell_averages) &&
+            Utilities::MPI::sum(n_held,
+                                mesh.triangulation().get_communicator()) == 0)
+          throw InputError(list[c]->parameter("Box"),
+                           list[c]->part(),
+                           "a part of a side with particles under it",
+                           "this condition holds no particle: check its sides "
+                           "and its box");
+      }
+  }
+
+  void
+  MovingConditions::add_tractions(Vector &force, const double t) const
+  {
+    for (const Side &side : loads)
+      for (const MovingBoundary::Line &line : side.boundary.lines)
+        for (const BoundaryPoint &point :
+             points_on_line(mesh, space, line.a, line.b))
+          for (unsigned int d = 0; d < dim; ++d)
+            if (const auto &traction =
+                  scene.tractions.list[side.condition]->components[d])
+              {
+                // A dead load: per length at the start.
+                const double f = traction->value(point.position, t) *
+                                 point.weight * line.length;
+                for (unsigned int i = 0; i < point.nodes.size(); ++i)
+                  {
+                    const unsigned int dof =
+                      dim * space.local_node(point.nodes[i]) + d;
+                    force.local_element(dof) += f * point.values[i];
+                  }
+              }
+    if (!loads.empty())
+      force.compress(VectorOperation::add);
+  }
+
+  void
+  MovingConditions::make_rows(const MaterialPoints &points,
+                              const Vector         &prescribed,
+                              const double          t,
+                              Constraints          &constraints) const
+  {
+    Multipliers &rows = constraints.multipliers;
+    rows.clear();
+    const auto &list = scene.dirichlet.list;
+    for (const Side &side : supports)
+      {
+        const BoundaryCondition &condition = *list[side.condition];
+        unsigned int             number    = 0;
+        for (const MovingBoundary::Line &line : side.boundary.lines)
+          {
+            const Tensor<1, dim> part =
+              (line.b - line.a) / condition.n_segments;
+            for (unsigned int s = 0; s < condition.n_segments; ++s, ++number)
+              for (const BoundaryPoint &point : points_on_line(
+                     mesh, space, line.a + s * part, line.a + (s + 1.) * part))
+                for (unsigned int d = 0; d < dim; ++d)
+                  if (condition.components[d])
+                    {
+                      const Multipliers::Key key{side.condition, d, number};
+                      for (unsigned int i = 0; i < point.nodes.size(); ++i)
+                        rows.add_coefficient(
+                          key, point.nodes[i], point.weight * point.values[i]);
+                      rows.add_target(
+                        key,
+                        point.weight *
+                          condition.components[d]->value(point.position, t));
+                    }
+          }
+      }
+
+    const unsigned int                   n = points.n_nodes;
+    std::vector<types::global_dof_index> nodes;
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      {
+        const unsigned int begin = points.first_point[c],
+                           end   = points.first_point[c + 1];
+        for (unsigned int p = begin; p < end; ++p)
+          if (points.held_by[p] > 0)
+            {
+              const unsigned int       held      = points.held_by[p];
+              const BoundaryCondition &condition = *list[held - 1];
+              const bool               average =
+                condition.imposition == Imposition::cell_averages;
+              const double weight =
+                average ? 1. / std::count(points.held_by.begin() + begin,
+                                          points.held_by.begin() + end,
+                                          held)
+                        : 1.;
+              space.cell_nodes(points.cells[c], nodes);
+              for (unsigned int d = 0; d < dim; ++d)
+                if (condition.components[d])
+                  {
+                    const Multipliers::Key key{
+                      held - 1,
+                      d,
+                      average ? static_cast<unsigned int>(
+                                  points.cells[c]->global_active_cell_index())
+                              : points.id[p]};
+                    for (unsigned int i = 0; i < n; ++i)
+                      rows.add_coefficient(
+                        key, nodes[i], weight * points.values[p * n + i]);
+                    rows.add_target(key,
+                                    weight * condition.components[d]->value(
+                                               points.position[p], t));
+                  }
+            }
+      }
+    rows.assemble(scene, space, constraints, prescribed);
+  }
+
+  void
+  MovingConditions::move(const Vector &v, const double h, const double t)
+  {
+    for (Side &side : supports)
+      for (MovingBoundary::Line &line : side.boundary.lines)
+        for (Point<dim> *x : {&line.a, &line.b})
+          for (unsigned int d = 0; d < dim; ++d)
+            if (const auto &q =
+                  scene.dirichlet.list[side.condition]->components[d])
+              (*x)[d] += h * q->value(*x, t);
+    for (Side &side : loads)
+      advect(side.boundary, v, h);
+  }
+
+  void
+  MovingConditions::advect(MovingBoundary &boundary,
+                           const Vector   &v,
+                           const double    h) const
+  {
+    // Velocity at the ends of all lines, and how many ranks know it.
+    const unsigned int  n_lines = boundary.lines.size();
+    std::vector<double> sums(6 * n_lines, 0.);
+    for (unsigned int l = 0; l < n_lines; ++l)
+      {
+        const MovingBoundary::Line &line  = boundary.lines[l];
+        const Tensor<1, dim>        along = line.b - line.a;
+        // Short lines at the ends, from there into the line.
+        const Point<dim> ends[2][2] = {{line.a, line.a + 1e-6 * along},
+                                       {line.b - 1e-6 * along, line.b}};
+        for (unsigned int e = 0; e < 2; ++e)
+          for (const BoundaryPoint &point :
+               points_on_line(mesh, space, ends[e][0], ends[e][1]))
+            {
+              double *s = &sums[6 * l + 3 * e];
+              s[2] += point.weight;
+              for (unsigned int i = 0; i < point.nodes.size(); ++i)
+                for (unsigned int d = 0; d < dim; ++d)
+                  s[d] +=
+                    point.weight * point.values[i] *
+                    v.local_element(dim * space.local_node(point.nodes[i]) + d);
+            }
+      }
+    Utilities::MPI::sum(ArrayView<const double>(sums),
+                        v.get_mpi_communicator(),
+                        ArrayView<double>(sums));
+    for (unsigned int l = 0; l < n_lines; ++l)
+      for (unsigned int e = 0; e < 2; ++e)
+        if (const double *s = &sums[6 * l + 3 * e]; s[2] > 0.)
+          for (unsigned int d = 0; d < dim; ++d)
+            (e == 0 ? boundary.lines[l].a : boundary.lines[l].b)[d] +=
+              h * s[d] / s[2];
+  }
+} // namespace geocone
