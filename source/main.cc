@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/version.h>
+#include <geocone/replay.h>
 #include <geocone/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -26,6 +27,7 @@ namespace
     std::string              folder;
     std::vector<std::string> overrides;
     std::string              defaults_file;
+    std::string              frozen_file;
     bool                     quiet   = false;
     bool                     help    = false;
     bool                     version = false;
@@ -35,9 +37,16 @@ namespace
     "geocone FILE.prm [--output FOLDER] [--set 'Section/Parameter = value']... "
     "[--quiet]\n"
     "mpirun -np RANKS geocone FILE.prm ...\n"
+    "geocone --replay FILE.h5|FILE.dat [--output FOLDER] [--set ...]...\n"
     "\n"
     "  --output FOLDER      folder of the results (default: results/NAME)\n"
     "  --set 'S/P = value'  overrides a parameter of the file; repeatable\n"
+    "  --replay FILE        solves a frozen problem again ('Output/Freeze "
+    "steps', or\n"
+    "                       a problem file of Siconos); --set takes options "
+    "of the\n"
+    "                       solver, e.g. 'Newton/Globalisation = line "
+    "search'\n"
     "  --quiet              nothing on the screen but errors and warnings\n"
     "  --defaults NEW.prm   writes all parameters with their defaults, "
     "commented\n"
@@ -71,6 +80,8 @@ namespace
           call.help = true;
         else if (argument == "--version")
           call.version = true;
+        else if (argument == "--replay")
+          call.frozen_file = value(i);
         else if (argument == "--defaults")
           call.defaults_file = value(i);
         else if (!argument.empty() && argument[0] == '-')
@@ -132,6 +143,20 @@ namespace
         if (first)
           write_file(call.defaults_file, &print_defaults);
         return 0;
+      }
+    if (!call.frozen_file.empty())
+      {
+        if (!call.file.empty())
+          throw InputError("--replay takes no parameter file, but '" +
+                           call.file +
+                           "' was given\n  remedy:  use --set for "
+                           "options of the solver");
+        if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+          throw InputError("--replay works on one rank\n"
+                           "  remedy:  call it without mpirun");
+        Log log(MPI_COMM_WORLD, call.quiet);
+        return replay(call.frozen_file, call.overrides, call.folder, log) ? 0
+                                                                          : 1;
       }
     if (call.file.empty())
       {

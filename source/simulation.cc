@@ -70,6 +70,7 @@ namespace geocone
     const std::string warning =
       stepper->prepare(scene, mesh, space, newton, timer, kinematics, points);
     run_output.prepare(name, folder, scene);
+    freezer.prepare(run_output.folder());
     if (!warning.empty())
       log.warn(warning);
   }
@@ -83,18 +84,19 @@ namespace geocone
                       double            &substep)
   {
     StepRecord record;
-    record.step           = step;
-    record.time           = t + h;
+    record.step = step;
+    record.time = t + h;
+    freezer.set_step(step);
     const double smallest = h * std::pow(0.5, step_control.max_halvings);
     double       done     = 0.;
     substep               = std::min(substep, h);
     while (done < h)
       {
         // Land on the end of the step exactly, without a sliver before it.
-        const double left = h - done;
-        const double size = left <= substep * (1. + 1e-6) ? left : substep;
-        StepReport   report =
-          stepper->advance(kinematics, points, newton, timer, t + done, size);
+        const double left   = h - done;
+        const double size   = left <= substep * (1. + 1e-6) ? left : substep;
+        StepReport   report = stepper->advance(
+          kinematics, points, newton, freezer, timer, t + done, size);
         run_output.add_newton_table(step, t + done + size, size, report);
         record.iterations += report.newton.iterations;
         n_factorisations += report.newton.factorisations;
@@ -111,8 +113,13 @@ namespace geocone
             report.quality.take_worse(record.last.quality);
             report.newton.residual =
               std::max(report.newton.residual, record.last.newton.residual);
+            const double last_lag      = report.newton.friction_lag;
+            report.newton.friction_lag = std::max(
+              report.newton.friction_lag, record.last.newton.friction_lag);
             record.last = std::move(report);
-            if (record.last.newton.iterations <= step_control.easy_iterations)
+            // Friction that lags stands for what smaller steps did not solve.
+            if (record.last.newton.iterations <= step_control.easy_iterations ||
+                last_lag > 0.)
               substep = std::min(h, 1.5 * substep);
           }
         else
@@ -121,6 +128,13 @@ namespace geocone
             substep = size / 2.;
             if (run_output.verbosity >= 2)
               log.print("    cut: " + report.newton.reason);
+            else if (run_output.verbosity == 1)
+              log.progress(format("step %u  t = %.4g s  cut to %.3g s, %u "
+                                  "iterations so far",
+                                  step,
+                                  t + done,
+                                  substep,
+                                  record.iterations));
             if (substep < smallest * (1. - 1e-6))
               throw StepFailure(
                 format("the step %u failed at t = %.6g s, also when cut to "
@@ -205,23 +219,25 @@ namespace geocone
                 if (run_output.verbosity >= 1)
                   {
                     const std::string result =
-                      observation.conditions.empty() ?
-                        format("kinetic energy = %.3g J/m  plastic strain <= "
-                               "%.3g",
-                               record.last.energies.kinetic,
-                               record.last.largest_plastic_strain) :
-                        format("u = %.4g mm  load = %.1f N/m",
-                               1e3 * record.displacement,
-                               record.load);
-                    log.progress(
-                      format("step %u/%u  t = %.4g s  %s  %u iterations  %.0f s "
-                             "left",
-                             step,
-                             n_steps,
-                             t,
-                             result.c_str(),
-                             record.iterations,
-                             total.wall_time() / step * (n_steps - step)));
+                      observation.conditions.empty()
+                        ? format("kinetic energy = %.3g J/m  plastic strain <= "
+                                 "%.3g",
+                                 record.last.energies.kinetic,
+                                 record.last.largest_plastic_strain)
+                        : format("u = %.4g mm  load = %.1f N/m",
+                                 1e3 * record.displacement,
+                                 record.load);
+                    log.progress(format(
+                      "step %u/%u  t = %.4g s  %s  %u iterations%s  %.0f "
+                      "s left",
+                      step,
+                      n_steps,
+                      t,
+                      result.c_str(),
+                      record.iterations,
+                      record.last.newton.friction_lag > 0. ? " (friction lags)"
+                                                           : "",
+                      total.wall_time() / step * (n_steps - step)));
                   }
 
                 if (i + 1 == sizes.size() ||

@@ -86,6 +86,7 @@ namespace geocone
     ImplicitMPM     implicit_mpm;
     TimeStepper    *stepper = nullptr; ///< the one of the method
     StepControl     step_control;
+    Freezer         freezer;
     ExactSolution   exact_solution;
     RunOutput       run_output;
 

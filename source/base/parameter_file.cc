@@ -143,6 +143,27 @@ namespace geocone
     : folder_of_file(std::filesystem::path(file_name).parent_path().string())
   {
     read(file_name, "'" + file_name + "'", 0);
+    append(overrides);
+  }
+
+  ParameterFile
+  ParameterFile::from_text(const std::string              &text,
+                           const std::string              &name,
+                           const std::vector<std::string> &overrides)
+  {
+    ParameterFile      file;
+    std::istringstream in(text);
+    int                number = 0;
+    for (std::string line; std::getline(in, line);)
+      file.lines.push_back(
+        {trim(line), "the materials of '" + name + "'", ++number});
+    file.append(overrides);
+    return file;
+  }
+
+  void
+  ParameterFile::append(const std::vector<std::string> &overrides)
+  {
     for (const std::string &override_text : overrides)
       {
         const auto        equals = override_text.find('=');
@@ -389,6 +410,24 @@ namespace geocone
           std::regex_replace(message, std::regex("\\s*\n\\s+"), " "));
       }
     ParameterAcceptor::parse_all_parameters();
+  }
+
+  std::string
+  ParameterFile::section(const std::string &name)
+  {
+    std::ostringstream out;
+    print(out, false);
+    std::istringstream in(out.str());
+    std::string        text;
+    bool               inside = false;
+    for (std::string line; std::getline(in, line);)
+      {
+        inside = inside || line == "subsection " + name;
+        if (inside)
+          text += line + "\n";
+        inside = inside && line != "end"; // those inside of it are indented
+      }
+    return text;
   }
 
   void

@@ -63,19 +63,24 @@ namespace geocone
     const double       K               = elasticity().normal_stiffness();
     const double       two_G           = elasticity().two_G;
     const bool         linear          = response.tangent.size() > 0;
+    const double       lag             = increment.friction_lag;
     const MandelMatrix elastic_tangent = elasticity().stiffness();
+    const auto         s_n             = [&](const std::size_t p) {
+      return to_cone_axes(increment.stress_n[p])[0];
+    };
     for (std::size_t p = 0; p < increment.strain.size(); ++p)
       {
         const Mandel trial =
           increment.stress_n[p] + elasticity().stress(increment.strain[p]);
         Mandel       returned;
         MandelMatrix tangent;
-        response.mode[p] = return_map(cone,
-                                      K,
-                                      two_G,
-                                      to_cone_axes(trial),
-                                      returned,
-                                      linear ? &tangent : nullptr);
+        response.mode[p] =
+          return_map(lag > 0. ? cone.delayed(lag, s_n(p)) : cone,
+                     K,
+                     two_G,
+                     to_cone_axes(trial),
+                     returned,
+                     linear ? &tangent : nullptr);
         // An elastic point keeps its trial stress to the last digit.
         const bool elastic = response.mode[p] == Mode::elastic;
         response.stress[p] = elastic ? trial : from_cone_axes(returned);

@@ -17,13 +17,13 @@ namespace geocone
   IncrementalProblem::IncrementalProblem(
     const MaterialPoints                                     &points,
     const Materials                                          &materials,
-    const Constraints                                        &constraints,
+    const Unknowns                                           &unknowns,
     const std::shared_ptr<const Utilities::MPI::Partitioner> &layout,
     const Vector                                             *lumped_mass,
     const double                                              consistent_part)
     : points(points)
     , materials(materials)
-    , constraints(constraints)
+    , unknowns(unknowns)
     , layout(layout)
     , mass(lumped_mass)
     , consistent_part(consistent_part)
@@ -42,20 +42,29 @@ namespace geocone
 
   void
   IncrementalProblem::begin_step(const double  step,
-                                 const double  end,
                                  const Vector *external_force,
-                                 const Vector &v)
+                                 const Vector &v,
+                                 const Vector &prescribed_velocity)
   {
-    h          = step;
-    t          = end;
-    force      = external_force;
-    velocity_L = v;
+    h            = step;
+    friction_lag = 0.;
+    force        = external_force;
+    velocity_L   = v;
+    prescribed   = prescribed_velocity;
     elastic_diagonal.reinit(0);
     if (consistent_part > 0.)
       {
         velocity_L.update_ghost_values();
         inertia.reinit(layout);
       }
+  }
+
+  void
+  IncrementalProblem::set_prescribed(Vector &v) const
+  {
+    for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
+      if (unknowns.is_prescribed(i))
+        v.local_element(i) = prescribed.local_element(i);
   }
 
   template <int n>
@@ -116,7 +125,8 @@ namespace geocone
         const unsigned int n = run.end - run.begin;
         const Increment    increment{
           ArrayView<const Mandel>(&strain[run.begin], n),
-          ArrayView<const Mandel>(&points.stress[run.begin], n)};
+          ArrayView<const Mandel>(&points.stress[run.begin], n),
+          friction_lag};
         const Response response{
           ArrayView<Mandel>(&stress[run.begin], n),
           ArrayView<Mode>(&mode[run.begin], n),
@@ -140,7 +150,11 @@ namespace geocone
     });
 
     previous_mode.swap(mode);
-    update_materials(false);
+    NaturalMap::Error error;
+    if (by_natural_map)
+      error = by_natural_map->update(strain, stress, tangent, mode);
+    else
+      update_materials(false);
 
     dst = 0.;
     with_n_nodes(points.n_nodes, [&](const auto n_constant) {
@@ -192,7 +206,7 @@ namespace geocone
             sums[2] += f * f;
             sums[3] += m * m * vL * vL;
           }
-        if (constraints.is_free(i))
+        if (unknowns.is_free(i))
           sums[4] += r * r;
       }
     for (unsigned int p = 0; p < points.n_points(); ++p)
@@ -204,10 +218,10 @@ namespace geocone
     Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
                         layout->get_mpi_communicator(),
                         ArrayView<double>(sums.data(), sums.size()));
-    if (constraints.multipliers.n_rows() > 0)
+    if (unknowns.multipliers.n_rows() > 0)
       {
-        lambda = constraints.multipliers.fit(dst, &scale());
-        constraints.multipliers.add_transposed(dst, -1., lambda);
+        lambda = unknowns.multipliers.fit(dst, &scale());
+        unknowns.multipliers.add_transposed(dst, -1., lambda);
         sums[4] = free_dot(dst, dst);
       }
     ResidualReport report;
@@ -218,6 +232,14 @@ namespace geocone
     report.n_cone     = sums[5];
     report.n_apex     = sums[6];
     report.n_switched = sums[7];
+    if (by_natural_map)
+      {
+        const MPI_Comm comm  = layout->get_mpi_communicator();
+        const double   scale = Utilities::MPI::max(error.stress_scale, comm);
+        report.natural_map =
+          Utilities::MPI::max(error.largest_residual, comm) /
+          std::max(scale, std::numeric_limits<double>::min());
+      }
     return report;
   }
 
@@ -299,7 +321,7 @@ namespace geocone
     const Vector &D   = scale();
     double        sum = 0.;
     for (unsigned int i = 0; i < residual.locally_owned_size(); ++i)
-      if (constraints.is_free(i))
+      if (unknowns.is_free(i))
         sum += residual.local_element(i) * residual.local_element(i) /
                D.local_element(i);
     return Utilities::MPI::sum(sum, layout->get_mpi_communicator());
@@ -313,14 +335,14 @@ namespace geocone
 
     const unsigned int      n      = points.n_nodes;
     const unsigned int      n_dofs = dim * n;
-    const std::vector<int> &row_of = constraints.free_row;
+    const std::vector<int> &row_of = unknowns.free_row;
 
     SparseMatrix matrix;
     matrix.comm         = layout->get_mpi_communicator();
     matrix.symmetric    = one_triangle;
-    matrix.n_global     = constraints.n_rows;
-    matrix.n_owned      = constraints.n_owned_rows;
-    matrix.global_index = constraints.global_row;
+    matrix.n_global     = unknowns.n_rows;
+    matrix.n_owned      = unknowns.n_owned_rows;
+    matrix.global_index = unknowns.global_row;
 
     // Which cells a node has, then which nodes it meets there.
     const unsigned int                     n_local_nodes = row_of.size() / dim;
@@ -388,7 +410,7 @@ namespace geocone
   void
   IncrementalProblem::linearise(SparseMatrix &matrix, const double blend) const
   {
-    update_materials(true);
+    update_tangents();
     std::fill(matrix.value.begin(), matrix.value.end(), 0.);
     with_n_nodes(points.n_nodes, [&](const auto n_constant) {
       constexpr int             n = n_constant;
@@ -437,15 +459,15 @@ namespace geocone
     });
     if (mass != nullptr)
       for (unsigned int i = 0; i < mass->locally_owned_size(); ++i)
-        if (constraints.is_free(i))
-          matrix.value[diagonal[constraints.free_row[i]]] +=
+        if (unknowns.is_free(i))
+          matrix.value[diagonal[unknowns.free_row[i]]] +=
             (1. - consistent_part) * mass->local_element(i) / h;
   }
 
   void
   IncrementalProblem::apply_tangent(Vector &dst, const Vector &dv) const
   {
-    update_materials(true);
+    update_tangents();
     Vector change;
     if (mass != nullptr)
       {
@@ -475,12 +497,34 @@ namespace geocone
       dst.add(1. / h, change);
   }
 
+  void
+  IncrementalProblem::for_each_strain_column(
+    const std::function<
+      void(const unsigned int, const unsigned int, const Mandel &)> &f) const
+  {
+    std::vector<Mandel> column(points.n_points());
+    with_n_nodes(points.n_nodes, [&](const auto n_constant) {
+      constexpr int n = n_constant;
+      for (unsigned int c = 0; c < points.n_cells(); ++c)
+        for (int j = 0; j < 2 * n; ++j)
+          {
+            double cell_v[2 * n] = {};
+            cell_v[j]            = 1.;
+            strains_of_cell<n>(c, cell_v, 1., column);
+            for (unsigned int p = points.first_point[c];
+                 p < points.first_point[c + 1];
+                 ++p)
+              f(p, dim * points.nodes[c * n + j / dim] + j % dim, column[p]);
+          }
+    });
+  }
+
   double
   IncrementalProblem::free_dot(const Vector &a, const Vector &b) const
   {
     double sum = 0.;
     for (unsigned int i = 0; i < a.locally_owned_size(); ++i)
-      if (constraints.is_free(i))
+      if (unknowns.is_free(i))
         sum += a.local_element(i) * b.local_element(i);
     return Utilities::MPI::sum(sum, layout->get_mpi_communicator());
   }
@@ -513,6 +557,9 @@ namespace geocone
     // Two passes: the scales of all ranks first.
     const MPI_Comm comm     = layout->get_mpi_communicator();
     double     stress_scale = 0., k_scale = 0., y_scale = 0., compliance = 0.;
+    const auto cone_at = [&](const FlowCone &cone, const unsigned int p) {
+      return cone.delayed(friction_lag, to_cone_axes(points.stress[p])[0]);
+    };
     const auto y_at = [&](const FlowCone    &cone,
                           const Elasticity  &elasticity,
                           const unsigned int p) {
@@ -531,7 +578,8 @@ namespace geocone
               stress_scale = std::max(stress_scale, stress[p].norm());
               y_scale      = std::max(
                 y_scale,
-                y_at(*cone, materials[run.material].elasticity(), p).norm());
+                y_at(cone_at(*cone, p), materials[run.material].elasticity(), p)
+                  .norm());
             }
         }
     stress_scale = Utilities::MPI::max(stress_scale, comm) +
@@ -541,34 +589,40 @@ namespace geocone
 
     Quality worst;
     for (const Run &run : runs)
-      if (const auto cone = materials[run.material].flow_cone())
+      if (const auto law = materials[run.material].flow_cone())
         for (unsigned int p = run.begin; p < run.end; ++p)
           {
             const Elasticity &elasticity = materials[run.material].elasticity();
-            const Mandel      y          = y_at(*cone, elasticity, p);
+            const FlowCone    cone       = cone_at(*law, p);
             const Mandel      s          = to_cone_axes(stress[p]);
-            worst.natural_map            = std::max(
-              worst.natural_map,
-              natural_map(*cone, s, y, elasticity.two_G).norm() / stress_scale);
-            worst.cone_violation = std::max(
-              worst.cone_violation, cone->yield_function(s) / stress_scale);
-            if (y_scale > 0.)
+            Quality           here;
+            here.cone_violation = cone.yield_function(s) / stress_scale;
+            here.cone_excess    = law->yield_function(s);
+            // The complementarity law is that of a cone without a cut-off.
+            if (s[0] > -cone.tension + 1e-12 * stress_scale)
               {
-                worst.dual_violation = std::max(
-                  worst.dual_violation, cone->dual_violation(y) / y_scale);
-                worst.complementarity =
-                  std::max(worst.complementarity,
-                           std::abs(cone->complementarity_product(y, s)) /
-                             (y_scale * stress_scale));
+                const Mandel y = y_at(cone, elasticity, p);
+                here.natural_map =
+                  natural_map(cone, s, y, elasticity.two_G).norm() /
+                  stress_scale;
+                if (y_scale > 0.)
+                  {
+                    here.dual_violation = cone.dual_violation(y) / y_scale;
+                    here.complementarity =
+                      std::abs(cone.complementarity_product(y, s)) /
+                      (y_scale * stress_scale);
+                  }
               }
+            worst.take_worse(here);
           }
-    std::array<double, 4> values = {{worst.natural_map,
+    std::array<double, 5> values = {{worst.natural_map,
                                      worst.cone_violation,
                                      worst.dual_violation,
-                                     worst.complementarity}};
-    Utilities::MPI::max(ArrayView<const double>(values.data(), 4),
+                                     worst.complementarity,
+                                     worst.cone_excess}};
+    Utilities::MPI::max(ArrayView<const double>(values.data(), values.size()),
                         comm,
-                        ArrayView<double>(values.data(), 4));
-    return {values[0], values[1], values[2], values[3]};
+                        ArrayView<double>(values.data(), values.size()));
+    return {values[0], values[1], values[2], values[3], values[4]};
   }
 } // namespace geocone

@@ -92,6 +92,8 @@ namespace geocone
                                "substeps (-)",
                                "failed substeps (-)",
                                "residual (-)",
+                               "friction lag (-)",
+                               "cone excess (Pa)",
                                "natural-map error (-)",
                                "cone violation (-)",
                                "dual-cone violation (-)",
@@ -121,6 +123,7 @@ namespace geocone
                  "relative residual (-)",
                  "step length (-)",
                  "elastic blend (-)",
+                 "friction lag (-)",
                  "cone points",
                  "apex points",
                  "switched points"});
@@ -135,7 +138,8 @@ namespace geocone
     if (verbosity >= 2)
       log.print(
         format("  step %u, t = %.6g s, h = %.3g s\n"
-               "    it   residual   length    blend     cone   apex  switched",
+               "    it   residual   length    blend      lag     cone   apex  "
+               "switched",
                step,
                time,
                h));
@@ -143,11 +147,12 @@ namespace geocone
       {
         const NewtonIteration &line = report.newton.table[i];
         if (verbosity >= 2)
-          log.print(format("    %2zu  %9.2e  %7.3f  %7.3f  %7u %6u  %8u",
+          log.print(format("    %2zu  %9.2e  %7.3f  %7.3f  %7.3f  %7u %6u  %8u",
                            i,
                            line.relative_residual,
                            line.step_length,
                            line.elastic_blend,
+                           line.friction_lag,
                            line.n_cone,
                            line.n_apex,
                            line.n_switched));
@@ -160,6 +165,7 @@ namespace geocone
                            line.relative_residual,
                            line.step_length,
                            line.elastic_blend,
+                           line.friction_lag,
                            double(line.n_cone),
                            double(line.n_apex),
                            double(line.n_switched)});
@@ -191,6 +197,8 @@ namespace geocone
                                double(record.substeps),
                                double(record.failures),
                                report.newton.residual,
+                               report.newton.friction_lag,
+                               report.quality.cone_excess,
                                report.quality.natural_map,
                                report.quality.cone_violation,
                                report.quality.dual_violation,
@@ -230,9 +238,9 @@ namespace geocone
     std::vector<LoadPoint> curve;
     double                 offset     = 0.;
     unsigned int           iterations = 0, most = 0, substeps = 0, failures = 0,
-                 regularised = 0;
+                 regularised = 0, lagging = 0;
     Quality quality;
-    double  residual = 0., identity = 0.;
+    double  residual = 0., identity = 0., lag = 0.;
     for (const StepRecord &record : records)
       {
         // A reset of the displacement is no step of the curve.
@@ -246,6 +254,8 @@ namespace geocone
         failures += record.failures;
         quality.take_worse(record.last.quality);
         residual = std::max(residual, record.last.newton.residual);
+        lag      = std::max(lag, record.last.newton.friction_lag);
+        lagging += record.last.newton.friction_lag > 0.;
         identity = std::max(identity, record.last.identity_error);
       }
 
@@ -280,11 +290,14 @@ namespace geocone
       {"iterations_max", most},
       {"failures", failures},
       {"regularised", regularised},
-      {"residual_max", residual}};
+      {"residual_max", residual},
+      {"steps_with_friction_lag", lagging},
+      {"friction_lag_max", lag}};
     json["quality"] = {{"natural_map_error_max", quality.natural_map},
                        {"complementarity_max", quality.complementarity},
                        {"cone_violation_max", quality.cone_violation},
-                       {"dual_cone_violation_max", quality.dual_violation}};
+                       {"dual_cone_violation_max", quality.dual_violation},
+                       {"cone_excess_max_Pa", quality.cone_excess}};
     if (!records.empty())
       {
         json["state"]     = {{"largest_plastic_strain",
@@ -354,6 +367,13 @@ namespace geocone
                      summary["quality"]["natural_map_error_max"].get<double>(),
                      summary["quality"]["complementarity_max"].get<double>(),
                      summary["quality"]["cone_violation_max"].get<double>()));
+    if (const auto n = newton_part["steps_with_friction_lag"].get<unsigned>())
+      log.print(format("friction lags in %u of %zu steps (by at most %.2g of a "
+                       "step), the exact cone is exceeded by up to %.3g Pa",
+                       n,
+                       records.size(),
+                       newton_part["friction_lag_max"].get<double>(),
+                       summary["quality"]["cone_excess_max_Pa"].get<double>()));
     if (summary.contains("limit_load"))
       {
         const Json &limit = summary["limit_load"];

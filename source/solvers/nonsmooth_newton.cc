@@ -3,10 +3,14 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/solvers/first_iterate.h>
+#include <geocone/solvers/gauss_seidel.h>
 #include <geocone/solvers/line_search.h>
 #include <geocone/solvers/nonsmooth_newton.h>
+#include <geocone/solvers/reduced_formulation.h>
+#include <geocone/solvers/reduced_newton.h>
 
-#include <deal.II/base/mpi.h>
+#include <algorithm>
 
 namespace geocone
 {
@@ -21,50 +25,10 @@ namespace geocone
     constexpr double hard_flow = 0.51;
 
     /**
-     * Solves [K -H'; H 0] (dv, dlambda) = (rhs, defect) for dv by the Schur
-     * complement H K^-1 H'.
-     * @param[in,out] rhs owned rows in, dv out
+     * Relative residual at which an iterate is near enough to a solution to go on
+     * from: with another lag, or beyond the iterations that were allowed.
      */
-    void
-    solve_constrained(const Constraints     &constraints,
-                      LinearSolver          &linear_solver,
-                      const Eigen::VectorXd &defect,
-                      const MPI_Comm         comm,
-                      std::vector<double>   &rhs)
-    {
-      const Multipliers &rows = constraints.multipliers;
-      const unsigned int m    = rows.n_rows();
-      if (m == 0)
-        {
-          linear_solver.solve(rhs);
-          return;
-        }
-      using Matrix          = Eigen::MatrixXd;
-      const std::size_t   n = rhs.size();
-      std::vector<double> columns(n * (m + 1), 0.);
-      std::copy(rhs.begin(), rhs.end(), columns.begin());
-      std::vector<int> places;
-      for (const unsigned int dof : rows.dofs())
-        places.push_back(constraints.free_row[dof]);
-      for (unsigned int k = 0; k < m; ++k)
-        for (unsigned int j = 0; j < places.size(); ++j)
-          columns[n * (k + 1) + places[j]] = rows.coefficients()(k, j);
-      linear_solver.solve(columns, m + 1);
-
-      const Eigen::Map<const Matrix> solved(columns.data(), n, m + 1);
-      Matrix                         touched(places.size(), m + 1);
-      for (unsigned int j = 0; j < places.size(); ++j)
-        touched.row(j) = solved.row(places[j]);
-      Matrix products = rows.coefficients() * touched;
-      dealii::Utilities::MPI::sum(
-        dealii::ArrayView<const double>(products.data(), products.size()),
-        comm,
-        dealii::ArrayView<double>(products.data(), products.size()));
-      const Eigen::VectorXd change =
-        products.rightCols(m).partialPivLu().solve(defect - products.col(0));
-      Eigen::Map<Eigen::VectorXd>(rhs.data(), n) =
-        solved.col(0) + solved.rightCols(m) * change;
-    }
+    constexpr double path_tolerance = 1e-3;
   } // namespace
 
   NonsmoothNewton::SolverName::SolverName()
@@ -78,9 +42,56 @@ namespace geocone
       "on several.");
   }
 
+  NonsmoothNewton::Friction::Friction()
+    : dealii::ParameterAcceptor("/Time stepping")
+  {
+    add_parameter(
+      "Friction",
+      kind,
+      "automatic | exact | delayed. Exact: strength depends on the normal "
+      "stress at the end of the step; steps that are not solved are cut. "
+      "Delayed: a part of that stress ('Friction lag') is of the step's start, "
+      "which makes steps without dilatancy as cheap as associated ones, at an "
+      "error of first order in the step. Automatic: exact, but single steps "
+      "that are not solved keep the least lag that is, and are counted. "
+      "Nothing changes for associated flow.");
+    add_parameter("Friction lag",
+                  lag,
+                  "The part for delayed friction, 0 to 1: 0 is exact, 1 takes "
+                  "all of it from the start.");
+  }
+
   NonsmoothNewton::NonsmoothNewton()
     : dealii::ParameterAcceptor("/Newton")
   {
+    add_parameter(
+      "Formulation",
+      formulation,
+      "return map | natural map | reduced | reduced with multipliers | "
+      "Gauss-Seidel: what is solved for, by which method. Return map: the "
+      "velocities, with the closed-form law. Natural map: velocities, stresses "
+      "and plastic strains with the natural map of the law, by full Newton "
+      "steps. Reduced: the stresses alone, by Newton's method; constraints on "
+      "particles are eliminated or kept with multipliers. Gauss-Seidel: the "
+      "stresses alone, point by point. What is reduced needs a lumped mass, "
+      "one rank and at most 3000 points. All but the first are there to be "
+      "compared with it.");
+    add_parameter(
+      "Rho",
+      rho,
+      "Rho of the formulation 'natural map', in units of 2G of each "
+      "point, > 0.");
+    add_parameter(
+      "First iterate",
+      first_iterate,
+      "none | fixed point | Gauss-Seidel: what makes the start of the "
+      "formulations 'return map' and 'natural map' from the velocities of t_n. "
+      "Fixed point: iterations with the elastic stiffness, factorised once. "
+      "Gauss-Seidel: sweeps over the stresses, under the conditions of the "
+      "formulation of that name.");
+    add_parameter("First iterate sweeps",
+                  first_iterate_sweeps,
+                  "Number of these iterations or sweeps, > 0.");
     add_parameter(
       "Tolerance",
       relative_tolerance,
@@ -92,19 +103,17 @@ namespace geocone
     add_parameter(
       "Maximum iterations",
       max_iterations,
-      "Linear systems to solve before the step is given up and cut. "
+      "Linear systems to solve before an attempt at a step is given up. "
       "0: 150 for associated flow (slow starts are worth waiting "
-      "for), 60 for theta >= phi/2 and for the merit search, otherwise "
-      "15 with the line search (30 with MPM) and 30 with the elastic blend.");
+      "for), 30 for the elastic blend (60 where it converges) and for FEM's "
+      "lag continuation, otherwise 60.");
     add_parameter(
       "Globalisation",
       globalisation,
-      "automatic | line search | elastic blend | merit search | none. "
-      "Automatic: for MPM the line search, and for theta < phi/2 the merit "
-      "search from the second start; for FEM "
-      "the elastic blend for theta < phi/2 without inertia, the "
-      "line search otherwise; where that fails the other one, but "
-      "for theta < phi/2 with inertia. None: plastic steps often fail.");
+      "automatic | line search | elastic blend | merit search | "
+      "lag continuation | none. Automatic: the line search for theta >= phi/2; "
+      "otherwise for FEM the elastic blend; and the lag continuation for what "
+      "is not solved so, and for MPM. None: plastic steps often fail.");
   }
 
   void
@@ -117,17 +126,79 @@ namespace geocone
                        "1e-10 is reached in all scenes");
     if (globalisation != "automatic" && globalisation != "line search" &&
         globalisation != "elastic blend" && globalisation != "merit search" &&
-        globalisation != "none")
+        globalisation != "lag continuation" && globalisation != "none")
       throw InputError("Newton/Globalisation",
                        globalisation,
                        "automatic | line search | elastic blend | merit "
-                       "search | none",
+                       "search | lag continuation | none",
                        "take automatic");
+    prepare_formulation();
     if (!(absolute_tolerance >= 0.))
       throw InputError("Newton/Absolute tolerance",
                        absolute_tolerance,
                        ">= 0 N/m",
                        "1e-12 is usual");
+    if (friction.kind != "automatic" && friction.kind != "exact" &&
+        friction.kind != "delayed")
+      throw InputError("Time stepping/Friction",
+                       friction.kind,
+                       "automatic | exact | delayed",
+                       "take automatic");
+    if (!(friction.lag >= 0. && friction.lag <= 1.))
+      throw InputError(
+        "Time stepping/Friction lag", friction.lag, "0 to 1", "1/2 is usual");
+  }
+
+  void
+  NonsmoothNewton::prepare_formulation() const
+  {
+    const auto is_one_of = [](const std::string              &name,
+                              const std::vector<std::string> &names) {
+      return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    if (!is_one_of(formulation,
+                   {"return map",
+                    "natural map",
+                    "reduced",
+                    "reduced with multipliers",
+                    "Gauss-Seidel"}))
+      throw InputError("Newton/Formulation",
+                       formulation,
+                       "return map | natural map | reduced | reduced with "
+                       "multipliers | Gauss-Seidel",
+                       "take return map");
+    if (!is_one_of(first_iterate, {"none", "fixed point", "Gauss-Seidel"}))
+      throw InputError("Newton/First iterate",
+                       first_iterate,
+                       "none | fixed point | Gauss-Seidel",
+                       "take none");
+    if (!(rho > 0.))
+      throw InputError("Newton/Rho", rho, "> 0", "0.03 is usual");
+    if (first_iterate_sweeps == 0)
+      throw InputError("Newton/First iterate sweeps",
+                       first_iterate_sweeps,
+                       "> 0",
+                       "for none set Newton/First iterate = none");
+    if (formulation == "return map")
+      return;
+    if (globalisation != "automatic" && globalisation != "none")
+      throw InputError("Newton/Globalisation",
+                       globalisation,
+                       "automatic | none with the formulation '" + formulation +
+                         "'",
+                       "take automatic, or the formulation 'return map'");
+    if (friction.kind == "delayed")
+      throw InputError("Time stepping/Friction",
+                       friction.kind,
+                       "automatic | exact with the formulation '" +
+                         formulation + "'",
+                       "take exact, or the formulation 'return map'");
+    if (formulation != "natural map" && first_iterate != "none")
+      throw InputError("Newton/First iterate",
+                       first_iterate,
+                       "none with the formulation '" + formulation + "'",
+                       "take none, or the formulation 'return map' or "
+                       "'natural map'");
   }
 
   SolverReport
@@ -137,113 +208,243 @@ namespace geocone
                          TimerOutput        &timer,
                          Vector             &v,
                          Vector             &residual,
-                         const Hints        &hints) const
+                         const Hints        &hints_given) const
   {
-    SolverReport report;
-    const auto   solve_with = [&](const Globalisation kind) {
-      attempt(kind,
-              hints,
-              problem,
-              matrix,
-              linear_solver,
-              timer,
-              v,
-              residual,
-              report);
+    SolverReport        report;
+    const StepWorkspace work{
+      problem, matrix, linear_solver, timer, v, residual, report};
+    const bool associated = problem.non_associativity() == 0.;
+    const bool hard       = problem.non_associativity() > hard_flow;
+    const auto allowed    = [&](const unsigned int automatic) {
+      return max_iterations > 0 ? max_iterations : automatic;
     };
-    const bool hard = problem.non_associativity() > hard_flow;
-    if (globalisation != "automatic")
+
+    problem.set_friction_lag(0.);
+    problem.use_return_map();
+    if (formulation != "return map" && formulation != "natural map")
       {
-        solve_with(
-          globalisation == "line search"     ? Globalisation::line_search
-          : globalisation == "elastic blend" ? Globalisation::elastic_blend
-          : globalisation == "merit search"  ? Globalisation::merit_search
-                                             : Globalisation::none);
+        using Solver        = ReducedFormulation::Solver;
+        const bool   sweeps = formulation == "Gauss-Seidel";
+        const Solver solver = sweeps ? Solver::gauss_seidel
+                              : formulation == "reduced"
+                                ? Solver::newton
+                                : Solver::newton_with_multipliers;
+        ReducedFormulation{solver,
+                           relative_tolerance,
+                           absolute_tolerance,
+                           allowed(sweeps ? 100000 : 60)}
+          .solve(work);
         return report;
       }
-    if (hints.particles)
+    Hints               hints        = hints_given;
+    std::vector<Mandel> start_stress = problem.stress_at_start();
+    if (first_iterate != "none")
       {
-        solve_with(hard && hints.elastic_first ? Globalisation::merit_search
-                                               : Globalisation::line_search);
+        hints.elastic_first = false;
+        start_stress        = first_iterate == "fixed point"
+                                ? fixed_point_iterate(first_iterate_sweeps, work)
+                                : gauss_seidel_iterate(first_iterate_sweeps, work);
+      }
+    if (formulation == "natural map")
+      {
+        problem.use_natural_map(rho, start_stress);
+        Attempt attempt;
+        attempt.globalisation = Globalisation::none;
+        attempt.tolerance     = relative_tolerance;
+        attempt.elastic_first = hints.elastic_first;
+        attempt.allowed       = allowed(100);
+        run(attempt, work);
         return report;
       }
 
-    const bool   blend_first = hard && !problem.has_inertia();
-    const Vector start       = v;
-    solve_with(blend_first ? Globalisation::elastic_blend
-                           : Globalisation::line_search);
-    // With mass a shorter step makes the hard flow easy, for less than a second
-    // attempt costs.
-    const bool cut_at_once = hard && problem.has_inertia();
-    if (!report.converged && !problem.is_symmetric() && !cut_at_once)
+    if (friction.kind == "delayed" && !associated)
+      {
+        solve_delayed(friction.lag, relative_tolerance, hints, work);
+        return report;
+      }
+    const Vector start = v;
+    Attempt      attempt;
+    attempt.tolerance     = relative_tolerance;
+    attempt.elastic_first = hints.elastic_first;
+    attempt.allowed       = allowed(associated ? 150 : 60);
+    if (globalisation == "automatic")
+      {
+        if (!hard || !hints.particles)
+          {
+            if (hard)
+              {
+                attempt.globalisation = Globalisation::elastic_blend;
+                attempt.allowed       = allowed(30);
+              }
+            run(attempt, work);
+          }
+      }
+    else if (globalisation != "lag continuation")
+      {
+        attempt.globalisation =
+          globalisation == "line search"     ? Globalisation::line_search
+          : globalisation == "elastic blend" ? Globalisation::elastic_blend
+          : globalisation == "merit search"  ? Globalisation::merit_search
+                                             : Globalisation::none;
+        run(attempt, work);
+        return report;
+      }
+    if (!report.converged && !associated)
       {
         v = start;
-        solve_with(blend_first ? Globalisation::line_search
-                               : Globalisation::elastic_blend);
+        continue_to_exact_law(
+          friction.lag > 0. ? friction.lag : 0.5, allowed(60), hints, work);
       }
     return report;
   }
 
-  void
-  NonsmoothNewton::attempt(const Globalisation globalisation,
-                           const Hints        &hints,
-                           IncrementalProblem &problem,
-                           SparseMatrix       &matrix,
-                           LinearSolver       &linear_solver,
-                           TimerOutput        &timer,
-                           Vector             &v,
-                           Vector             &residual,
-                           SolverReport       &report) const
+  ReducedReport
+  NonsmoothNewton::solve_reduced(const ReducedProblem &problem,
+                                 Eigen::VectorXd      &s) const
   {
-    const Constraints &constraints = problem.free_dofs();
-    const unsigned int n_owned     = v.locally_owned_size();
-    const bool         blend   = globalisation == Globalisation::elastic_blend;
-    const bool         search  = globalisation == Globalisation::line_search;
-    const bool         merit   = globalisation == Globalisation::merit_search;
-    const bool         hard    = problem.non_associativity() > hard_flow;
-    const unsigned int allowed = max_iterations > 0        ? max_iterations
-                                 : merit                   ? 60
-                                 : hints.particles && hard ? 30
-                                 : problem.is_symmetric()  ? 150
-                                 : !hard                   ? 60
-                                 : blend                   ? 30
-                                                           : 15;
-    const unsigned int limit   = report.iterations + allowed;
+    if (formulation == "Gauss-Seidel")
+      {
+        GaussSeidel solver;
+        solver.tolerance = relative_tolerance;
+        if (max_iterations > 0)
+          solver.max_sweeps = max_iterations;
+        return solver.solve(problem, s);
+      }
+    ReducedNewton solver;
+    solver.tolerance = relative_tolerance;
+    if (max_iterations > 0)
+      solver.max_iterations = max_iterations;
+    if (formulation == "natural map")
+      solver.map = ReducedNewton::Map::natural_map;
+    return solver.solve(problem, s);
+  }
+
+  void
+  NonsmoothNewton::solve_delayed(const double         lag,
+                                 const double         tolerance,
+                                 const Hints         &hints,
+                                 const StepWorkspace &work) const
+  {
+    const Vector start = work.v;
+    Attempt      attempt;
+    attempt.tolerance     = tolerance;
+    attempt.friction_lag  = lag;
+    attempt.allowed       = max_iterations > 0 ? max_iterations : 40;
+    attempt.elastic_first = hints.elastic_first;
+    run(attempt, work);
+    if (work.report.converged || lag == 1.)
+      return;
+    // Friction that is explicit leaves a convex problem.
+    work.v               = start;
+    attempt.friction_lag = 1.;
+    attempt.tolerance    = path_tolerance;
+    run(attempt, work);
+    if (!work.report.converged)
+      return;
+    attempt.friction_lag  = lag;
+    attempt.tolerance     = tolerance;
+    attempt.elastic_first = false;
+    run(attempt, work);
+  }
+
+  void
+  NonsmoothNewton::continue_to_exact_law(const double         lag,
+                                         const unsigned int   allowed,
+                                         const Hints         &hints,
+                                         const StepWorkspace &work) const
+  {
+    SolverReport      &report = work.report;
+    const unsigned int before = report.iterations;
+    solve_delayed(lag, path_tolerance, hints, work);
+    if (!report.converged)
+      return;
+
+    // The last solution that was reached, and its lag.
+    const Vector first       = work.v;
+    Vector       reached     = work.v;
+    double       reached_lag = lag, fall = 0.55 * lag;
+    Attempt      attempt;
+    attempt.allowed = 15;
+    attempt.moves   = true;
+    while (reached_lag > 0. && report.iterations - before < allowed)
+      {
+        double next = reached_lag - fall;
+        if (next < 0.5 * fall)
+          next = 0.;
+        attempt.friction_lag = next;
+        attempt.tolerance    = next > 0. ? path_tolerance : relative_tolerance;
+        const unsigned int spent = report.iterations;
+        run(attempt, work);
+        if (report.converged)
+          {
+            reached     = work.v;
+            reached_lag = next;
+            // At most 55 % of it at a time: near 0 the path turns most.
+            const unsigned int n = report.iterations - spent;
+            fall                 = std::min((n <= 2   ? 3.
+                                             : n <= 4 ? 2.
+                                             : n <= 6 ? 1.2
+                                                      : 0.8) *
+                              fall,
+                            std::max(0.55 * reached_lag, 0.05));
+          }
+        else
+          {
+            work.v = reached;
+            fall   = 0.4 * (reached_lag - next);
+            if (fall < 0.005)
+              break;
+          }
+      }
+    if (reached_lag == 0.)
+      return;
+    if (friction.kind != "automatic")
+      {
+        report.converged = false;
+        report.reason    = format("the exact law was not reached in %u "
+                                  "iterations: a friction lag of %.2g is left",
+                               report.iterations,
+                               reached_lag);
+        return;
+      }
+
+    // Near a turn of the path what has been reached may be no solution.
+    attempt.tolerance    = relative_tolerance;
+    attempt.friction_lag = reached_lag;
+    work.v               = reached;
+    run(attempt, work);
+    if (report.converged)
+      return;
+    attempt.friction_lag = lag;
+    attempt.allowed      = 40;
+    work.v               = first;
+    run(attempt, work);
+  }
+
+  void
+  NonsmoothNewton::run(const Attempt &attempt, const StepWorkspace &work) const
+  {
+    IncrementalProblem &problem  = work.problem;
+    SolverReport       &report   = work.report;
+    Vector             &v        = work.v;
+    const Vector       &residual = work.residual;
+    const bool blend  = attempt.globalisation == Globalisation::elastic_blend;
+    const bool search = attempt.globalisation == Globalisation::line_search;
+    const bool merit  = attempt.globalisation == Globalisation::merit_search;
+    const unsigned int limit = report.iterations + attempt.allowed;
+    report.converged         = false;
+    report.friction_lag      = attempt.friction_lag;
+    problem.set_friction_lag(attempt.friction_lag);
 
     Vector         direction = problem.make_vector();
     Vector         start     = problem.make_vector();
     ResidualReport state;
 
-    const auto evaluate = [&]() {
-      TimerOutput::Scope scope(timer, "residual");
-      v.update_ghost_values();
-      state = problem.residual(residual, v);
-    };
-    const auto record = [&](const double length, const double weight) {
-      report.residual =
-        state.norm /
-        std::max(state.force_norm, std::numeric_limits<double>::min());
-      report.table.push_back({report.residual,
-                              length,
-                              weight,
-                              state.n_cone,
-                              state.n_apex,
-                              state.n_switched});
-    };
-
-    // The change of the prescribed velocities over the step.
-    Vector jump = v;
-    problem.set_prescribed(jump);
-    jump -= v;
-    const Multipliers &rows   = constraints.multipliers;
-    Eigen::VectorXd    defect = rows.defect(v);
-    const bool         jumps =
-      jump.linfty_norm() > 0. || (defect.size() > 0 && defect.norm() > 0.);
-
-    evaluate();
-    record(0., 0.);
-    double              damping = 0.; // the blend of the merit search
-    std::vector<double> rhs(matrix.n_owned);
+    StepWorkspace::Jump jump  = work.jump();
+    const bool          jumps = !jump.is_zero();
+    state                     = work.evaluate();
+    work.record(state, 0., 0., attempt.friction_lag);
+    double damping = 0.; // the blend of the merit search
     for (bool first = true;; first = false)
       {
         if (!std::isfinite(state.norm))
@@ -252,14 +453,16 @@ namespace geocone
               "the residual is not a number" + problem.not_a_number();
             return;
           }
-        if (!(first && jumps) &&
-            state.norm <= std::max(relative_tolerance * state.force_norm,
-                                   absolute_tolerance))
+        if (!(first && (jumps || attempt.moves)) &&
+            state.norm <= std::max(attempt.tolerance * state.force_norm,
+                                   absolute_tolerance) &&
+            state.natural_map <= attempt.tolerance)
           {
             report.converged = true;
             return;
           }
-        if (report.iterations >= limit)
+        if (report.iterations >=
+            limit + (report.residual < path_tolerance ? attempt.allowed : 0))
           {
             report.reason = format(
               "the residual stopped at %.1e after %u iterations (%u points on "
@@ -275,23 +478,18 @@ namespace geocone
         // A few apex points can make a Jacobian without mass singular: blend
         // in as little of the elastic stiffness as makes it regular.
         bool         regular = false;
-        const double wanted  = first && hints.elastic_first ? 1.
-                               : merit                      ? damping
-                               : blend && !first ? std::min(0.5, report.residual)
-                                                 : 0.;
+        const double wanted  = first && attempt.elastic_first ? 1.
+                               : merit                        ? damping
+                               : blend && !first
+                                 ? std::min(0.5, 0.3 * report.residual)
+                                 : 0.;
         double       weight  = wanted;
         for (const double least : {0., 1e-6, 1e-3, 0.1})
           {
             if (least > 0. && least <= wanted)
               continue;
-            {
-              TimerOutput::Scope scope(timer, "assemble");
-              weight = std::max(wanted, least);
-              problem.linearise(matrix, weight);
-            }
-            TimerOutput::Scope scope(timer, "factorise");
-            regular = linear_solver.factorise(matrix);
-            ++report.factorisations;
+            weight  = std::max(wanted, least);
+            regular = work.factorise(weight);
             if (regular)
               {
                 report.regularised += least > 0.;
@@ -304,35 +502,15 @@ namespace geocone
             return;
           }
 
-        if (first && jumps)
-          {
-            TimerOutput::Scope scope(timer, "residual");
-            jump.update_ghost_values();
-            problem.apply_tangent(direction, jump);
-          }
-        for (unsigned int i = 0; i < n_owned; ++i)
-          if (constraints.is_free(i))
-            rhs[constraints.free_row[i]] =
-              -residual.local_element(i) -
-              (first && jumps ? direction.local_element(i) : 0.);
-        {
-          TimerOutput::Scope scope(timer, "solve");
-          solve_constrained(
-            constraints, linear_solver, defect, v.get_mpi_communicator(), rhs);
-        }
-        ++report.iterations;
-        for (unsigned int i = 0; i < n_owned; ++i)
-          direction.local_element(i) =
-            constraints.is_free(i)
-              ? rhs[constraints.free_row[i]]
-              : (first && jumps ? jump.local_element(i) : 0.);
+        work.solve(
+          first && jumps ? &jump.prescribed : nullptr, jump.defect, direction);
 
         double     length = 1.;
         const auto move   = [&](const double x) {
-          for (unsigned int i = 0; i < n_owned; ++i)
+          for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
             v.local_element(i) =
               start.local_element(i) + x * direction.local_element(i);
-          evaluate();
+          state = work.evaluate();
         };
         start = v;
         if ((first && jumps) || !(search || merit))
@@ -368,8 +546,8 @@ namespace geocone
             else if (length > 0.4)
               damping = damping / 4. < 0.01 ? 0. : damping / 4.;
           }
-        defect = rows.defect(v);
-        record(length, weight);
+        jump.defect = problem.free_dofs().multipliers.defect(v);
+        work.record(state, length, weight, attempt.friction_lag);
       }
   }
 } // namespace geocone

@@ -60,6 +60,7 @@ namespace geocone
     if (!inertia)
       constraints->check_support(mesh, space);
     loads = std::make_unique<Loads>(*scene, mesh, space);
+    check_resistance(points, mesh.triangulation().get_communicator());
     if (inertia || scene->gravity.acts())
       integrate_density(*scene, mesh, space, weight_per_g, lumped_mass);
     if (loads->exist())
@@ -74,6 +75,27 @@ namespace geocone
     TimerOutput::Scope scope(timer, "analyse");
     linear_solver->analyse(matrix);
     return "";
+  }
+
+  void
+  ImplicitFEM::check_resistance(const MaterialPoints &points,
+                                const MPI_Comm        comm) const
+  {
+    bool resists = inertia || loads->exist();
+    for (unsigned int m = 0; m < scene->materials.size(); ++m)
+      {
+        const auto cone = scene->materials[m].flow_cone();
+        resists         = resists || !cone || cone->k > 0.;
+      }
+    for (const Mandel &stress : points.stress)
+      resists = resists || stress.norm() > 0.;
+    if (dealii::Utilities::MPI::max(int(resists), comm) == 0)
+      throw InputError(
+        "Materials/" + scene->materials.name(0) + "/Cohesion",
+        0,
+        "> 0 Pa where there is no weight, load, initial stress or inertia",
+        "nothing resists in this scene: give the soil cohesion, or a load, or "
+        "set Time stepping/Inertia = true for a free flow");
   }
 
   Energies
@@ -98,14 +120,17 @@ namespace geocone
   ImplicitFEM::advance(Kinematics            &kinematics,
                        MaterialPoints        &points,
                        const NonsmoothNewton &newton,
+                       Freezer               &freezer,
                        TimerOutput           &timer,
                        const double           t,
                        const double           h)
   {
     if (loads->exist())
       loads->evaluate(force, weight_per_g, t + h);
+    Vector prescribed = problem->make_vector();
+    constraints->set_values(prescribed, t + h);
     problem->begin_step(
-      h, t + h, loads->exist() ? &force : nullptr, kinematics.velocity);
+      h, loads->exist() ? &force : nullptr, kinematics.velocity, prescribed);
 
     StepReport report;
     Vector     residual = problem->make_vector();
@@ -113,6 +138,7 @@ namespace geocone
     report.newton =
       newton.solve(*problem, matrix, *linear_solver, timer, v, residual, {});
     report.converged = report.newton.converged;
+    freezer.take(*problem, kinematics.velocity, false, report.converged);
     if (!report.converged)
       return report;
 

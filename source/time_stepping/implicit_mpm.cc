@@ -203,6 +203,11 @@ namespace geocone
   void
   ImplicitMPM::begin(const MaterialPoints &points, TimerOutput &timer)
   {
+    if (Utilities::MPI::sum(points.n_points(), force.get_mpi_communicator()) ==
+        0)
+      throw StepFailure("all particles have left the background mesh\n"
+                        "  remedy:  end the loading earlier, or enlarge "
+                        "'Mesh/Box'");
     {
       TimerOutput::Scope scope(timer, "transfer");
       lumped_mass.reinit(space->partitioner());
@@ -337,6 +342,7 @@ namespace geocone
   ImplicitMPM::advance(Kinematics            &kinematics,
                        MaterialPoints        &points,
                        const NonsmoothNewton &newton,
+                       Freezer               &freezer,
                        TimerOutput           &timer,
                        const double           t,
                        const double           h)
@@ -358,7 +364,7 @@ namespace geocone
     report.multipliers = constraints->multipliers.n_rows();
     report.rows        = constraints->multipliers.n_given();
 
-    problem->begin_step(solved_h, end, &force, velocity_L);
+    problem->begin_step(solved_h, &force, velocity_L, v);
     for (const Start start : starts)
       {
         v = velocity_L;
@@ -369,20 +375,17 @@ namespace geocone
                                      ? kinematics.velocity.local_element(i)
                                      : 0.;
         constraints->set_values(v, end);
-        SolverReport tried = newton.solve(*problem,
+        const Vector v_start = v;
+        SolverReport tried   = newton.solve(*problem,
                                           matrix,
                                           *linear_solver,
                                           timer,
                                           v,
                                           residual,
                                           {true, start == Start::particles});
-        tried.iterations += report.newton.iterations;
-        tried.factorisations += report.newton.factorisations;
-        tried.regularised += report.newton.regularised;
-        tried.table.insert(tried.table.begin(),
-                           report.newton.table.begin(),
-                           report.newton.table.end());
+        tried.add_earlier(report.newton);
         report.newton = std::move(tried);
+        freezer.take(*problem, v_start, true, report.newton.converged);
         if (report.newton.converged)
           break;
       }

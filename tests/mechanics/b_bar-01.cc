@@ -8,6 +8,7 @@
 // cell the mean volumetric strain of the cell and leave the deviator as it is,
 // and the mass must be that of the particles.
 
+#include <geocone/mechanics/constraints.h>
 #include <geocone/mechanics/incremental_problem.h>
 
 #include "../discretisation/setup.h"
@@ -102,7 +103,7 @@ check(const std::string &element,
         dv.local_element(i) = 1e-4 * some(i + 2000);
       one.local_element(i) = i % dim == 0;
     }
-  problem.begin_step(h, h, nullptr, vL);
+  problem.begin_step(h, nullptr, vL, Vector(layout));
 
   // The mass: of a unit velocity, all that the particles have.
   problem.apply_mass(R, one);

@@ -46,7 +46,7 @@ struct Run
   void
   step(const double h)
   {
-    report = stepper.advance(kinematics, points, newton, timer, t, h);
+    report = stepper.advance(kinematics, points, newton, freezer, timer, t, h);
     if (!report.converged && speaks())
       std::printf("  failed: %s\n", report.newton.reason.c_str());
     t += h;
@@ -82,6 +82,7 @@ struct Run
   BackgroundMesh  mesh;
   Space           space;
   NonsmoothNewton newton;
+  Freezer         freezer;
   ImplicitMPM     stepper;
   TimerOutput     timer;
   Kinematics      kinematics;

@@ -63,6 +63,7 @@ run(const char                     *name,
   BackgroundMesh  mesh(MPI_COMM_WORLD);
   Space           space;
   NonsmoothNewton newton;
+  Freezer         freezer;
   ImplicitFEM     fem;
   ImplicitMPM     mpm(file);
   StepControl     step_control;
@@ -82,7 +83,8 @@ run(const char                     *name,
   double           t = 0., momentum = 0.;
   for (const double h : scene.loading.stages[0]->step_sizes())
     {
-      if (!mpm.advance(kinematics, points, newton, timer, t, h).converged)
+      if (!mpm.advance(kinematics, points, newton, freezer, timer, t, h)
+             .converged)
         std::printf("FAILED\n");
       t += h;
       momentum = std::max(

@@ -33,7 +33,7 @@ main(int argc, char **argv)
           const double residual = v[5];
           // Where no point switches the active set has been found; rounding
           // ends it.
-          if (step == last_step && v[10] == 0. && last < 1e-3 && last > 1e-9)
+          if (step == last_step && v[11] == 0. && last < 1e-3 && last > 1e-9)
             {
               ++n_checked;
               n_quadratic += residual <= 1e3 * last * last + 1e-13;

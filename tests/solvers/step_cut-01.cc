@@ -37,7 +37,8 @@ struct Parts
   bool
   advance(const double t, const double h)
   {
-    return stepper.advance(kinematics, points, newton, timer, t, h).converged;
+    return stepper.advance(kinematics, points, newton, freezer, timer, t, h)
+      .converged;
   }
 
   Scene               scene;
@@ -45,6 +46,7 @@ struct Parts
   BackgroundMesh      mesh;
   Space               space;
   NonsmoothNewton     newton;
+  Freezer             freezer;
   ImplicitFEM         stepper;
   dealii::TimerOutput timer;
   MaterialPoints      points;

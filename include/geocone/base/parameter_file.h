@@ -34,6 +34,12 @@ namespace geocone
     ParameterFile(const std::string              &file_name,
                   const std::vector<std::string> &overrides);
 
+    /** The same from a text; @p name is what errors call it. */
+    static ParameterFile
+    from_text(const std::string              &text,
+              const std::string              &name,
+              const std::vector<std::string> &overrides);
+
     /** The value of one entry, e.g. "Materials/Names", before parse(). */
     std::string
     peek(const std::string &path, const std::string &default_value) const;
@@ -69,6 +75,10 @@ namespace geocone
       return folder_of_file;
     }
 
+    /** The text of one section, with the present values. */
+    static std::string
+    section(const std::string &name);
+
     /** Prints all declared parameters with their present values. */
     static void
     print(std::ostream &out, const bool with_documentation);
@@ -85,6 +95,10 @@ namespace geocone
     read(const std::string &file_name,
          const std::string &shown_name,
          const int          depth);
+
+    /** Adds overrides of the command line. */
+    void
+    append(const std::vector<std::string> &overrides);
 
     void
     check_names() const;

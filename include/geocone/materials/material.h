@@ -21,6 +21,13 @@ namespace geocone
   {
     dealii::ArrayView<const Mandel> strain;   ///< strain increments of the step
     dealii::ArrayView<const Mandel> stress_n; ///< stress at t_n (Pa)
+
+    /**
+     * Part of the normal stress on which strength depends that is taken from
+     * t_n: 0 is the exact law, 1 makes it explicit (doc/theory.md, section
+     * "Delayed friction"). Laws without friction have no use for it.
+     */
+    double friction_lag = 0.;
   };
 
   /** What the material answers. An empty `tangent` is not computed. */

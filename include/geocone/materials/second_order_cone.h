@@ -67,6 +67,9 @@ namespace geocone
     double b = 0.; ///< aperture of the flow cone, e.g. sin(theta)
     double k = 0.; ///< radius of the yield surface at s_n = 0 (Pa)
 
+    /** Cut-off: s_n >= -tension also where the apex lies farther out (Pa). */
+    double tension = std::numeric_limits<double>::infinity();
+
     template <typename V>
     double
     yield_function(const V &s) const
@@ -82,6 +85,35 @@ namespace geocone
       V y = z;
       y[0] += (a - b) * tangential_norm(z);
       return y;
+    }
+
+    /** An element of the generalised Jacobian of psi(). */
+    MandelMatrix
+    psi_slope(const Mandel &z) const
+    {
+      MandelMatrix slope = MandelMatrix::Identity();
+      if (const double T = tangential_norm(z); T > 0.)
+        slope.block<1, 2>(0, 1) = ((a - b) / T) * z.tail<2>().transpose();
+      return slope;
+    }
+
+    /**
+     * The cone with delayed friction: a part lambda of the strength's normal
+     * stress is that of t_n,
+     *   |s_t| <= a ((1 - m) s_n + m s_n^n) + k,   m = lambda (a - b)/a,
+     * with the aperture a - lambda (a - b) >= b, the same flow, and no more
+     * tension than before. lambda = 0 is the exact law; for associated flow
+     * nothing changes. The plastic work stays non-negative, for the radius of
+     * each cross-section does.
+     */
+    FlowCone
+    delayed(const double lambda, const double s_n_at_start) const
+    {
+      const double part = lambda * (a - b);
+      if (part == 0.)
+        return *this;
+      const double limit = k / a;
+      return {a - part, b, k + part * std::max(s_n_at_start, -limit), limit};
     }
 
     /** Violation of y in K*: max(0, a |y_t| - y_n). */
@@ -120,6 +152,8 @@ namespace geocone
    *   f <= 0            : s = t                                   (elastic)
    *   q >= 0 or a = 0   : s_n = t_n + K b g, s_t = q t_t/T        (cone)
    *   otherwise         : s = (-k/a, 0)                           (apex).
+   * Where a cut-off comes before the apex, states beyond it go to s_n = -tension,
+   * with s_t shortened to the radius there; they count as apex, too.
    * For b = a this is the projection of t onto C in the metric of D^{-1}; with
    * K = 2G it is the Euclidean projection P_C.
    *
@@ -138,7 +172,8 @@ namespace geocone
     constexpr int n_tangential = V::RowsAtCompileTime - 1;
     const double  radius       = cone.a * t[0] + cone.k;
     const double  T2           = t.template tail<n_tangential>().squaredNorm();
-    if (radius >= 0. && T2 <= radius * radius) // most points: no root needed
+    if (radius >= 0. && T2 <= radius * radius &&
+        t[0] >= -cone.tension) // most points: no root needed
       {
         s = t;
         if (tangent != nullptr)
@@ -150,7 +185,7 @@ namespace geocone
         return Mode::elastic;
       }
     const double T = std::sqrt(T2);
-    const double f = T - radius;
+    const double f = std::max(0., T - radius); // 0 where only cut off
     const double H = two_G + cone.a * cone.b * K;
     const double g = f / H;
     // q = T - 2G g, written such that the cone is met to the last digit also
@@ -158,6 +193,26 @@ namespace geocone
     // either form may be rounding of either sign: then it is the tip.
     const double s_n = t[0] + K * cone.b * g;
     const double q   = std::min(cone.a * s_n + cone.k, T);
+    if (s_n < -cone.tension)
+      {
+        const double limit = std::max(0., cone.k - cone.a * cone.tension);
+        const double part  = T > limit ? limit / T : 1.;
+        s[0]               = -cone.tension;
+        s.template tail<n_tangential>() =
+          part * t.template tail<n_tangential>();
+        if (tangent != nullptr)
+          {
+            tangent->setZero();
+            auto C = tangent->template block<n_tangential, n_tangential>(1, 1);
+            C.diagonal().setConstant(two_G * part);
+            if (T > limit)
+              {
+                const auto u = (t.template tail<n_tangential>() / T).eval();
+                C -= two_G * part * u * u.transpose();
+              }
+          }
+        return Mode::apex;
+      }
     if ((q >= 0. && T - two_G * g >= 0.) || cone.a == 0.)
       {
         const auto u = (t.template tail<n_tangential>() / T).eval();

@@ -4,7 +4,7 @@
 #ifndef geocone_mechanics_constraints_h
 #define geocone_mechanics_constraints_h
 
-#include <geocone/mechanics/multipliers.h>
+#include <geocone/mechanics/unknowns.h>
 
 #include <vector>
 
@@ -16,7 +16,7 @@ namespace geocone
    * the body, is the residual in the row of its dof. Linear constraints on free
    * dofs stand beside them, as rows with multipliers.
    */
-  class Constraints
+  class Constraints : public Unknowns
   {
   public:
     /**
@@ -47,40 +47,6 @@ namespace geocone
     void
     number_unknowns(const Vector *mass);
 
-    bool
-    is_free(const unsigned int local_dof) const
-    {
-      return free_row[local_dof] >= 0;
-    }
-
-    /** Whether a local dof is of a node with mass. */
-    bool
-    has_mass(const unsigned int local_dof) const
-    {
-      return with_mass[local_dof];
-    }
-
-    bool
-    is_prescribed(const unsigned int local_dof) const
-    {
-      return free_row[local_dof] == prescribed_row;
-    }
-
-    /**
-     * Per local dof its row among the free ones, or a negative number: where it
-     * is prescribed, or where the node has no mass.
-     */
-    std::vector<int>     free_row;
-    static constexpr int prescribed_row = -1, massless_row = -2;
-
-    /** Global row numbers of the local free rows; the owned ones come first. */
-    std::vector<int> global_row;
-    int              n_owned_rows = 0;
-    int              n_rows       = 0; ///< unknowns of all ranks
-
-    /** Constraints on the free dofs. */
-    Multipliers multipliers;
-
     /**
      * Resultant of a nodal force over the nodes of a condition (N/m).
      * @param residual residual of the momentum balance in all rows
@@ -104,7 +70,6 @@ namespace geocone
       unsigned int component;
     };
 
-    std::vector<bool>                      with_mass;
     const Scene                           &scene;
     const Space                           &space;
     const MPI_Comm                         comm;

@@ -7,13 +7,17 @@
 #include <geocone/base/sparse_matrix.h>
 #include <geocone/discretisation/material_points.h>
 #include <geocone/materials/material_library.h>
-#include <geocone/mechanics/constraints.h>
+#include <geocone/mechanics/natural_map.h>
+#include <geocone/mechanics/unknowns.h>
 
 #include <algorithm>
+#include <functional>
 #include <vector>
 
 namespace geocone
 {
+  struct FrozenProblem;
+
   /** What residual() has found, summed over the ranks. */
   struct ResidualReport
   {
@@ -22,6 +26,9 @@ namespace geocone
     unsigned int n_cone     = 0;  ///< points on the smooth part of the cone
     unsigned int n_apex     = 0;  ///< points at the apex
     unsigned int n_switched = 0;  ///< points whose mode differs from last time
+
+    /** Largest |R| of NaturalMap over the stress scale; 0 for the return map. */
+    double natural_map = 0.;
   };
 
   /**
@@ -37,6 +44,10 @@ namespace geocone
     double dual_violation  = 0.; ///< max(0, a |y_t| - y_n) / strain scale
     double complementarity = 0.; ///< |<y, s + (k/a) n>| / (both scales)
 
+    /** max(0, |s_t| - a s_n - k) of the exact cone (Pa): not zero where friction
+     *  is delayed, while the other numbers are those of the law that was solved. */
+    double cone_excess = 0.;
+
     void
     take_worse(const Quality &other)
     {
@@ -44,6 +55,7 @@ namespace geocone
       cone_violation  = std::max(cone_violation, other.cone_violation);
       dual_violation  = std::max(dual_violation, other.dual_violation);
       complementarity = std::max(complementarity, other.complementarity);
+      cone_excess     = std::max(cone_excess, other.cone_excess);
     }
   };
 
@@ -55,9 +67,11 @@ namespace geocone
    * with prescribed velocities eliminated. The multipliers are functions of v:
    * those that leave the least residual in the metric of scale(), which at the
    * solution are the multipliers. The mass is M = (1 - c) diag(m) + c M_c, with
-   * M_c the sum of m_p N_p' N_p over the points. It knows points, weights, gradients
-   * and constraints, and never asks whether they are FEM or MPM. The state at
-   * t_n is const; trial states live here.
+   * M_c the sum of m_p N_p' N_p over the points. The stress is that of the
+   * materials (closed-form return maps), or that of the iterate of NaturalMap,
+   * which changes with each residual(). It knows points, weights, gradients and
+   * constraints, and never asks whether they are FEM or MPM. The state at t_n is
+   * const; trial states live here.
    */
   class IncrementalProblem
   {
@@ -69,21 +83,51 @@ namespace geocone
     IncrementalProblem(
       const MaterialPoints &points,
       const Materials      &materials,
-      const Constraints    &constraints,
+      const Unknowns       &unknowns,
       const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &layout,
       const Vector *lumped_mass,
       const double  consistent_part = 0.);
 
     /**
-     * Sets the data of the step from t_n to t = t_n + h.
-     * @param force F at t, or null for none
+     * Sets the data of a step of size h.
+     * @param force F at its end, or null for none
      * @param velocity_L vL, velocities at t_n
+     * @param prescribed velocities at its end, where they are prescribed
      */
     void
     begin_step(const double  h,
-               const double  t,
                const Vector *force,
-               const Vector &velocity_L);
+               const Vector &velocity_L,
+               const Vector &prescribed);
+
+    /**
+     * Takes a part of the normal stress on which strength depends from t_n
+     * (Increment::friction_lag), from the next residual() on.
+     */
+    void
+    set_friction_lag(const double lag)
+    {
+      friction_lag = lag;
+    }
+
+    /** Takes the stress from the materials, from the next residual() on. */
+    void
+    use_return_map()
+    {
+      by_natural_map.reset();
+    }
+
+    /**
+     * Takes the stress from NaturalMap, from the next residual() on.
+     * @param rho in units of 2G of each point
+     * @param start where the iteration for s starts (Pa)
+     */
+    void
+    use_natural_map(const double rho, const std::vector<Mandel> &start)
+    {
+      stress = start;
+      by_natural_map.emplace(points, materials, rho);
+    }
 
     /**
      * Evaluates trial states and R(v) in all rows; in prescribed rows it is the
@@ -132,15 +176,12 @@ namespace geocone
 
     /** Sets the prescribed components of v to their values at the step's end. */
     void
-    set_prescribed(Vector &v) const
-    {
-      constraints.set_values(v, t);
-    }
+    set_prescribed(Vector &v) const;
 
-    const Constraints &
+    const Unknowns &
     free_dofs() const
     {
-      return constraints;
+      return unknowns;
     }
 
     /** Multipliers at the last residual(): forces along the rows of H (N/m). */
@@ -173,6 +214,13 @@ namespace geocone
       return Vector(layout);
     }
 
+    /**
+     * The problem as data, on the first rank; it lacks what only the time stepper
+     * knows (materials' parameters, whether points move). Collective.
+     */
+    FrozenProblem
+    freeze(const Vector &start) const;
+
     /** Checks of the last residual()'s state; the same on all ranks. */
     Quality
     quality() const;
@@ -180,6 +228,13 @@ namespace geocone
     /** Names a point whose trial state is not a number, or nothing. Collective. */
     std::string
     not_a_number() const;
+
+    /** Stress at t_n, by point. */
+    const std::vector<Mandel> &
+    stress_at_start() const
+    {
+      return points.stress;
+    }
 
     /** @name Trial states at the last residual(), by point */
     /** @{ */
@@ -211,21 +266,39 @@ namespace geocone
     }
 
   private:
+    /** The same problem for the stresses alone needs all of the data. */
+    friend class Reduction;
+
+    /** Calls f(p, dof, column of B_p for a local dof) for all that are not 0. */
+    void
+    for_each_strain_column(
+      const std::function<
+        void(const unsigned int, const unsigned int, const Mandel &)> &f) const;
+
     /** Asks the materials, run by run of points with the same one. */
     void
     update_materials(const bool with_tangent) const;
 
-    const MaterialPoints &points;
-    const Materials      &materials;
-    const Constraints    &constraints;
+    /** Makes the tangents of the last residual(), if it has not yet. */
+    void
+    update_tangents() const
+    {
+      if (!by_natural_map)
+        update_materials(true);
+    }
+
+    const MaterialPoints                                            &points;
+    const Materials                                                 &materials;
+    const Unknowns                                                  &unknowns;
     const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
     const Vector                                                    *mass;
     const double consistent_part;
 
-    double        h     = 0.;
-    double        t     = 0.;
-    const Vector *force = nullptr;
+    double        h            = 0.;
+    double        friction_lag = 0.;
+    const Vector *force        = nullptr;
     Vector        velocity_L;
+    Vector        prescribed;
 
     Vector          elastic_diagonal; ///< of the present h, or empty
     Eigen::VectorXd lambda;
@@ -252,6 +325,8 @@ namespace geocone
       unsigned int begin, end, material;
     };
     std::vector<Run> runs;
+
+    std::optional<NaturalMap> by_natural_map; ///< or nothing: the return map
 
     std::vector<Mandel>               strain;
     mutable std::vector<Mandel>       stress;

@@ -34,6 +34,18 @@ namespace geocone
       unsigned int number;
     };
 
+    Multipliers() = default;
+
+    /** Rows of one rank as data, without the conditions that made them. */
+    Multipliers(const std::vector<unsigned int> &dofs,
+                const Eigen::MatrixXd           &H,
+                const Eigen::VectorXd           &q)
+      : given(H.rows())
+      , touched(dofs)
+      , H(H)
+      , q(q)
+    {}
+
     void
     clear();
 
@@ -116,6 +128,13 @@ namespace geocone
     coefficients() const
     {
       return H;
+    }
+
+    /** q, without what prescribed dofs contribute. */
+    const Eigen::VectorXd &
+    targets() const
+    {
+      return q;
     }
 
   private:

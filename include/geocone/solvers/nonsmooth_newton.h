@@ -4,40 +4,16 @@
 #ifndef geocone_solvers_nonsmooth_newton_h
 #define geocone_solvers_nonsmooth_newton_h
 
-#include <geocone/mechanics/incremental_problem.h>
-#include <geocone/solvers/linear_solver.h>
+#include <geocone/mechanics/reduced_problem.h>
+#include <geocone/solvers/reduced_report.h>
+#include <geocone/solvers/step_workspace.h>
 
 #include <deal.II/base/parameter_acceptor.h>
-#include <deal.II/base/timer.h>
 
 #include <string>
-#include <vector>
 
 namespace geocone
 {
-  /** A line of the Newton table: a state and how it was reached. */
-  struct NewtonIteration
-  {
-    double       relative_residual = 0.; ///< norm / force norm
-    double       step_length       = 0.; ///< of the step that led here
-    double       elastic_blend     = 0.; ///< w in its tangent
-    unsigned int n_cone            = 0;
-    unsigned int n_apex            = 0;
-    unsigned int n_switched        = 0;
-  };
-
-  /** What a solve came to. */
-  struct SolverReport
-  {
-    bool         converged      = false;
-    unsigned int iterations     = 0; ///< linear systems solved
-    unsigned int factorisations = 0;
-    unsigned int regularised    = 0;  ///< systems made regular by a blend
-    double       residual       = 0.; ///< relative, at the end
-    std::vector<NewtonIteration> table;
-    std::string                  reason; ///< why it did not converge
-  };
-
   /**
    * Semismooth Newton method for R(v) = 0 with the generalised Jacobian of the
    * closed-form return map (the natural map in the elastic metric, with (s, z)
@@ -50,17 +26,25 @@ namespace geocone
    * Globalisation, by name:
    *  - line search: that of line_search.h, along each Newton direction;
    *  - elastic blend: full steps with the tangent (1 - w) C + w D, where
-   *    w = min(1/2, |R_free| / |B'V s|), which vanishes with the residual;
+   *    w = min(1/2, 0.3 |R_free| / |B'V s|), which vanishes with the residual;
    *  - merit search: steps are halved until the merit sum R_i^2 / D_i falls, D
    *    the diagonal of the elastic Jacobian; where that stalls the tangent is
    *    blended, w = max(0.02, 3 w), until it works again;
+   *  - lag continuation: friction that lags is easy (its law is nearer to
+   *    associated flow, and explicit at lag 1), so that the exact law is reached
+   *    on a path of solutions whose lag falls from 1/2 to 0; each is the start
+   *    of the next, with the line search, and the lag falls less where one fails;
    *  - none: full Newton steps;
-   *  - automatic: for particles the line search, but the merit search for theta <
-   *    phi/2 after an elastic start. For FEM the elastic blend for theta < phi/2
-   *    without inertia, the line search otherwise; where that fails the other
-   *    one from the same start, but for associated flow and for theta < phi/2
-   *    with inertia, where a shorter step is the better cure
-   *    (doc/performance.md).
+   *  - automatic: the line search for theta >= phi/2. Otherwise, for points that
+   *    stay, the elastic blend, which finds most solutions fast, and for particles
+   *    nothing comes first; what this does not solve the lag continuation does
+   *    (doc/performance.md compares them).
+   *
+   * Friction, by name:
+   *  - exact: the law at t_{n+1}, or the step is not solved;
+   *  - delayed: the law with `Friction lag`, a time discretisation of first order;
+   *  - automatic: exact where the continuation gets there, and otherwise with the
+   *    least lag that it has reached, which the report tells.
    */
   class NonsmoothNewton : public dealii::ParameterAcceptor
   {
@@ -91,11 +75,14 @@ namespace geocone
           Vector              &residual,
           const Hints         &hints) const;
 
-    double
-    tolerance() const
-    {
-      return relative_tolerance;
-    }
+    /**
+     * Solves a reduced problem that is given as such: by Gauss-Seidel if that is
+     * the formulation, by Newton's method with the natural map or, for all other
+     * formulations, with the return map.
+     * @param[in,out] s stresses in cone axes (Pa)
+     */
+    ReducedReport
+    solve_reduced(const ReducedProblem &problem, Eigen::VectorXd &s) const;
 
     /** Name of the linear solver that was asked for. */
     const std::string &
@@ -113,22 +100,47 @@ namespace geocone
       none
     };
 
-    /** solve() with one globalisation; what it spends is added to the report. */
-    void
-    attempt(const Globalisation  globalisation,
-            const Hints         &hints,
-            IncrementalProblem  &problem,
-            SparseMatrix        &matrix,
-            LinearSolver        &linear_solver,
-            dealii::TimerOutput &timer,
-            Vector              &v,
-            Vector              &residual,
-            SolverReport        &report) const;
+    /** A Newton iteration with one globalisation at one lag. */
+    struct Attempt
+    {
+      Globalisation globalisation = Globalisation::line_search;
+      double        tolerance     = 0.; ///< relative
+      double        friction_lag  = 0.;
+      unsigned int  allowed       = 0; ///< iterations, more where it converges
+      bool          elastic_first = false;
+      bool          moves         = false; ///< solves once at least
+    };
 
-    double       relative_tolerance = 1e-10;
-    double       absolute_tolerance = 1e-12;
-    unsigned int max_iterations     = 0;
-    std::string  globalisation      = "automatic";
+    /** Checks what concerns formulations and first iterates. */
+    void
+    prepare_formulation() const;
+
+    /** Runs an attempt from v; what it spends is added to the report. */
+    void
+    run(const Attempt &attempt, const StepWorkspace &work) const;
+
+    /** Follows the solutions from `lag` down to 0, or as far as it gets. */
+    void
+    continue_to_exact_law(const double         lag,
+                          const unsigned int   allowed,
+                          const Hints         &hints,
+                          const StepWorkspace &work) const;
+
+    /** Solves the law with one lag, from friction that is explicit if need be. */
+    void
+    solve_delayed(const double         lag,
+                  const double         tolerance,
+                  const Hints         &hints,
+                  const StepWorkspace &work) const;
+
+    double       relative_tolerance   = 1e-10;
+    double       absolute_tolerance   = 1e-12;
+    unsigned int max_iterations       = 0;
+    std::string  globalisation        = "automatic";
+    std::string  formulation          = "return map";
+    double       rho                  = 0.03;
+    std::string  first_iterate        = "none";
+    unsigned int first_iterate_sweeps = 10;
 
     /** Has a section of its own. */
     struct SolverName : dealii::ParameterAcceptor
@@ -137,6 +149,15 @@ namespace geocone
       std::string value = "automatic";
     };
     SolverName solver_name;
+
+    /** Part of the time discretisation, and of its section. */
+    struct Friction : dealii::ParameterAcceptor
+    {
+      Friction();
+      std::string kind = "automatic";
+      double      lag  = 0.5;
+    };
+    Friction friction;
   };
 } // namespace geocone
 

@@ -4,6 +4,7 @@
 #ifndef geocone_time_stepping_implicit_fem_h
 #define geocone_time_stepping_implicit_fem_h
 
+#include <geocone/mechanics/constraints.h>
 #include <geocone/mechanics/loads.h>
 #include <geocone/time_stepping/time_stepper.h>
 
@@ -42,6 +43,7 @@ namespace geocone
     advance(Kinematics            &kinematics,
             MaterialPoints        &points,
             const NonsmoothNewton &newton,
+            Freezer               &freezer,
             dealii::TimerOutput   &timer,
             const double           t,
             const double           h) override;
@@ -65,6 +67,10 @@ namespace geocone
     }
 
   private:
+    /** Refuses a scene in which no stress can arise. Collective. */
+    void
+    check_resistance(const MaterialPoints &points, const MPI_Comm comm) const;
+
     bool inertia = false;
 
     const Scene                        *scene = nullptr;

@@ -55,6 +55,7 @@ namespace geocone
     advance(Kinematics            &kinematics,
             MaterialPoints        &points,
             const NonsmoothNewton &newton,
+            Freezer               &freezer,
             dealii::TimerOutput   &timer,
             const double           t,
             const double           h) override;

@@ -5,6 +5,7 @@
 #define geocone_time_stepping_time_stepper_h
 
 #include <geocone/solvers/nonsmooth_newton.h>
+#include <geocone/time_stepping/freezer.h>
 
 #include <deal.II/base/timer.h>
 
@@ -121,6 +122,7 @@ namespace geocone
     advance(Kinematics            &kinematics,
             MaterialPoints        &points,
             const NonsmoothNewton &newton,
+            Freezer               &freezer,
             dealii::TimerOutput   &timer,
             const double           t,
             const double           h) = 0;

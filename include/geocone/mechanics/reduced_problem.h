@@ -1,0 +1,113 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mechanics_reduced_problem_h
+#define geocone_mechanics_reduced_problem_h
+
+#include <geocone/materials/second_order_cone.h>
+
+#include <Eigen/Dense>
+#include <Eigen/SparseCore>
+
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * An incremental problem of which only the stresses are left (Guillet et al.
+   * 2025, eqs 61, 74), as data: find s, lambda such that
+   *   z = W s - C lambda + q,   0 = -C' s + L lambda + d,
+   * and (s_p, z_p) fulfils the law of cone p (FlowCone), in cone axes, for each
+   * of the n cones. With M, B, S, H of eq (71) and a time step h,
+   *   W = S + h^2 B M^-1 B',  q = -q_sigma - h B M^-1 q_v,
+   *   C = h B M^-1 H',  L = H M^-1 H',  d = H M^-1 q_v - q_BC.
+   * Without constraints C, L and d are empty. s is a stress (Pa); z may be a
+   * strain increment or, with the volumes of the points in W and q, a multiple
+   * of it.
+   */
+  struct ReducedProblem
+  {
+    using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+    std::vector<FlowCone> cones; ///< n
+    Matrix                W;     ///< 3n x 3n, symmetric positive definite
+    Eigen::VectorXd       q;     ///< 3n
+    Eigen::MatrixXd       C;     ///< 3n x m, or empty
+    Eigen::MatrixXd       L;     ///< m x m, symmetric positive definite
+    Eigen::VectorXd       d;     ///< m
+
+    unsigned int
+    n_cones() const
+    {
+      return cones.size();
+    }
+
+    unsigned int
+    n_multipliers() const
+    {
+      return d.size();
+    }
+
+    /** The 3 x 3 block of W on the diagonal of a cone. */
+    MandelMatrix
+    diagonal_block(const unsigned int p) const;
+
+    /** z = W s - C lambda + q. */
+    Eigen::VectorXd
+    z(const Eigen::VectorXd &s, const Eigen::VectorXd &lambda) const;
+
+    /** lambda that fulfils the constraints for a given s: L^-1 (C' s - d). */
+    Eigen::VectorXd
+    multipliers(const Eigen::VectorXd &s) const;
+
+    /**
+     * The same problem without lambda (eqs 74, 75): W - C L^-1 C' and
+     * q + C L^-1 d. The new W is dense where C is.
+     * @throws RunError if L is not positive definite (redundant constraints)
+     */
+    ReducedProblem
+    projected() const;
+
+    /**
+     * Error of a state, whatever solver it comes from (eq 59):
+     *   max_p |s_p - P_C(s_p - rho_p Psi(z_p))| / (max_p |s_p| + max_p k_p),
+     * with rho_p = 3/trace(W_pp) and lambda = multipliers(s). Without unit;
+     * infinite for s = 0 without cohesion, unless that is the solution.
+     */
+    double
+    natural_map_error(const Eigen::VectorXd &s) const;
+  };
+
+  /** rho = 3/trace(W_pp): the scale of s/z in the natural map of one cone. */
+  inline double
+  natural_scale(const MandelMatrix &W)
+  {
+    return 3. / W.trace();
+  }
+
+  /** |s - P_C(s - rho Psi(z))| of one cone (Pa). */
+  inline double
+  natural_map_norm(const FlowCone &cone,
+                   const Mandel   &s,
+                   const Mandel   &z,
+                   const double    rho)
+  {
+    return natural_map(cone, s, Mandel(cone.psi(z)), rho).norm();
+  }
+
+  /**
+   * Reads a problem in the text format of the plasticity problems of Siconos:
+   * dimension (3), n, type of the model (1; absent in older files), storage of
+   * the matrix (0 = dense), 3n, 3n, 3n, 3n, the rows of W, q, and for each cone
+   * an aperture eta = a and a coefficient theta. The change of variable of the
+   * file is z + theta |z_t| n, so that theta = a - b. There is no cohesion:
+   * stresses are measured from the apex.
+   * @throws InputError naming the file if it is missing, cut, has something that
+   * is not a number, or describes anything else than the above
+   */
+  ReducedProblem
+  read_siconos(const std::string &file_name);
+} // namespace geocone
+
+#endif

@@ -1,0 +1,61 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mechanics_reduction_h
+#define geocone_mechanics_reduction_h
+
+#include <geocone/mechanics/incremental_problem.h>
+#include <geocone/mechanics/reduced_problem.h>
+
+namespace geocone
+{
+  /**
+   * A step of an IncrementalProblem as a ReducedProblem for its stresses (paper,
+   * eqs 61, 74), and the way back. With v* = vL + h M^-1 F on the free dofs and
+   * the prescribed velocities elsewhere, and each point's law multiplied by its
+   * volume so that W is symmetric,
+   *   W = V S + h^2 V B M^-1 B' V,   q = -V S s_n - h V B v*,
+   *   C = h^2 V B M^-1 H',  L = h^2 H M^-1 H',  d = h (H v* - q_H),
+   * where B, M and H are those of the free dofs: W is in m^2/Pa.
+   */
+  class Reduction
+  {
+  public:
+    /** More cones make the dense matrix of ReducedNewton larger than 650 MB. */
+    static constexpr unsigned int max_cones = 3000;
+
+    /**
+     * @throws InputError where there is no such problem: on several ranks, without
+     * inertia, for a consistent mass, for materials without a cone, and for more
+     * than max_cones points
+     */
+    explicit Reduction(const IncrementalProblem &problem);
+
+    const ReducedProblem &
+    problem() const
+    {
+      return reduced;
+    }
+
+    /** The stress at t_n in cone axes (Pa). */
+    Eigen::VectorXd
+    stress_at_start() const;
+
+    /**
+     * v = v* - h M^-1 (B'V s - H' lambda) on the free dofs, lambda from s, and
+     * the prescribed velocities.
+     */
+    void
+    recover_velocity(const Eigen::VectorXd &s, Vector &v) const;
+
+  private:
+    const IncrementalProblem &incremental;
+    ReducedProblem            reduced;
+    Eigen::VectorXd           mobility; ///< h/m of the free dofs (s m/kg)
+    ReducedProblem::Matrix    VB;       ///< on the free dofs, in cone axes
+    Eigen::MatrixXd           H;        ///< on the free dofs
+    Vector                    velocity; ///< v*
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,31 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_solvers_first_iterate_h
+#define geocone_solvers_first_iterate_h
+
+#include <geocone/solvers/step_workspace.h>
+
+namespace geocone
+{
+  /**
+   * Moves v by fixed-point iterations v -= K^-1 R(v), with K the elastic Jacobian
+   * factorised once: each is an elastic step with the plastic strain of the last
+   * one. Prescribed velocities and H v = q are those of the step's end.
+   * @return the stresses of the return map at v (Pa)
+   */
+  std::vector<Mandel>
+  fixed_point_iterate(const unsigned int   n_iterations,
+                      const StepWorkspace &work);
+
+  /**
+   * Moves v to the velocities of stresses that Gauss-Seidel sweeps give, from the
+   * stress at t_n (Reduction).
+   * @return these stresses (Pa)
+   * @throws InputError as Reduction does
+   */
+  std::vector<Mandel>
+  gauss_seidel_iterate(const unsigned int n_sweeps, const StepWorkspace &work);
+} // namespace geocone
+
+#endif

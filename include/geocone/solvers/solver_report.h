@@ -1,0 +1,42 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_solvers_solver_report_h
+#define geocone_solvers_solver_report_h
+
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /** A line of the Newton table: a state and how it was reached. */
+  struct NewtonIteration
+  {
+    double       relative_residual = 0.; ///< norm / force norm
+    double       step_length       = 0.; ///< of the step that led here
+    double       elastic_blend     = 0.; ///< w in its tangent
+    double       friction_lag      = 0.; ///< of the law that was linearised
+    unsigned int n_cone            = 0;
+    unsigned int n_apex            = 0;
+    unsigned int n_switched        = 0;
+  };
+
+  /** What a solve came to. */
+  struct SolverReport
+  {
+    bool         converged      = false;
+    unsigned int iterations     = 0; ///< linear systems solved, or sweeps
+    unsigned int factorisations = 0;
+    unsigned int regularised    = 0;  ///< systems made regular by a blend
+    double       residual       = 0.; ///< relative, at the end
+    double       friction_lag   = 0.; ///< of the law that was solved; 0: exact
+    std::vector<NewtonIteration> table;
+    std::string                  reason; ///< why it did not converge
+
+    /** Puts what was tried before in front. */
+    void
+    add_earlier(const SolverReport &earlier);
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,73 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_solvers_step_workspace_h
+#define geocone_solvers_step_workspace_h
+
+#include <geocone/mechanics/incremental_problem.h>
+#include <geocone/solvers/linear_solver.h>
+#include <geocone/solvers/solver_report.h>
+
+#include <deal.II/base/timer.h>
+
+namespace geocone
+{
+  /** What all attempts at a step work on, and the parts that they share. */
+  struct StepWorkspace
+  {
+    IncrementalProblem  &problem;
+    SparseMatrix        &matrix;
+    LinearSolver        &linear_solver;
+    dealii::TimerOutput &timer;
+    Vector              &v;        ///< the iterate
+    Vector              &residual; ///< R(v)
+    SolverReport        &report;
+
+    /** R(v) at the iterate. */
+    ResidualReport
+    evaluate() const;
+
+    /**
+     * A line of the table for a state.
+     * @param length of the step that led there
+     * @param blend in its tangent
+     */
+    void
+    record(const ResidualReport &state,
+           const double          length,
+           const double          blend,
+           const double          friction_lag) const;
+
+    /** What the prescribed velocities and H v = q still ask of the iterate. */
+    struct Jump
+    {
+      Vector          prescribed; ///< values at the step's end minus v
+      Eigen::VectorXd defect;     ///< q - H v
+
+      bool
+      is_zero() const;
+    };
+    Jump
+    jump() const;
+
+    /**
+     * Factorises dR/dv with an elastic blend.
+     * @return whether it is regular
+     */
+    bool
+    factorise(const double elastic_blend) const;
+
+    /**
+     * Solves [K -H'; H 0] (dv, dlambda) = (-R - K jump, defect) with the last
+     * factorisation, by the Schur complement H K^-1 H'.
+     * @param prescribed the jump of the prescribed velocities, or null for none
+     * @param[out] direction dv in all rows
+     */
+    void
+    solve(const Vector          *prescribed,
+          const Eigen::VectorXd &defect,
+          Vector                &direction) const;
+  };
+} // namespace geocone
+
+#endif

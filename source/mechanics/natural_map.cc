@@ -1,0 +1,82 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/mechanics/natural_map.h>
+
+#include <Eigen/LU>
+
+namespace geocone
+{
+  NaturalMap::NaturalMap(const MaterialPoints &points,
+                         const Materials      &materials,
+                         const double          rho)
+    : points(points)
+    , materials(materials)
+    , rho(rho)
+  {
+    for (unsigned int i = 0; i < materials.size(); ++i)
+      cones.push_back(materials[i].flow_cone());
+  }
+
+  NaturalMap::Error
+  NaturalMap::update(const std::vector<Mandel> &strain,
+                     std::vector<Mandel>       &stress,
+                     std::vector<MandelMatrix> &tangent,
+                     std::vector<Mode>         &mode)
+  {
+    const bool moves = !last_strain.empty();
+    Error      error;
+    double     largest_k = 0.;
+    for (unsigned int p = 0; p < strain.size(); ++p)
+      {
+        const unsigned int             material = points.material[p];
+        const std::optional<FlowCone> &cone     = cones[material];
+        const Elasticity &elasticity = materials[material].elasticity();
+        Mandel            s          = stress[p];
+        if (moves)
+          s += tangent[p] * (strain[p] - last_strain[p]);
+
+        mode[p] = Mode::elastic;
+        if (cone)
+          {
+            const double rho_p = rho * elasticity.two_G;
+            const Mandel z     = to_cone_axes(
+              elasticity.strain(Mandel(s - points.stress[p])) - strain[p]);
+            const Mandel x = to_cone_axes(s);
+            Mandel       projected;
+            MandelMatrix J;
+            mode[p]        = return_map(FlowCone{cone->a, cone->a, cone->k},
+                                 1.,
+                                 1.,
+                                 Mandel(x - rho_p * cone->psi(z)),
+                                 projected,
+                                 &J);
+            const Mandel R = x - projected;
+            error.largest_residual = std::max(error.largest_residual, R.norm());
+            error.stress_scale     = std::max(error.stress_scale, x.norm());
+            largest_k              = std::max(largest_k, cone->k);
+            if (mode[p] != Mode::elastic)
+              {
+                const double compliance = 1. / elasticity.two_G;
+                const Mandel S(
+                  1. / elasticity.normal_stiffness(), compliance, compliance);
+                const MandelMatrix B = rho_p * J * cone->psi_slope(z);
+                const MandelMatrix A =
+                  MandelMatrix::Identity() - J + B * S.asDiagonal();
+                const auto factors = A.partialPivLu();
+                stress[p]  = from_cone_axes(Mandel(x - factors.solve(R)));
+                tangent[p] = from_cone_axes(MandelMatrix(factors.solve(B)));
+              }
+          }
+        if (mode[p] == Mode::elastic)
+          {
+            // J = I, where the linear law is solved at once.
+            stress[p]  = points.stress[p] + elasticity.stress(strain[p]);
+            tangent[p] = elasticity.stiffness();
+          }
+      }
+    error.stress_scale += largest_k;
+    last_strain = strain;
+    return error;
+  }
+} // namespace geocone

@@ -1,0 +1,132 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/mechanics/reduction.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace geocone
+{
+  using Eigen::MatrixXd;
+  using Eigen::VectorXd;
+
+  namespace
+  {
+    [[noreturn]] void
+    refuse(const std::string &what, const std::string &remedy)
+    {
+      throw InputError(
+        "The stresses alone are no unknowns (Newton/Formulation, "
+        "Newton/First iterate): " +
+        what + "\n  remedy:  " + remedy);
+    }
+  } // namespace
+
+  Reduction::Reduction(const IncrementalProblem &problem)
+    : incremental(problem)
+  {
+    const MaterialPoints &points    = problem.points;
+    const Materials      &materials = problem.materials;
+    const Unknowns       &unknowns  = problem.unknowns;
+    const double          h         = problem.h;
+    const unsigned int    n         = points.n_points();
+    if (dealii::Utilities::MPI::n_mpi_processes(
+          problem.layout->get_mpi_communicator()) > 1)
+      refuse("there are several ranks", "run it on one rank");
+    if (problem.mass == nullptr)
+      refuse("there is no mass", "set Time stepping/Inertia = true");
+    if (problem.consistent_part > 0.)
+      refuse("the mass is not lumped",
+             "set Material point method/Consistent mass part = 0");
+    if (n > max_cones)
+      refuse(format("there are %u points, more than %u", n, max_cones),
+             "take a coarser mesh, or the return map");
+    for (unsigned int p = 0; p < n; ++p)
+      {
+        const unsigned int material = points.material[p];
+        const auto         cone     = materials[material].flow_cone();
+        if (!cone)
+          refuse("'" + materials.name(material) + "' has no cone",
+                 "take Mohr-Coulomb or Tresca, or the return map");
+        reduced.cones.push_back(*cone);
+      }
+
+    velocity = problem.velocity_L;
+    problem.set_prescribed(velocity);
+    mobility.resize(unknowns.n_rows);
+    for (unsigned int i = 0; i < velocity.locally_owned_size(); ++i)
+      if (unknowns.is_free(i))
+        {
+          const double inverse           = h / problem.mass->local_element(i);
+          mobility[unknowns.free_row[i]] = inverse;
+          if (problem.force != nullptr)
+            velocity.local_element(i) +=
+              inverse * problem.force->local_element(i);
+        }
+
+    // V B in cone axes, S the diagonal V S, and V B v*.
+    std::vector<Eigen::Triplet<double>> entries;
+    VectorXd                            S(3 * n);
+    VectorXd                            strain_rate = VectorXd::Zero(3 * n);
+    problem.for_each_strain_column(
+      [&](const unsigned int p, const unsigned int dof, const Mandel &column) {
+        const Mandel x = points.weight[p] * to_cone_axes(column);
+        strain_rate.segment<3>(3 * p) += velocity.local_element(dof) * x;
+        if (unknowns.is_free(dof))
+          for (int i = 0; i < 3; ++i)
+            entries.emplace_back(3 * p + i, unknowns.free_row[dof], x[i]);
+      });
+    VB.resize(3 * n, unknowns.n_rows);
+    VB.setFromTriplets(entries.begin(), entries.end());
+    for (unsigned int p = 0; p < n; ++p)
+      {
+        const Elasticity &e = materials[points.material[p]].elasticity();
+        S.segment<3>(3 * p) = Mandel(points.weight[p] / e.normal_stiffness(),
+                                     points.weight[p] / e.two_G,
+                                     points.weight[p] / e.two_G);
+      }
+    ReducedProblem::Matrix transposed = VB.transpose();
+    transposed = VectorXd(h * mobility).asDiagonal() * transposed;
+    reduced.W  = VB * transposed;
+    for (unsigned int i = 0; i < 3 * n; ++i)
+      reduced.W.coeffRef(i, i) += S[i];
+    reduced.q = -S.cwiseProduct(stress_at_start()) - h * strain_rate;
+
+    const Multipliers &rows = unknowns.multipliers;
+    H                       = MatrixXd::Zero(rows.n_rows(), unknowns.n_rows);
+    for (unsigned int j = 0; j < rows.dofs().size(); ++j)
+      H.col(unknowns.free_row[rows.dofs()[j]]) = rows.coefficients().col(j);
+    const MatrixXd weighted =
+      VectorXd(h * mobility).asDiagonal() * H.transpose();
+    reduced.C = VB * weighted;
+    reduced.L = H * weighted;
+    reduced.d = -h * rows.defect(velocity);
+  }
+
+  VectorXd
+  Reduction::stress_at_start() const
+  {
+    const std::vector<Mandel> &stress = incremental.points.stress;
+    VectorXd                   s(3 * stress.size());
+    for (unsigned int p = 0; p < stress.size(); ++p)
+      s.segment<3>(3 * p) = to_cone_axes(stress[p]);
+    return s;
+  }
+
+  void
+  Reduction::recover_velocity(const VectorXd &s, Vector &v) const
+  {
+    VectorXd force = -(VB.transpose() * s);
+    if (H.rows() > 0)
+      force += H.transpose() * reduced.multipliers(s);
+    const Unknowns &unknowns = incremental.unknowns;
+    for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
+      v.local_element(i) =
+        velocity.local_element(i) +
+        (unknowns.is_free(i)
+           ? mobility[unknowns.free_row[i]] * force[unknowns.free_row[i]]
+           : 0.);
+  }
+} // namespace geocone

@@ -1,0 +1,171 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/files.h>
+#include <geocone/base/parameter_file.h>
+#include <geocone/mechanics/frozen_problem.h>
+#include <geocone/mechanics/reduced_problem.h>
+#include <geocone/replay.h>
+#include <geocone/scene/geometry.h>
+#include <geocone/solvers/nonsmooth_newton.h>
+
+#include <deal.II/base/timer.h>
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <iostream>
+
+namespace geocone
+{
+  using Json = nlohmann::json;
+
+  namespace
+  {
+    /** What is left of a replay: numbers to compare, and stresses (Pa). */
+    struct Outcome
+    {
+      Json                summary;
+      std::vector<Mandel> stress;
+    };
+
+    Outcome
+    replay_incremental(const std::string              &file_name,
+                       const std::vector<std::string> &overrides)
+    {
+      const FrozenProblem frozen = FrozenProblem::read(file_name);
+      const ParameterFile file =
+        ParameterFile::from_text(frozen.materials, file_name, overrides);
+      Materials       materials(file);
+      const Regions   regions(file); // stand in the same section
+      NonsmoothNewton newton;
+      file.parse();
+      materials.prepare();
+      newton.prepare();
+
+      ThawedProblem       thawed(frozen, materials);
+      IncrementalProblem &problem       = thawed.problem();
+      const auto          linear_solver = make_linear_solver(
+        newton.linear_solver_name(), MPI_COMM_SELF, problem.is_symmetric());
+      dealii::TimerOutput timer(
+        std::cout, dealii::TimerOutput::never, dealii::TimerOutput::cpu_times);
+      dealii::Timer clock;
+      SparseMatrix  matrix =
+        problem.make_pattern(linear_solver->wants_one_triangle());
+      linear_solver->analyse(matrix);
+      Vector             v = thawed.start(), residual = problem.make_vector();
+      const SolverReport report  = newton.solve(problem,
+                                               matrix,
+                                               *linear_solver,
+                                               timer,
+                                               v,
+                                               residual,
+                                               {frozen.particles, false});
+      const double       cpu     = clock.cpu_time();
+      const Quality      quality = problem.quality();
+
+      Outcome outcome;
+      outcome.summary = {
+        {"kind", frozen.particles ? "MPM" : "FEM"},
+        {"unknowns", problem.free_dofs().n_rows},
+        {"points", frozen.points.n_points()},
+        {"constraints", problem.free_dofs().multipliers.n_rows()},
+        {"non_associativity", problem.non_associativity()},
+        {"converged", report.converged},
+        {"iterations", report.iterations},
+        {"factorisations", report.factorisations},
+        {"residual", report.residual},
+        {"friction_lag", report.friction_lag},
+        {"natural_map_error", quality.natural_map},
+        {"cone_excess_Pa", quality.cone_excess},
+        {"reason", report.reason},
+        {"cpu_s", cpu}};
+      outcome.stress = problem.trial_stress();
+      return outcome;
+    }
+
+    Outcome
+    replay_reduced(const std::string              &file_name,
+                   const std::vector<std::string> &overrides)
+    {
+      const ReducedProblem problem = read_siconos(file_name);
+      const ParameterFile  file =
+        ParameterFile::from_text("", file_name, overrides);
+      NonsmoothNewton newton;
+      file.parse();
+      newton.prepare();
+
+      Eigen::VectorXd     s      = Eigen::VectorXd::Zero(3 * problem.n_cones());
+      const ReducedReport report = newton.solve_reduced(problem, s);
+
+      double non_associativity = 0.;
+      for (const FlowCone &cone : problem.cones)
+        if (cone.a > 0.)
+          non_associativity =
+            std::max(non_associativity, (cone.a - cone.b) / cone.a);
+      Outcome outcome;
+      outcome.summary = {
+        {"kind", "reduced"},
+        {"unknowns", s.size()},
+        {"points", problem.n_cones()},
+        {"constraints", problem.n_multipliers()},
+        {"non_associativity", non_associativity},
+        {"converged", report.converged},
+        {"iterations", report.iterations},
+        {"factorisations", 0},
+        {"residual", report.error},
+        {"friction_lag", 0.},
+        {"natural_map_error", problem.natural_map_error(s)},
+        {"cone_excess_Pa", 0.},
+        {"reason", report.converged ? "" : "it did not converge"},
+        {"cpu_s", report.cpu_seconds}};
+      for (unsigned int p = 0; p < problem.n_cones(); ++p)
+        outcome.stress.push_back(from_cone_axes(Mandel(s.segment<3>(3 * p))));
+      return outcome;
+    }
+  } // namespace
+
+  bool
+  replay(const std::string              &file_name,
+         const std::vector<std::string> &overrides,
+         const std::string              &folder,
+         Log                            &log)
+  {
+    const std::filesystem::path path(file_name);
+    const Outcome               outcome = path.extension() == ".dat"
+                                            ? replay_reduced(file_name, overrides)
+                                            : replay_incremental(file_name, overrides);
+    Json                        summary = outcome.summary;
+    summary["name"]                     = path.stem().string();
+    log.print(format(
+      "%s: %s, %u unknowns, %u points, %u constraints: %s, %u "
+      "iterations, residual %.1e, natural-map error %.1e, %.3g s "
+      "of CPU%s",
+      path.stem().c_str(),
+      summary["kind"].get<std::string>().c_str(),
+      summary["unknowns"].get<unsigned int>(),
+      summary["points"].get<unsigned int>(),
+      summary["constraints"].get<unsigned int>(),
+      summary["converged"].get<bool>() ? "solved" : "not solved",
+      summary["iterations"].get<unsigned int>(),
+      summary["residual"].get<double>(),
+      summary["natural_map_error"].get<double>(),
+      summary["cpu_s"].get<double>(),
+      summary["friction_lag"].get<double>() > 0. ? ", friction lags" : ""));
+    if (!summary["converged"].get<bool>())
+      log.print("  " + summary["reason"].get<std::string>());
+    if (!folder.empty())
+      {
+        std::filesystem::create_directories(folder);
+        write_file(folder + "/summary.json",
+                   [&](std::ostream &out) { out << summary.dump(2) << "\n"; });
+        write_file(folder + "/stress.csv", [&](std::ostream &out) {
+          out << "xx (Pa),yy (Pa),sqrt2 xy (Pa)\n";
+          for (const Mandel &s : outcome.stress)
+            out << format("%.17g,%.17g,%.17g\n", s[0], s[1], s[2]);
+        });
+      }
+    return summary["converged"].get<bool>();
+  }
+} // namespace geocone

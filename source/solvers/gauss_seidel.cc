@@ -1,0 +1,63 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/solvers/gauss_seidel.h>
+#include <geocone/solvers/one_cone.h>
+
+#include <ctime>
+
+namespace geocone
+{
+  using Eigen::VectorXd;
+
+  ReducedReport
+  GaussSeidel::solve(const ReducedProblem &problem, VectorXd &s) const
+  {
+    const std::clock_t        start = std::clock();
+    const unsigned int        n     = problem.n_cones();
+    std::vector<MandelMatrix> blocks(n);
+    for (unsigned int p = 0; p < n; ++p)
+      blocks[p] = problem.diagonal_block(p);
+    const bool                  constrained = problem.n_multipliers() > 0;
+    VectorXd                    lambda      = problem.multipliers(s);
+    Eigen::LLT<Eigen::MatrixXd> factors;
+    if (constrained)
+      factors.compute(problem.L);
+
+    ReducedReport report;
+    report.errors.push_back(problem.natural_map_error(s));
+    while (!(report.errors.back() <= tolerance) &&
+           report.iterations < max_sweeps)
+      {
+        ++report.iterations;
+        double error = 0., size = 0.;
+        for (unsigned int p = 0; p < n; ++p)
+          {
+            const FlowCone     &cone = problem.cones[p];
+            const MandelMatrix &W    = blocks[p];
+            const Mandel        old  = s.segment<3>(3 * p);
+            Mandel              z    = problem.q.segment<3>(3 * p);
+            for (int i = 0; i < 3; ++i)
+              z[i] += problem.W.row(3 * p + i).dot(s);
+            if (constrained)
+              z -= problem.C.middleRows<3>(3 * p) * lambda;
+            error =
+              std::max(error, natural_map_norm(cone, old, z, natural_scale(W)));
+
+            const Mandel s_p    = solve_one_cone(cone, W, z - W * old, old);
+            s.segment<3>(3 * p) = s_p;
+            size                = std::max(size, s_p.norm() + cone.k);
+          }
+        if (constrained)
+          lambda = factors.solve(problem.C.transpose() * s - problem.d);
+        report.errors.push_back(error > 0. ? error / size : 0.);
+        if (report.errors.back() <= tolerance ||
+            report.iterations == max_sweeps)
+          report.errors.back() = problem.natural_map_error(s);
+      }
+    report.error       = report.errors.back();
+    report.converged   = report.error <= tolerance;
+    report.cpu_seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
+    return report;
+  }
+} // namespace geocone

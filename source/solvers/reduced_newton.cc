@@ -1,0 +1,205 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/solvers/gauss_seidel.h>
+#include <geocone/solvers/reduced_newton.h>
+
+#include <Eigen/SparseLU>
+
+#include <ctime>
+
+namespace geocone
+{
+  using Eigen::MatrixXd;
+  using Eigen::VectorXd;
+
+  namespace
+  {
+    /** F_p, and with dz = W ds its differential dF_p = A ds_p + B dz_p. */
+    struct PointMap
+    {
+      Mandel       F;
+      MandelMatrix A, B;
+    };
+
+    PointMap
+    point_map(const ReducedNewton::Map map,
+              const FlowCone          &cone,
+              const double             rho,
+              const Mandel            &s,
+              const Mandel            &z)
+    {
+      PointMap     result;
+      MandelMatrix slope; // of P_C or R
+      if (map == ReducedNewton::Map::natural_map)
+        {
+          result.F =
+            s - project(cone.a, cone.k, Mandel(s - rho * cone.psi(z)), &slope);
+          result.B = rho * slope * cone.psi_slope(z);
+        }
+      else
+        {
+          Mandel returned;
+          return_map(cone, rho, rho, Mandel(s - rho * z), returned, &result.B);
+          result.F = s - returned;
+          slope    = result.B / rho;
+        }
+      result.A = MandelMatrix::Identity() - slope;
+      return result;
+    }
+
+    /** The unknowns are s and below them lambda. */
+    class System
+    {
+    public:
+      System(const ReducedProblem &problem, const ReducedNewton &newton)
+        : problem(problem)
+        , map(newton.map)
+        , rho(problem.n_cones(), newton.rho)
+        , points(problem.n_cones())
+        , n_stresses(problem.q.size())
+        , dense(problem.W.nonZeros() > 0.05 * n_stresses * n_stresses)
+      {
+        if (newton.rho == 0.)
+          for (unsigned int p = 0; p < rho.size(); ++p)
+            rho[p] = 10. * natural_scale(problem.diagonal_block(p));
+      }
+
+      /** |F|^2; keeps what the Jacobian needs. */
+      double
+      evaluate(const VectorXd &s, const VectorXd &lambda)
+      {
+        const VectorXd z   = problem.z(s, lambda);
+        double         sum = 0.;
+        for (unsigned int p = 0; p < points.size(); ++p)
+          {
+            points[p] = point_map(map,
+                                  problem.cones[p],
+                                  rho[p],
+                                  s.segment<3>(3 * p),
+                                  z.segment<3>(3 * p));
+            sum += points[p].F.squaredNorm();
+          }
+        return sum;
+      }
+
+      /** The Newton step at the last evaluate(); not finite if J is singular. */
+      VectorXd
+      step() const
+      {
+        const unsigned int size = n_stresses + problem.n_multipliers();
+        VectorXd           rhs  = VectorXd::Zero(size);
+        for (unsigned int p = 0; p < points.size(); ++p)
+          rhs.segment<3>(3 * p) = -points[p].F;
+        if (dense)
+          {
+            MatrixXd J = MatrixXd::Zero(size, size);
+            assemble(
+              [&J](const int i, const int j, const double x) { J(i, j) += x; });
+            return J.partialPivLu().solve(rhs);
+          }
+        std::vector<Eigen::Triplet<double>> entries;
+        assemble([&entries](const int i, const int j, const double x) {
+          entries.emplace_back(i, j, x);
+        });
+        Eigen::SparseMatrix<double> J(size, size);
+        J.setFromTriplets(entries.begin(), entries.end());
+        const Eigen::SparseLU<Eigen::SparseMatrix<double>> factors(J);
+        if (factors.info() != Eigen::Success)
+          return VectorXd::Constant(size, std::nan(""));
+        return factors.solve(rhs);
+      }
+
+    private:
+      /** J = [A + B W, -B C; -C', L], the lower rows scaled to be of size one. */
+      template <typename Add>
+      void
+      assemble(const Add &add) const
+      {
+        for (unsigned int p = 0; p < points.size(); ++p)
+          for (int i = 0; i < 3; ++i)
+            for (int k = 0; k < 3; ++k)
+              {
+                add(3 * p + i, 3 * p + k, points[p].A(i, k));
+                const double b   = points[p].B(i, k);
+                const int    row = 3 * p + k;
+                if (b == 0.)
+                  continue;
+                for (ReducedProblem::Matrix::InnerIterator w(problem.W, row); w;
+                     ++w)
+                  add(3 * p + i, w.col(), b * w.value());
+                for (unsigned int c = 0; c < problem.n_multipliers(); ++c)
+                  add(3 * p + i, n_stresses + c, -b * problem.C(row, c));
+              }
+        for (unsigned int r = 0; r < problem.n_multipliers(); ++r)
+          {
+            const double size =
+              std::max(problem.C.col(r).lpNorm<Eigen::Infinity>(),
+                       problem.L.row(r).lpNorm<Eigen::Infinity>());
+            for (unsigned int j = 0; j < n_stresses; ++j)
+              if (const double x = problem.C(j, r); x != 0.)
+                add(n_stresses + r, j, -x / size);
+            for (unsigned int c = 0; c < problem.n_multipliers(); ++c)
+              add(n_stresses + r, n_stresses + c, problem.L(r, c) / size);
+          }
+      }
+
+      const ReducedProblem    &problem;
+      const ReducedNewton::Map map;
+      std::vector<double>      rho;
+      std::vector<PointMap>    points;
+      const unsigned int       n_stresses;
+      const bool               dense;
+    };
+  } // namespace
+
+  ReducedReport
+  ReducedNewton::solve(const ReducedProblem &problem, VectorXd &s) const
+  {
+    const std::clock_t start = std::clock();
+    System             system(problem, *this);
+    VectorXd           lambda = problem.multipliers(s);
+    double             before = system.evaluate(s, lambda);
+    GaussSeidel        sweeper;
+    sweeper.tolerance  = tolerance;
+    sweeper.max_sweeps = restart_sweeps;
+    ReducedReport report;
+    for (;;)
+      {
+        report.error = problem.natural_map_error(s);
+        report.errors.push_back(report.error);
+        report.converged = report.error <= tolerance;
+        if (report.converged || report.iterations == max_iterations)
+          break;
+
+        ++report.iterations;
+        const VectorXd step = system.step();
+        const VectorXd s0 = s, lambda0 = lambda;
+        // The constraints are linear and lambda fulfils them: so they stay
+        // fulfilled along the step.
+        const auto falls = [&](const double length) {
+          s                  = s0 + length * step.head(s.size());
+          lambda             = lambda0 + length * step.tail(lambda.size());
+          const double after = system.evaluate(s, lambda);
+          if (!(after <= (1. - 1e-4 * length) * before))
+            return false;
+          before = after;
+          return true;
+        };
+        double length = 1.;
+        while (!falls(length) && length > 1e-3)
+          length /= 2.;
+        if (length > 1e-3)
+          continue;
+
+        s = s0;
+        sweeper.solve(problem, s);
+        sweeper.max_sweeps *= 2;
+        lambda = problem.multipliers(s);
+        before = system.evaluate(s, lambda);
+        ++report.restarts;
+      }
+    report.cpu_seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
+    return report;
+  }
+} // namespace geocone

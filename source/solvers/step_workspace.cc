@@ -1,0 +1,152 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/solvers/step_workspace.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace geocone
+{
+  using dealii::TimerOutput;
+
+  namespace
+  {
+    /**
+     * Solves [K -H'; H 0] (dv, dlambda) = (rhs, defect) for dv.
+     * @param[in,out] rhs owned rows in, dv out
+     */
+    void
+    solve_constrained(const Unknowns        &unknowns,
+                      LinearSolver          &linear_solver,
+                      const Eigen::VectorXd &defect,
+                      const MPI_Comm         comm,
+                      std::vector<double>   &rhs)
+    {
+      const Multipliers &rows = unknowns.multipliers;
+      const unsigned int m    = rows.n_rows();
+      if (m == 0)
+        {
+          linear_solver.solve(rhs);
+          return;
+        }
+      using Matrix          = Eigen::MatrixXd;
+      const std::size_t   n = rhs.size();
+      std::vector<double> columns(n * (m + 1), 0.);
+      std::copy(rhs.begin(), rhs.end(), columns.begin());
+      std::vector<int> places;
+      for (const unsigned int dof : rows.dofs())
+        places.push_back(unknowns.free_row[dof]);
+      for (unsigned int k = 0; k < m; ++k)
+        for (unsigned int j = 0; j < places.size(); ++j)
+          columns[n * (k + 1) + places[j]] = rows.coefficients()(k, j);
+      linear_solver.solve(columns, m + 1);
+
+      const Eigen::Map<const Matrix> solved(columns.data(), n, m + 1);
+      Matrix                         touched(places.size(), m + 1);
+      for (unsigned int j = 0; j < places.size(); ++j)
+        touched.row(j) = solved.row(places[j]);
+      Matrix products = rows.coefficients() * touched;
+      dealii::Utilities::MPI::sum(
+        dealii::ArrayView<const double>(products.data(), products.size()),
+        comm,
+        dealii::ArrayView<double>(products.data(), products.size()));
+      const Eigen::VectorXd change =
+        products.rightCols(m).partialPivLu().solve(defect - products.col(0));
+      Eigen::Map<Eigen::VectorXd>(rhs.data(), n) =
+        solved.col(0) + solved.rightCols(m) * change;
+    }
+  } // namespace
+
+  void
+  SolverReport::add_earlier(const SolverReport &earlier)
+  {
+    iterations += earlier.iterations;
+    factorisations += earlier.factorisations;
+    regularised += earlier.regularised;
+    table.insert(table.begin(), earlier.table.begin(), earlier.table.end());
+  }
+
+  ResidualReport
+  StepWorkspace::evaluate() const
+  {
+    TimerOutput::Scope scope(timer, "residual");
+    v.update_ghost_values();
+    return problem.residual(residual, v);
+  }
+
+  void
+  StepWorkspace::record(const ResidualReport &state,
+                        const double          length,
+                        const double          blend,
+                        const double          friction_lag) const
+  {
+    report.residual = state.norm / std::max(state.force_norm,
+                                            std::numeric_limits<double>::min());
+    report.table.push_back({report.residual,
+                            length,
+                            blend,
+                            friction_lag,
+                            state.n_cone,
+                            state.n_apex,
+                            state.n_switched});
+  }
+
+  StepWorkspace::Jump
+  StepWorkspace::jump() const
+  {
+    Jump result{v, problem.free_dofs().multipliers.defect(v)};
+    problem.set_prescribed(result.prescribed);
+    result.prescribed -= v;
+    return result;
+  }
+
+  bool
+  StepWorkspace::Jump::is_zero() const
+  {
+    return prescribed.linfty_norm() == 0. &&
+           (defect.size() == 0 || defect.norm() == 0.);
+  }
+
+  bool
+  StepWorkspace::factorise(const double elastic_blend) const
+  {
+    {
+      TimerOutput::Scope scope(timer, "assemble");
+      problem.linearise(matrix, elastic_blend);
+    }
+    TimerOutput::Scope scope(timer, "factorise");
+    ++report.factorisations;
+    return linear_solver.factorise(matrix);
+  }
+
+  void
+  StepWorkspace::solve(const Vector          *prescribed,
+                       const Eigen::VectorXd &defect,
+                       Vector                &direction) const
+  {
+    if (prescribed != nullptr)
+      {
+        TimerOutput::Scope scope(timer, "residual");
+        prescribed->update_ghost_values();
+        problem.apply_tangent(direction, *prescribed);
+      }
+    const Unknowns     &unknowns = problem.free_dofs();
+    std::vector<double> rhs(matrix.n_owned);
+    for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
+      if (unknowns.is_free(i))
+        rhs[unknowns.free_row[i]] =
+          -residual.local_element(i) -
+          (prescribed != nullptr ? direction.local_element(i) : 0.);
+    {
+      TimerOutput::Scope scope(timer, "solve");
+      solve_constrained(
+        unknowns, linear_solver, defect, v.get_mpi_communicator(), rhs);
+    }
+    ++report.iterations;
+    for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
+      direction.local_element(i) =
+        unknowns.is_free(i)
+          ? rhs[unknowns.free_row[i]]
+          : (prescribed != nullptr ? prescribed->local_element(i) : 0.);
+  }
+} // namespace geocone
