@@ -61,7 +61,7 @@ namespace geocone
                                                timer,
                                                v,
                                                residual,
-                                               {frozen.particles, false});
+                                               {});
       const double       cpu     = clock.cpu_time();
       const Quality      quality = problem.quality();
 

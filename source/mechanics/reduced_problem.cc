@@ -62,6 +62,7 @@ namespace geocone
     const auto     factors = factorised(L);
     ReducedProblem result;
     result.cones = cones;
+    result.S     = S;
     result.W = (MatrixXd(W) - C * factors.solve(C.transpose())).sparseView();
     result.q = q + C * factors.solve(d);
     return result;

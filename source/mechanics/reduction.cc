@@ -68,7 +68,6 @@ namespace geocone
 
     // V B in cone axes, S the diagonal V S, and V B v*.
     std::vector<Eigen::Triplet<double>> entries;
-    VectorXd                            S(3 * n);
     VectorXd                            strain_rate = VectorXd::Zero(3 * n);
     problem.for_each_strain_column(
       [&](const unsigned int p, const unsigned int dof, const Mandel &column) {
@@ -80,10 +79,11 @@ namespace geocone
       });
     VB.resize(3 * n, unknowns.n_rows);
     VB.setFromTriplets(entries.begin(), entries.end());
+    reduced.S.resize(3 * n);
     for (unsigned int p = 0; p < n; ++p)
       {
         const Elasticity &e = materials[points.material[p]].elasticity();
-        S.segment<3>(3 * p) = Mandel(points.weight[p] / e.normal_stiffness(),
+        reduced.S.segment<3>(3 * p) = Mandel(points.weight[p] / e.normal_stiffness(),
                                      points.weight[p] / e.two_G,
                                      points.weight[p] / e.two_G);
       }
@@ -91,8 +91,8 @@ namespace geocone
     transposed = VectorXd(h * mobility).asDiagonal() * transposed;
     reduced.W  = VB * transposed;
     for (unsigned int i = 0; i < 3 * n; ++i)
-      reduced.W.coeffRef(i, i) += S[i];
-    reduced.q = -S.cwiseProduct(stress_at_start()) - h * strain_rate;
+      reduced.W.coeffRef(i, i) += reduced.S[i];
+    reduced.q = -reduced.S.cwiseProduct(stress_at_start()) - h * strain_rate;
 
     const Multipliers &rows = unknowns.multipliers;
     H                       = MatrixXd::Zero(rows.n_rows(), unknowns.n_rows);

@@ -29,6 +29,9 @@ namespace geocone
      * from: with another lag, or beyond the iterations that were allowed.
      */
     constexpr double path_tolerance = 1e-3;
+
+    /** c in the elastic blend w = min(1/2, c |R|/|B'V s|). */
+    constexpr double blend_of_return_map = 0.3, blend_of_natural_map = 0.05;
   } // namespace
 
   NonsmoothNewton::SolverName::SolverName()
@@ -67,15 +70,17 @@ namespace geocone
     add_parameter(
       "Formulation",
       formulation,
-      "return map | natural map | reduced | reduced with multipliers | "
-      "Gauss-Seidel: what is solved for, by which method. Return map: the "
-      "velocities, with the closed-form law. Natural map: velocities, stresses "
-      "and plastic strains with the natural map of the law, by full Newton "
-      "steps. Reduced: the stresses alone, by Newton's method; constraints on "
-      "particles are eliminated or kept with multipliers. Gauss-Seidel: the "
-      "stresses alone, point by point. What is reduced needs a lumped mass, "
-      "one rank and at most 3000 points. All but the first are there to be "
-      "compared with it.");
+      "automatic | return map | natural map | reduced | reduced with "
+      "multipliers | Gauss-Seidel: what is solved for, by which method. Return "
+      "map: the velocities, with the closed-form law. Natural map: velocities, "
+      "stresses and plastic strains with the natural map of the law, which "
+      "each iteration linearises. Automatic: the return map for theta >= "
+      "phi/2, "
+      "and the natural map otherwise and where that fails. Reduced: the "
+      "stresses alone, by Newton's method; constraints on particles are "
+      "eliminated or kept with multipliers. Gauss-Seidel: the stresses alone, "
+      "point by point. What is reduced needs a lumped mass, one rank and at "
+      "most 3000 points. All but the first are there to be compared with it.");
     add_parameter(
       "Rho",
       rho,
@@ -103,17 +108,20 @@ namespace geocone
     add_parameter(
       "Maximum iterations",
       max_iterations,
-      "Linear systems to solve before an attempt at a step is given up. "
-      "0: 150 for associated flow (slow starts are worth waiting "
-      "for), 30 for the elastic blend (60 where it converges) and for FEM's "
-      "lag continuation, otherwise 60.");
+      "Linear systems to solve before an attempt at a step is given up; twice "
+      "as many where it converges. 0: 30 for the elastic blend with the return "
+      "map, 100 for the natural map and 150 for the line search and associated "
+      "flow where nothing else would follow, 40 for the natural map where "
+      "something does, otherwise 60.");
     add_parameter(
       "Globalisation",
       globalisation,
       "automatic | line search | elastic blend | merit search | "
-      "lag continuation | none. Automatic: the line search for theta >= phi/2; "
-      "otherwise for FEM the elastic blend; and the lag continuation for what "
-      "is not solved so, and for MPM. None: plastic steps often fail.");
+      "lag continuation | none. Automatic: the line search for the return map "
+      "and theta >= phi/2, otherwise the elastic blend; and the lag "
+      "continuation for what is not solved so. None: plastic steps often fail. "
+      "Those with a search are for the return map, which they stand for where "
+      "the formulation is automatic.");
   }
 
   void
@@ -157,16 +165,17 @@ namespace geocone
       return std::find(names.begin(), names.end(), name) != names.end();
     };
     if (!is_one_of(formulation,
-                   {"return map",
+                   {"automatic",
+                    "return map",
                     "natural map",
                     "reduced",
                     "reduced with multipliers",
                     "Gauss-Seidel"}))
       throw InputError("Newton/Formulation",
                        formulation,
-                       "return map | natural map | reduced | reduced with "
-                       "multipliers | Gauss-Seidel",
-                       "take return map");
+                       "automatic | return map | natural map | reduced | "
+                       "reduced with multipliers | Gauss-Seidel",
+                       "take automatic");
     if (!is_one_of(first_iterate, {"none", "fixed point", "Gauss-Seidel"}))
       throw InputError("Newton/First iterate",
                        first_iterate,
@@ -179,13 +188,16 @@ namespace geocone
                        first_iterate_sweeps,
                        "> 0",
                        "for none set Newton/First iterate = none");
-    if (formulation == "return map")
+    if (formulation == "automatic" || formulation == "return map")
       return;
-    if (globalisation != "automatic" && globalisation != "none")
+    const bool natural = formulation == "natural map";
+    if (globalisation != "automatic" && globalisation != "none" &&
+        !(natural && globalisation == "elastic blend"))
       throw InputError("Newton/Globalisation",
                        globalisation,
-                       "automatic | none with the formulation '" + formulation +
-                         "'",
+                       std::string(natural ? "automatic | elastic blend | none"
+                                           : "automatic | none") +
+                         " with the formulation '" + formulation + "'",
                        "take automatic, or the formulation 'return map'");
     if (friction.kind == "delayed")
       throw InputError("Time stepping/Friction",
@@ -193,7 +205,7 @@ namespace geocone
                        "automatic | exact with the formulation '" +
                          formulation + "'",
                        "take exact, or the formulation 'return map'");
-    if (formulation != "natural map" && first_iterate != "none")
+    if (!natural && first_iterate != "none")
       throw InputError("Newton/First iterate",
                        first_iterate,
                        "none with the formulation '" + formulation + "'",
@@ -221,7 +233,8 @@ namespace geocone
 
     problem.set_friction_lag(0.);
     problem.use_return_map();
-    if (formulation != "return map" && formulation != "natural map")
+    if (formulation != "automatic" && formulation != "return map" &&
+        formulation != "natural map")
       {
         using Solver        = ReducedFormulation::Solver;
         const bool   sweeps = formulation == "Gauss-Seidel";
@@ -245,51 +258,51 @@ namespace geocone
                                 ? fixed_point_iterate(first_iterate_sweeps, work)
                                 : gauss_seidel_iterate(first_iterate_sweeps, work);
       }
-    if (formulation == "natural map")
-      {
-        problem.use_natural_map(rho, start_stress);
-        Attempt attempt;
-        attempt.globalisation = Globalisation::none;
-        attempt.tolerance     = relative_tolerance;
-        attempt.elastic_first = hints.elastic_first;
-        attempt.allowed       = allowed(100);
-        run(attempt, work);
-        return report;
-      }
-
     if (friction.kind == "delayed" && !associated)
       {
         solve_delayed(friction.lag, relative_tolerance, hints, work);
         return report;
       }
+
     const Vector start = v;
     Attempt      attempt;
     attempt.tolerance     = relative_tolerance;
     attempt.elastic_first = hints.elastic_first;
-    attempt.allowed       = allowed(associated ? 150 : 60);
-    if (globalisation == "automatic")
+    attempt.start_stress  = start_stress;
+    const auto try_with   = [&](const Globalisation name,
+                              const bool          natural_map,
+                              const unsigned int  automatic) {
+      v                     = start;
+      attempt.globalisation = name;
+      attempt.natural_map   = natural_map;
+      attempt.allowed       = allowed(automatic);
+      run(attempt, work);
+      return report.converged;
+    };
+    if (globalisation != "automatic" && globalisation != "lag continuation")
       {
-        if (!hard || !hints.particles)
-          {
-            if (hard)
-              {
-                attempt.globalisation = Globalisation::elastic_blend;
-                attempt.allowed       = allowed(30);
-              }
-            run(attempt, work);
-          }
-      }
-    else if (globalisation != "lag continuation")
-      {
-        attempt.globalisation =
+        const Globalisation name =
           globalisation == "line search"     ? Globalisation::line_search
           : globalisation == "elastic blend" ? Globalisation::elastic_blend
           : globalisation == "merit search"  ? Globalisation::merit_search
                                              : Globalisation::none;
-        run(attempt, work);
+        try_with(name, formulation == "natural map", associated ? 150 : 60);
         return report;
       }
-    if (!report.converged && !associated)
+    if (globalisation == "automatic")
+      {
+        const bool both = formulation == "automatic";
+        if (formulation == "return map" || (both && !hard))
+          try_with(hard ? Globalisation::elastic_blend
+                        : Globalisation::line_search,
+                   false,
+                   hard                  ? 30
+                   : associated && !both ? 150
+                                         : 60);
+        if (!report.converged && formulation != "return map")
+          try_with(Globalisation::elastic_blend, true, both ? 40 : 100);
+      }
+    if (!report.converged && !associated && formulation != "natural map")
       {
         v = start;
         continue_to_exact_law(
@@ -375,26 +388,20 @@ namespace geocone
         attempt.tolerance    = next > 0. ? path_tolerance : relative_tolerance;
         const unsigned int spent = report.iterations;
         run(attempt, work);
-        if (report.converged)
-          {
-            reached     = work.v;
-            reached_lag = next;
-            // At most 55 % of it at a time: near 0 the path turns most.
-            const unsigned int n = report.iterations - spent;
-            fall                 = std::min((n <= 2   ? 3.
-                                             : n <= 4 ? 2.
-                                             : n <= 6 ? 1.2
-                                                      : 0.8) *
-                              fall,
-                            std::max(0.55 * reached_lag, 0.05));
-          }
-        else
-          {
-            work.v = reached;
-            fall   = 0.4 * (reached_lag - next);
-            if (fall < 0.005)
-              break;
-          }
+        // Shorter stages from where one fails were seen to lead to the end
+        // hardly ever: the path turns there.
+        if (!report.converged)
+          break;
+        reached     = work.v;
+        reached_lag = next;
+        // At most 55 % of it at a time: near 0 the path turns most.
+        const unsigned int n = report.iterations - spent;
+        fall                 = std::min((n <= 2   ? 3.
+                                         : n <= 4 ? 2.
+                                         : n <= 6 ? 1.2
+                                                  : 0.8) *
+                          fall,
+                        std::max(0.55 * reached_lag, 0.05));
       }
     if (reached_lag == 0.)
       return;
@@ -428,13 +435,19 @@ namespace geocone
     SolverReport       &report   = work.report;
     Vector             &v        = work.v;
     const Vector       &residual = work.residual;
-    const bool blend  = attempt.globalisation == Globalisation::elastic_blend;
-    const bool search = attempt.globalisation == Globalisation::line_search;
-    const bool merit  = attempt.globalisation == Globalisation::merit_search;
+    const bool   blend  = attempt.globalisation == Globalisation::elastic_blend;
+    const bool   search = attempt.globalisation == Globalisation::line_search;
+    const bool   merit  = attempt.globalisation == Globalisation::merit_search;
+    const double blend_factor =
+      attempt.natural_map ? blend_of_natural_map : blend_of_return_map;
     const unsigned int limit = report.iterations + attempt.allowed;
     report.converged         = false;
     report.friction_lag      = attempt.friction_lag;
     problem.set_friction_lag(attempt.friction_lag);
+    if (attempt.natural_map)
+      problem.use_natural_map(rho, attempt.start_stress);
+    else
+      problem.use_return_map();
 
     Vector         direction = problem.make_vector();
     Vector         start     = problem.make_vector();
@@ -481,7 +494,7 @@ namespace geocone
         const double wanted  = first && attempt.elastic_first ? 1.
                                : merit                        ? damping
                                : blend && !first
-                                 ? std::min(0.5, 0.3 * report.residual)
+                                 ? std::min(0.5, blend_factor * report.residual)
                                  : 0.;
         double       weight  = wanted;
         for (const double least : {0., 1e-6, 1e-3, 0.1})

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/solvers/gauss_seidel.h>
+#include <geocone/solvers/line_search.h>
 #include <geocone/solvers/reduced_newton.h>
 
 #include <Eigen/SparseLU>
@@ -22,10 +23,11 @@ namespace geocone
       MandelMatrix A, B;
     };
 
+    /** D = diag(K, 2G, 2G) of the return map, rho I for the natural map. */
     PointMap
     point_map(const ReducedNewton::Map map,
               const FlowCone          &cone,
-              const double             rho,
+              const Mandel            &D,
               const Mandel            &s,
               const Mandel            &z)
     {
@@ -33,6 +35,7 @@ namespace geocone
       MandelMatrix slope; // of P_C or R
       if (map == ReducedNewton::Map::natural_map)
         {
+          const double rho = D[0];
           result.F =
             s - project(cone.a, cone.k, Mandel(s - rho * cone.psi(z)), &slope);
           result.B = rho * slope * cone.psi_slope(z);
@@ -40,9 +43,14 @@ namespace geocone
       else
         {
           Mandel returned;
-          return_map(cone, rho, rho, Mandel(s - rho * z), returned, &result.B);
+          return_map(cone,
+                     D[0],
+                     D[1],
+                     Mandel(s - D.cwiseProduct(z)),
+                     returned,
+                     &result.B);
           result.F = s - returned;
-          slope    = result.B / rho;
+          slope    = result.B * D.cwiseInverse().asDiagonal();
         }
       result.A = MandelMatrix::Identity() - slope;
       return result;
@@ -55,14 +63,48 @@ namespace geocone
       System(const ReducedProblem &problem, const ReducedNewton &newton)
         : problem(problem)
         , map(newton.map)
-        , rho(problem.n_cones(), newton.rho)
+        , elastic(newton.rho == 0. && map == ReducedNewton::Map::return_map &&
+                  problem.S.size() > 0)
+        , D(problem.n_cones(), Mandel::Constant(newton.rho))
         , points(problem.n_cones())
         , n_stresses(problem.q.size())
         , dense(problem.W.nonZeros() > 0.05 * n_stresses * n_stresses)
       {
-        if (newton.rho == 0.)
-          for (unsigned int p = 0; p < rho.size(); ++p)
-            rho[p] = 10. * natural_scale(problem.diagonal_block(p));
+        if (newton.rho != 0.)
+          return;
+        for (unsigned int p = 0; p < D.size(); ++p)
+          if (elastic)
+            D[p] = problem.S.segment<3>(3 * p).cwiseInverse();
+          else
+            D[p].setConstant(10. * natural_scale(problem.diagonal_block(p)));
+      }
+
+      /** D is that of the elasticity. */
+      bool
+      is_elastic() const
+      {
+        return elastic;
+      }
+
+      /** dz - S ds for a step: h V B times the change of the velocity. */
+      VectorXd
+      strain(const VectorXd &step) const
+      {
+        const VectorXd ds = step.head(n_stresses);
+        VectorXd       dz = problem.W * ds - problem.S.cwiseProduct(ds);
+        if (problem.n_multipliers() > 0)
+          dz -= problem.C * step.tail(problem.n_multipliers());
+        return dz;
+      }
+
+      /** F.x at the last evaluate(). */
+      double
+      dot(const VectorXd &x) const
+      {
+        double sum = 0.;
+        for (unsigned int p = 0; p < points.size(); ++p)
+          sum += points[p].F.dot(x.segment<3>(3 * p));
+        return sum;
       }
 
       /** |F|^2; keeps what the Jacobian needs. */
@@ -75,7 +117,7 @@ namespace geocone
           {
             points[p] = point_map(map,
                                   problem.cones[p],
-                                  rho[p],
+                                  D[p],
                                   s.segment<3>(3 * p),
                                   z.segment<3>(3 * p));
             sum += points[p].F.squaredNorm();
@@ -146,7 +188,8 @@ namespace geocone
 
       const ReducedProblem    &problem;
       const ReducedNewton::Map map;
-      std::vector<double>      rho;
+      const bool               elastic;
+      std::vector<Mandel>      D;
       std::vector<PointMap>    points;
       const unsigned int       n_stresses;
       const bool               dense;
@@ -177,10 +220,22 @@ namespace geocone
         const VectorXd s0 = s, lambda0 = lambda;
         // The constraints are linear and lambda fulfils them: so they stay
         // fulfilled along the step.
+        const auto move = [&](const double length) {
+          s      = s0 + length * step.head(s.size());
+          lambda = lambda0 + length * step.tail(lambda.size());
+          return system.evaluate(s, lambda);
+        };
+        if (system.is_elastic())
+          {
+            const VectorXd strain = system.strain(step);
+            line_search(system.dot(strain), [&](const double length) {
+              move(length);
+              return system.dot(strain);
+            });
+            continue;
+          }
         const auto falls = [&](const double length) {
-          s                  = s0 + length * step.head(s.size());
-          lambda             = lambda0 + length * step.tail(lambda.size());
-          const double after = system.evaluate(s, lambda);
+          const double after = move(length);
           if (!(after <= (1. - 1e-4 * length) * before))
             return false;
           before = after;

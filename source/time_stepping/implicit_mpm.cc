@@ -382,7 +382,7 @@ namespace geocone
                                           timer,
                                           v,
                                           residual,
-                                          {true, start == Start::particles});
+                                          {start == Start::particles});
         tried.add_earlier(report.newton);
         report.newton = std::move(tried);
         freezer.take(*problem, v_start, true, report.newton.converged);

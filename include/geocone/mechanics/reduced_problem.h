@@ -33,6 +33,7 @@ namespace geocone
     std::vector<FlowCone> cones; ///< n
     Matrix                W;     ///< 3n x 3n, symmetric positive definite
     Eigen::VectorXd       q;     ///< 3n
+    Eigen::VectorXd       S;     ///< 3n, diagonal part of W, or empty: unknown
     Eigen::MatrixXd       C;     ///< 3n x m, or empty
     Eigen::MatrixXd       L;     ///< m x m, symmetric positive definite
     Eigen::VectorXd       d;     ///< m

@@ -26,19 +26,22 @@ namespace geocone
    * Globalisation, by name:
    *  - line search: that of line_search.h, along each Newton direction;
    *  - elastic blend: full steps with the tangent (1 - w) C + w D, where
-   *    w = min(1/2, 0.3 |R_free| / |B'V s|), which vanishes with the residual;
+   *    w = min(1/2, c |R_free| / |B'V s|) vanishes with the residual; c = 0.3 with
+   *    the return map, 0.05 with the natural map;
    *  - merit search: steps are halved until the merit sum R_i^2 / D_i falls, D
    *    the diagonal of the elastic Jacobian; where that stalls the tangent is
    *    blended, w = max(0.02, 3 w), until it works again;
    *  - lag continuation: friction that lags is easy (its law is nearer to
    *    associated flow, and explicit at lag 1), so that the exact law is reached
    *    on a path of solutions whose lag falls from 1/2 to 0; each is the start
-   *    of the next, with the line search, and the lag falls less where one fails;
-   *  - none: full Newton steps;
-   *  - automatic: the line search for theta >= phi/2. Otherwise, for points that
-   *    stay, the elastic blend, which finds most solutions fast, and for particles
-   *    nothing comes first; what this does not solve the lag continuation does
-   *    (doc/performance.md compares them).
+   *    of the next, with the line search;
+   *  - none: full Newton steps.
+   * Formulation and globalisation automatic: for theta >= phi/2 the return map
+   * with the line search. Otherwise, and where that fails, the natural map with
+   * the elastic blend: the stress is an unknown that obeys the law at the end
+   * only, and iterations that would cycle between modes of points get around.
+   * What is not solved so, without associated flow, the lag continuation tries
+   * (doc/performance.md compares them).
    *
    * Friction, by name:
    *  - exact: the law at t_{n+1}, or the step is not solved;
@@ -58,7 +61,6 @@ namespace geocone
     /** What a time stepper knows of its problem. */
     struct Hints
     {
-      bool particles     = false; ///< the points move
       bool elastic_first = false; ///< take the elastic tangent once
     };
 
@@ -103,12 +105,14 @@ namespace geocone
     /** A Newton iteration with one globalisation at one lag. */
     struct Attempt
     {
-      Globalisation globalisation = Globalisation::line_search;
-      double        tolerance     = 0.; ///< relative
-      double        friction_lag  = 0.;
-      unsigned int  allowed       = 0; ///< iterations, more where it converges
-      bool          elastic_first = false;
-      bool          moves         = false; ///< solves once at least
+      Globalisation       globalisation = Globalisation::line_search;
+      double              tolerance     = 0.; ///< relative
+      double              friction_lag  = 0.;
+      bool                natural_map   = false; ///< or the return map
+      std::vector<Mandel> start_stress;          ///< of the natural map (Pa)
+      unsigned int        allowed = 0; ///< iterations, more where it converges
+      bool                elastic_first = false;
+      bool                moves         = false; ///< solves once at least
     };
 
     /** Checks what concerns formulations and first iterates. */
@@ -137,7 +141,7 @@ namespace geocone
     double       absolute_tolerance   = 1e-12;
     unsigned int max_iterations       = 0;
     std::string  globalisation        = "automatic";
-    std::string  formulation          = "return map";
+    std::string  formulation          = "automatic";
     double       rho                  = 0.03;
     std::string  first_iterate        = "none";
     unsigned int first_iterate_sweeps = 10;

@@ -17,10 +17,16 @@ namespace geocone
    *  - the return map  s - R(s - rho z), with R that of return_map() for
    *    K = 2G = rho, which has the flow in it and needs no change of variable.
    * They are the same for associated flow, and have the same roots otherwise.
-   * Steps are halved until |F|^2 falls. Where it does not, which was only seen
-   * for theta far below phi, Gauss-Seidel sweeps lead on, twice as many each
-   * time. J is factorised as a dense matrix where W has more than one nonzero in
-   * twenty, and as a sparse one otherwise.
+   *
+   * Where the elastic part S of W is known, the return map takes K and 2G from it,
+   * s - R(s - S^-1 z). Then -B'F is the residual of the momentum balance at the
+   * velocity that belongs to s, each step is that of Newton's method for this
+   * velocity, and its length is that of line_search() with the directional
+   * residual F.(dz - S ds), up to a factor: for associated flow there is always a
+   * way down. Otherwise steps are halved until |F|^2 falls. Where it does not,
+   * Gauss-Seidel sweeps lead on, twice as many each time. J is factorised as a
+   * dense matrix where W has more than one nonzero in twenty, and as a sparse one
+   * otherwise.
    */
   struct ReducedNewton
   {
@@ -36,8 +42,8 @@ namespace geocone
     Map          map            = Map::return_map;
 
     /**
-     * rho, the same for all cones as in the paper (Pa, for z a strain); 0: that
-     * of the cone, 10 / (mean eigenvalue of W_pp), the best of 0.1, 1, 10, 100.
+     * rho, the same for all cones as in the paper (Pa, for z a strain); 0: by S
+     * for the return map if it is known, else that of the cone, 10 / (mean eigenvalue of W_pp), the best of 0.1, 1, 10, 100.
      */
     double rho = 0.;
 
