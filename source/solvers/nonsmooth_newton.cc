@@ -379,6 +379,7 @@ namespace geocone
     Attempt      attempt;
     attempt.allowed = 15;
     attempt.moves   = true;
+    bool shortened  = false;
     while (reached_lag > 0. && report.iterations - before < allowed)
       {
         double next = reached_lag - fall;
@@ -388,10 +389,17 @@ namespace geocone
         attempt.tolerance    = next > 0. ? path_tolerance : relative_tolerance;
         const unsigned int spent = report.iterations;
         run(attempt, work);
-        // Shorter stages from where one fails were seen to lead to the end
-        // hardly ever: the path turns there.
         if (!report.converged)
-          break;
+          {
+            // More than one shorter stage was seen to lead to the end hardly
+            // ever: the path turns.
+            if (shortened)
+              break;
+            shortened = true;
+            work.v    = reached;
+            fall      = 0.4 * (reached_lag - next);
+            continue;
+          }
         reached     = work.v;
         reached_lag = next;
         // At most 55 % of it at a time: near 0 the path turns most.

@@ -19,21 +19,20 @@ SKIPPED = 77
 
 # Problems that default options do not solve with the exact law, and those where
 # rounding decides.
-UNSOLVED = {"fem_failed_blend_theta0", "fem_failed_lag_theta0",
-            "fem_huge_step_theta0", "fem_phi45_theta0_step4",
-            "fem_tresca_static_cold", "fem_unload_theta0", "mpm_huge_step_theta0",
-            "mpm_slope_failed_lag_theta0", "mpm_slope_huge_theta0"}
+UNSOLVED = {"fem_unload_theta0", "mpm_slope_huge_theta0"}
 EITHER = {"mpm_failed_lag_theta0"}
 
 # Iterations that no problem of a class may need: about a quarter more than today.
-BOUNDS = {("fem", "assoc"): 40, ("fem", "half"): 45, ("fem", "theta0"): 115,
-          ("mpm", "assoc"): 40, ("mpm", "half"): 50, ("mpm", "theta0"): 60}
+BOUNDS = {("fem", "assoc"): 110, ("fem", "half"): 45, ("fem", "theta0"): 55,
+          ("mpm", "assoc"): 40, ("mpm", "half"): 50, ("mpm", "theta0"): 85}
 NATURAL_MAP = 1e-11
 AGREEMENT = 1e-9  # of stresses, relative to the largest one
 
-FORMULATIONS = ("natural map", "reduced", "reduced with multipliers", "Gauss-Seidel")
-# Formulations that a problem is too large or too hard for.
-EXCEPTIONS = {}
+# Problems in stresses lose digits: z is a small difference of W s and q. Here more
+# than elsewhere, and so does the residual of the velocities that belong to them.
+LOOSE = {"fem_huge_step_assoc": 1e-8, "fem_phi45_assoc_cold": 1e-8}
+# Gauss-Seidel would take more than 3000 sweeps for the others.
+GAUSS_SEIDEL = {"mpm_column_assoc_step15"}
 
 
 def flow(name):
@@ -72,21 +71,34 @@ def check(name, summary):
     return None
 
 
+def formulations(name, summary):
+    """The formulations that can solve a problem, other than the return map."""
+    yield "natural map"
+    if "static" in name:  # what is reduced needs a mass
+        return
+    yield "reduced"
+    if summary["constraints"] > 0:
+        yield "reduced with multipliers"
+    if name in GAUSS_SEIDEL:
+        yield "Gauss-Seidel"
+
+
 def compare(program, file, folder):
-    """What formulations say otherwise than the return map, in words."""
+    """What formulations say otherwise than the default does, in words."""
     name = file.stem
-    _, expected = solve(program, file, folder / name)
-    for formulation in FORMULATIONS:
-        if formulation in EXCEPTIONS.get(name, ()):
-            continue
+    accurate = "Newton/Tolerance = 1e-12"
+    first, expected = solve(program, file, folder / name, accurate)
+    for formulation in formulations(name, first):
+        natural = formulation == "natural map"
         summary, stress = solve(program, file, folder / (name + "-" + formulation),
-                                f"Newton/Formulation = {formulation}")
-        if summary is None or not summary["converged"]:
+                                f"Newton/Formulation = {formulation}",
+                                *([accurate] if natural else []))
+        if summary is None or natural and not summary["converged"]:
             yield f"{formulation}: {stress if summary is None else summary['reason']}"
             continue
         error = (max(abs(a - b) for a, b in zip(stress, expected)) /
                  max(map(abs, expected)))
-        if not error <= AGREEMENT:
+        if not error <= (AGREEMENT if natural else LOOSE.get(name, AGREEMENT)):
             yield f"{formulation}: stresses differ by {error:.1e}"
 
 
