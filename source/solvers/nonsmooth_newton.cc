@@ -110,9 +110,9 @@ namespace geocone
       max_iterations,
       "Linear systems to solve before an attempt at a step is given up; twice "
       "as many where it converges. 0: 30 for the elastic blend with the return "
-      "map, 100 for the natural map and 150 for the line search and associated "
-      "flow where nothing else would follow, 40 for the natural map where "
-      "something does, otherwise 60.");
+      "map, 150 for the line search and associated flow (slow starts are worth "
+      "waiting for), 100 for the natural map where nothing would follow and "
+      "otherwise 40, and 60 for all else.");
     add_parameter(
       "Globalisation",
       globalisation,
@@ -296,9 +296,9 @@ namespace geocone
           try_with(hard ? Globalisation::elastic_blend
                         : Globalisation::line_search,
                    false,
-                   hard                  ? 30
-                   : associated && !both ? 150
-                                         : 60);
+                   hard         ? 30
+                   : associated ? 150
+                                : 60);
         if (!report.converged && formulation != "return map")
           try_with(Globalisation::elastic_blend, true, both ? 40 : 100);
       }

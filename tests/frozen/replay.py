@@ -23,7 +23,7 @@ UNSOLVED = {"fem_unload_theta0", "mpm_slope_huge_theta0"}
 EITHER = {"mpm_failed_lag_theta0"}
 
 # Iterations that no problem of a class may need: about a quarter more than today.
-BOUNDS = {("fem", "assoc"): 110, ("fem", "half"): 45, ("fem", "theta0"): 55,
+BOUNDS = {("fem", "assoc"): 220, ("fem", "half"): 45, ("fem", "theta0"): 55,
           ("mpm", "assoc"): 40, ("mpm", "half"): 50, ("mpm", "theta0"): 85}
 NATURAL_MAP = 1e-11
 AGREEMENT = 1e-9  # of stresses, relative to the largest one
