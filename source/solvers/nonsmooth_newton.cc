@@ -249,12 +249,12 @@ namespace geocone
           .solve(work);
         return report;
       }
-    Hints               hints        = hints_given;
-    std::vector<Mandel> start_stress = problem.stress_at_start();
+    Hints               hints = hints_given;
+    std::vector<Mandel> first_stress; // of the first iterate
     if (first_iterate != "none")
       {
         hints.elastic_first = false;
-        start_stress        = first_iterate == "fixed point"
+        first_stress        = first_iterate == "fixed point"
                                 ? fixed_point_iterate(first_iterate_sweeps, work)
                                 : gauss_seidel_iterate(first_iterate_sweeps, work);
       }
@@ -268,16 +268,17 @@ namespace geocone
     Attempt      attempt;
     attempt.tolerance     = relative_tolerance;
     attempt.elastic_first = hints.elastic_first;
-    attempt.start_stress  = start_stress;
     const auto try_with   = [&](const Globalisation name,
                               const bool          natural_map,
                               const unsigned int  automatic) {
-      v                     = start;
-      attempt.globalisation = name;
-      attempt.natural_map   = natural_map;
-      attempt.allowed       = allowed(automatic);
+      v                         = start;
+      attempt.globalisation     = name;
+      attempt.allowed           = allowed(automatic);
+      attempt.natural_map_start = !natural_map ? nullptr
+                                    : first_iterate == "none"
+                                      ? &problem.stress_at_start()
+                                      : &first_stress;
       run(attempt, work);
-      return report.converged;
     };
     if (globalisation != "automatic" && globalisation != "lag continuation")
       {
@@ -446,14 +447,15 @@ namespace geocone
     const bool   blend  = attempt.globalisation == Globalisation::elastic_blend;
     const bool   search = attempt.globalisation == Globalisation::line_search;
     const bool   merit  = attempt.globalisation == Globalisation::merit_search;
-    const double blend_factor =
-      attempt.natural_map ? blend_of_natural_map : blend_of_return_map;
-    const unsigned int limit = report.iterations + attempt.allowed;
-    report.converged         = false;
-    report.friction_lag      = attempt.friction_lag;
+    const double blend_factor = attempt.natural_map_start != nullptr
+                                  ? blend_of_natural_map
+                                  : blend_of_return_map;
+    const unsigned int limit  = report.iterations + attempt.allowed;
+    report.converged          = false;
+    report.friction_lag       = attempt.friction_lag;
     problem.set_friction_lag(attempt.friction_lag);
-    if (attempt.natural_map)
-      problem.use_natural_map(rho, attempt.start_stress);
+    if (attempt.natural_map_start != nullptr)
+      problem.use_natural_map(rho, *attempt.natural_map_start);
     else
       problem.use_return_map();
 

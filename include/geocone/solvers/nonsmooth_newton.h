@@ -105,14 +105,15 @@ namespace geocone
     /** A Newton iteration with one globalisation at one lag. */
     struct Attempt
     {
-      Globalisation       globalisation = Globalisation::line_search;
-      double              tolerance     = 0.; ///< relative
-      double              friction_lag  = 0.;
-      bool                natural_map   = false; ///< or the return map
-      std::vector<Mandel> start_stress;          ///< of the natural map (Pa)
-      unsigned int        allowed = 0; ///< iterations, more where it converges
-      bool                elastic_first = false;
-      bool                moves         = false; ///< solves once at least
+      Globalisation globalisation = Globalisation::line_search;
+      double        tolerance     = 0.; ///< relative
+      double        friction_lag  = 0.;
+      unsigned int  allowed       = 0; ///< iterations, more where it converges
+      bool          elastic_first = false;
+      bool          moves         = false; ///< solves once at least
+
+      /** Start of s for the natural map (Pa), or null: the return map. */
+      const std::vector<Mandel> *natural_map_start = nullptr;
     };
 
     /** Checks what concerns formulations and first iterates. */
