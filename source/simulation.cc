@@ -58,6 +58,7 @@ namespace geocone
   {
     scene.prepare();
     method.prepare();
+    scene.materials.check_closed_form(method.name);
     newton.prepare();
     step_control.prepare();
     exact_solution.prepare();

@@ -4,33 +4,23 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/materials/material.h>
 
+#include <array>
+
 namespace geocone
 {
   Material::Material(const std::string &section)
-    : dealii::ParameterAcceptor("/" + section)
+    : ConstitutiveLaw(section)
   {
-    add_parameter("Density", rho, "Mass density rho (kg/m^3), > 0.");
     add_parameter("Young modulus", young_modulus, "E (Pa), > 0.");
     add_parameter("Poisson ratio",
                   poisson_ratio,
                   "nu (-), between -1 and 0.5, both excluded.");
   }
 
-  std::string
-  Material::parameter(const std::string &name) const
-  {
-    return get_section_name().substr(1) + "/" + name;
-  }
-
   void
   Material::prepare()
   {
-    if (!(rho > 0.))
-      throw InputError(
-        parameter("Density"),
-        rho,
-        "rho > 0 kg/m^3",
-        "without inertia and gravity any positive value will do");
+    ConstitutiveLaw::prepare();
     if (!(young_modulus > 0.))
       throw InputError(parameter("Young modulus"),
                        young_modulus,
@@ -42,6 +32,58 @@ namespace geocone
                        "-1 < nu < 0.5",
                        "for a nearly incompressible material take 0.49");
     elastic = Elasticity(young_modulus, poisson_ratio);
+  }
+
+  double
+  Material::wave_modulus(const Stress &, const double *) const
+  {
+    return elastic.lambda + elastic.two_G;
+  }
+
+  void
+  Material::advance(const PointBlock &block, LawCounts &counts) const
+  {
+    counts.updates += block.n_points;
+    constexpr unsigned int   size = PointBlock::capacity;
+    std::array<Mandel, size> strain, stress_n, stress;
+    std::array<Mode, size>   mode;
+    const unsigned int       n = block.n_points;
+    for (unsigned int p = 0; p < n; ++p)
+      {
+        // Turned by the Cayley transform of the spin, orthogonal exactly.
+        const double tan_half = (block.l_yx[p] - block.l_xy[p]) / 4.;
+        const double t2       = tan_half * tan_half;
+        const double c        = (1. - t2) / (1. + t2);
+        const double s        = 2. * tan_half / (1. + t2);
+        const double cos2 = c * c - s * s, sin2 = 2. * s * c;
+        const double mean = (block.s_xx[p] + block.s_yy[p]) / 2.;
+        const double half = (block.s_xx[p] - block.s_yy[p]) / 2.;
+        const double xy   = block.s_xy[p];
+        const double h    = cos2 * half - sin2 * xy;
+        stress_n[p] = {mean + h, mean - h, sqrt2 * (sin2 * half + cos2 * xy)};
+        strain[p]   = {block.l_xx[p],
+                       block.l_yy[p],
+                       (block.l_xy[p] + block.l_yx[p]) / sqrt2};
+      }
+    Response response;
+    response.stress = dealii::ArrayView<Mandel>(stress.data(), n);
+    response.mode   = dealii::ArrayView<Mode>(mode.data(), n);
+    update({dealii::ArrayView<const Mandel>(strain.data(), n),
+            dealii::ArrayView<const Mandel>(stress_n.data(), n)},
+           response);
+    for (unsigned int p = 0; p < n; ++p)
+      {
+        const Mandel change = stress[p] - stress_n[p];
+        block.work[p]       = strain[p].dot(stress_n[p] + change / 2.);
+        block.plastic_strain[p] +=
+          mode[p] == Mode::elastic
+            ? 0.
+            : (strain[p] - elastic.strain(change)).norm();
+        block.s_xx[p]         = stress[p][0];
+        block.s_yy[p]         = stress[p][1];
+        block.s_xy[p]         = stress[p][2] / sqrt2;
+        block.wave_modulus[p] = elastic.lambda + elastic.two_G;
+      }
   }
 
   double

@@ -14,7 +14,7 @@ namespace geocone
   namespace
   {
     template <typename Law>
-    std::unique_ptr<Material>
+    std::unique_ptr<ConstitutiveLaw>
     make(const std::string &section)
     {
       return std::make_unique<Law>(section);
@@ -23,7 +23,7 @@ namespace geocone
     /** The list of all laws: a new one is a new line here. */
     const std::vector<
       std::pair<std::string,
-                std::unique_ptr<Material> (*)(const std::string &)>>
+                std::unique_ptr<ConstitutiveLaw> (*)(const std::string &)>>
       laws = {{"Mohr-Coulomb", &make<MohrCoulomb>},
               {"Tresca", &make<Tresca>},
               {"linear elastic", &make<LinearElastic>}};
@@ -38,7 +38,7 @@ namespace geocone
     return names;
   }
 
-  std::unique_ptr<Material>
+  std::unique_ptr<ConstitutiveLaw>
   make_material(const std::string &type, const std::string &section)
   {
     std::string known;
@@ -89,16 +89,34 @@ namespace geocone
   void
   Materials::prepare()
   {
-    for (const auto &material : list)
-      material->prepare();
+    in_closed_form.clear();
+    for (const auto &law : list)
+      {
+        law->prepare();
+        in_closed_form.push_back(dynamic_cast<const Material *>(law.get()));
+      }
+  }
+
+  void
+  Materials::check_closed_form(const std::string &method) const
+  {
+    for (unsigned int i = 0; i < list.size(); ++i)
+      if (in_closed_form[i] == nullptr)
+        throw InputError("Materials/" + names[i] + "/Type",
+                         types[i],
+                         "a law in closed form where Discretisation/Method = " +
+                           method,
+                         "set 'Discretisation/Method' to 'explicit MPM', or "
+                         "choose another law");
   }
 
   double
   Materials::non_associativity() const
   {
     double largest = 0.;
-    for (const auto &material : list)
-      largest = std::max(largest, material->non_associativity());
+    for (const Material *material : in_closed_form)
+      if (material != nullptr)
+        largest = std::max(largest, material->non_associativity());
     return largest;
   }
 } // namespace geocone

@@ -279,7 +279,7 @@ namespace geocone
     for (unsigned int i = 0; i < n; ++i)
       {
         const dealii::Point<dim> above(x[0], x[1] + depth * (i + 0.5) / n);
-        mass += materials[regions.material_at(above, -1)].density() * depth / n;
+        mass += materials.law(regions.material_at(above, -1)).density() * depth / n;
       }
     const double vertical = -(surcharge + g * mass);
     return {k0 * vertical, vertical, 0.};

@@ -103,7 +103,7 @@ namespace geocone
             index = i;
         const auto *law =
           index < materials.size()
-            ? dynamic_cast<const MohrCoulomb *>(&materials[index])
+            ? dynamic_cast<const MohrCoulomb *>(&materials.law(index))
             : nullptr;
         if (law == nullptr)
           throw InputError("Observation/Reference material",

@@ -5,12 +5,11 @@
 #define geocone_materials_material_h
 
 #include <geocone/base/types.h>
+#include <geocone/materials/constitutive_law.h>
 #include <geocone/materials/elasticity.h>
 #include <geocone/materials/second_order_cone.h>
 
 #include <deal.II/base/array_view.h>
-#include <deal.II/base/parameter_acceptor.h>
-
 #include <optional>
 #include <string>
 
@@ -39,25 +38,33 @@ namespace geocone
   };
 
   /**
-   * A constitutive law: a pure function of a batch of strain increments and
-   * states at t_n. Each law is one unit in this folder with its own parameters,
-   * and one line in material_library.cc.
+   * A constitutive law in closed form, which all methods can use: a pure function
+   * of a batch of strain increments and states at t_n, with isotropic linear
+   * elasticity.
    *
    * Parameters of the base: density (kg/m^3), Young modulus (Pa), Poisson ratio.
    */
-  class Material : public dealii::ParameterAcceptor
+  class Material : public ConstitutiveLaw
   {
   public:
     /** @param section e.g. "Materials/soil" */
     explicit Material(const std::string &section);
 
     /** Checks the parameters and computes what derives from them. */
-    virtual void
-    prepare();
+    void
+    prepare() override;
 
     /** The law, for all points of the batch. */
     virtual void
     update(const Increment &increment, const Response &response) const = 0;
+
+    /** An explicit step: by the cone's kernel if there is a cone, or else by
+     *  update() of the turned stress. */
+    void
+    advance(const PointBlock &block, LawCounts &counts) const override;
+
+    double
+    wave_modulus(const Stress &stress, const double *history) const override;
 
     /**
      * The cone of a cone law, by which solutions are checked independently of
@@ -77,25 +84,13 @@ namespace geocone
     virtual double
     non_associativity() const;
 
-    double
-    density() const
-    {
-      return rho;
-    }
-
     const Elasticity &
     elasticity() const
     {
       return elastic;
     }
 
-  protected:
-    /** "Materials/soil/NAME", for messages. */
-    std::string
-    parameter(const std::string &name) const;
-
   private:
-    double     rho           = 2000.;
     double     young_modulus = 1e8;
     double     poisson_ratio = 0.3;
     Elasticity elastic;

@@ -7,6 +7,8 @@
 #include <geocone/base/parameter_file.h>
 #include <geocone/materials/material.h>
 
+#include <deal.II/base/exceptions.h>
+
 #include <memory>
 #include <vector>
 
@@ -17,7 +19,7 @@ namespace geocone
    * @param type a name of material_types()
    * @throws InputError for an unknown type, with the list of those known
    */
-  std::unique_ptr<Material>
+  std::unique_ptr<ConstitutiveLaw>
   make_material(const std::string &type, const std::string &section);
 
   /** The names that make_material() knows. */
@@ -43,11 +45,27 @@ namespace geocone
       return list.size();
     }
 
-    const Material &
-    operator[](const unsigned int i) const
+    /** @name One of them, as any law, or as one in closed form */
+    /** @{ */
+    const ConstitutiveLaw &
+    law(const unsigned int i) const
     {
       return *list[i];
     }
+    const Material &
+    operator[](const unsigned int i) const
+    {
+      Assert(in_closed_form[i] != nullptr, dealii::ExcInternalError());
+      return *in_closed_form[i];
+    }
+    /** @} */
+
+    /**
+     * @throws InputError if a law is not in closed form, which the method
+     * @p method needs
+     */
+    void
+    check_closed_form(const std::string &method) const;
 
     const std::string &
     name(const unsigned int i) const
@@ -67,9 +85,10 @@ namespace geocone
     }
 
   private:
-    std::vector<std::string>               names;
-    std::vector<std::string>               types;
-    std::vector<std::unique_ptr<Material>> list, unused;
+    std::vector<std::string>                      names;
+    std::vector<std::string>                      types;
+    std::vector<std::unique_ptr<ConstitutiveLaw>> list, unused;
+    std::vector<const Material *>                 in_closed_form; ///< or null
   };
 } // namespace geocone
 

@@ -1,0 +1,106 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_materials_constitutive_law_h
+#define geocone_materials_constitutive_law_h
+
+#include <geocone/materials/point_block.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * What every constitutive law can do: it has a density, and it carries points
+   * along in explicit steps (advance()). Laws of closed form, which implicit
+   * methods can use as well, derive from Material; laws with an integrator of
+   * their own derive from this class. Each law is one unit in this folder with
+   * its own parameters, and one line in material_library.cc.
+   */
+  class ConstitutiveLaw : public dealii::ParameterAcceptor
+  {
+  public:
+    /** Plane-strain stress (xx, yy, zz, xy), tension positive (Pa). */
+    using Stress = std::array<double, 4>;
+
+    /** @param section e.g. "Materials/soil" */
+    explicit ConstitutiveLaw(const std::string &section);
+
+    /** Checks the parameters and computes what derives from them. */
+    virtual void
+    prepare();
+
+    /** Mass density rho (kg/m^3). */
+    double
+    density() const
+    {
+      return rho;
+    }
+
+    /** @name Explicit steps */
+    /** @{ */
+
+    /**
+     * One step of all points of a block: turns stress and tensorial history by
+     * the exact rotation of the spin increment, then adds the response to the
+     * strain increment sym(dt grad v).
+     */
+    virtual void
+    advance(const PointBlock &block, LawCounts &counts) const = 0;
+
+    /** Number of history variables of a point. */
+    virtual unsigned int
+    n_history() const
+    {
+      return 0;
+    }
+
+    /**
+     * The history of a point that has this stress, by the parameters of the law.
+     * @param[out] history n_history() values
+     * @return what had to be changed for it, or nothing
+     * @throws InputError if the law cannot have this stress
+     */
+    virtual std::string
+    initialise(const Stress & /*stress*/, double * /*history*/) const
+    {
+      return "";
+    }
+
+    /** Modulus M of the elastic pressure wave, c = sqrt(M/rho) (Pa). */
+    virtual double
+    wave_modulus(const Stress &stress, const double *history) const = 0;
+
+    /**
+     * Names of what can be shown of the state beyond the in-plane stress, with
+     * underscores for blanks, e.g. "stress_zz".
+     */
+    virtual std::vector<std::string>
+    shown_names() const
+    {
+      return {};
+    }
+
+    /** The values for shown_names(). @param stress s_xx, s_yy, s_xy */
+    virtual void
+    show(const std::array<double, 3> & /*stress*/,
+         const double * /*history*/,
+         double * /*values*/) const
+    {}
+    /** @} */
+
+  protected:
+    /** "Materials/soil/NAME", for messages. */
+    std::string
+    parameter(const std::string &name) const;
+
+  private:
+    double rho = 2000.;
+  };
+} // namespace geocone
+
+#endif

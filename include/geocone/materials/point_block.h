@@ -1,0 +1,78 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_materials_point_block_h
+#define geocone_materials_point_block_h
+
+namespace geocone
+{
+  /**
+   * A block of points of one material that an explicit step updates in place:
+   * a structure of arrays, the same index for one point. Tensor components
+   * (no Mandel factors), tension positive, SI units.
+   *
+   * The arrays may be read and written up to the next multiple of
+   * PointBlock::lanes: what lies beyond the last point are copies of it without
+   * mass. They need not be aligned.
+   */
+  struct PointBlock
+  {
+    /** Points that a kernel may update at once. */
+    static constexpr unsigned int lanes = 4;
+
+    /** Points per block, at most; scratch arrays of so many stay in cache. */
+    static constexpr unsigned int capacity = 64;
+
+    unsigned int n_points = 0;
+
+    /** @name dt grad v: increments of the displacement gradient, dt dv_i/dx_j */
+    /** @{ */
+    const double *l_xx = nullptr;
+    const double *l_xy = nullptr;
+    const double *l_yx = nullptr;
+    const double *l_yy = nullptr;
+    /** @} */
+
+    /** @name State, updated in place: in-plane stress (Pa), history, and the
+     *  integral of the norm of the plastic strain rate */
+    /** @{ */
+    double        *s_xx           = nullptr;
+    double        *s_yy           = nullptr;
+    double        *s_xy           = nullptr;
+    double *const *history        = nullptr; ///< n_history() arrays
+    double        *plastic_strain = nullptr;
+    /** @} */
+
+    /** @name Answers */
+    /** @{ */
+    /** Stress work per volume (Pa): strain increment times the mean of the
+     *  stresses before (rotated) and after. */
+    double *work = nullptr;
+
+    /** Modulus M of the elastic pressure wave, c = sqrt(M/rho), after (Pa). */
+    double *wave_modulus = nullptr;
+    /** @} */
+  };
+
+  /** What laws count while they work; sums and extremes over all points. */
+  struct LawCounts
+  {
+    unsigned long long updates  = 0; ///< points times steps
+    unsigned long long substeps = 0; ///< of laws with error control
+    unsigned long long forced   = 0; ///< substeps accepted against the control
+    unsigned long long limited  = 0; ///< stresses kept away from p = -pe
+    unsigned int       most     = 0; ///< substeps of one point in one step
+
+    void
+    add(const LawCounts &other)
+    {
+      updates += other.updates;
+      substeps += other.substeps;
+      forced += other.forced;
+      limited += other.limited;
+      most = most > other.most ? most : other.most;
+    }
+  };
+} // namespace geocone
+
+#endif

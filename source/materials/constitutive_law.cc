@@ -1,0 +1,31 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/materials/constitutive_law.h>
+
+namespace geocone
+{
+  ConstitutiveLaw::ConstitutiveLaw(const std::string &section)
+    : dealii::ParameterAcceptor("/" + section)
+  {
+    add_parameter("Density", rho, "Mass density rho (kg/m^3), > 0.");
+  }
+
+  std::string
+  ConstitutiveLaw::parameter(const std::string &name) const
+  {
+    return get_section_name().substr(1) + "/" + name;
+  }
+
+  void
+  ConstitutiveLaw::prepare()
+  {
+    if (!(rho > 0.))
+      throw InputError(
+        parameter("Density"),
+        rho,
+        "rho > 0 kg/m^3",
+        "without inertia and gravity any positive value will do");
+  }
+} // namespace geocone
