@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/version.h>
+#include <geocone/explicit_simulation.h>
 #include <geocone/replay.h>
 #include <geocone/simulation.h>
 
@@ -110,8 +111,9 @@ namespace
     }
     const ParameterFile file(example.string(), {});
     std::filesystem::remove(example);
-    Log        log(MPI_COMM_WORLD, true);
-    Simulation simulation(MPI_COMM_WORLD, file, log);
+    Log                log(MPI_COMM_WORLD, true);
+    Simulation         simulation(MPI_COMM_WORLD, file, log);
+    ExplicitSimulation explicit_simulation(MPI_COMM_WORLD, file, log);
     file.parse();
     ParameterFile::print(out, true);
   }
@@ -167,13 +169,20 @@ namespace
 
     const ParameterFile file(call.file, call.overrides);
     Log                 log(MPI_COMM_WORLD, call.quiet);
-    Simulation          simulation(MPI_COMM_WORLD, file, log);
+    // Both, so that a file may hold the parameters of all methods.
+    Simulation         simulation(MPI_COMM_WORLD, file, log);
+    ExplicitSimulation explicit_simulation(MPI_COMM_WORLD, file, log);
     file.parse();
-    const bool ok = simulation.run(
-      std::filesystem::path(call.file).stem().string(), call.folder);
-    if (first && simulation.output().wants_pictures())
+    const std::string name = std::filesystem::path(call.file).stem().string();
+    const bool        is_explicit =
+      file.peek("Discretisation/Method", "FEM") == "explicit MPM";
+    const bool ok = is_explicit ? explicit_simulation.run(name, call.folder)
+                                : simulation.run(name, call.folder);
+    const OutputBase &output =
+      is_explicit ? explicit_simulation.output() : simulation.output();
+    if (first && output.wants_pictures())
       drawing_command = "'" GEOCONE_SOURCE_DIR "/scripts/plot' '" +
-                        simulation.output().folder() + "'" +
+                        output.folder() + "'" +
                         (call.quiet ? " >/dev/null" : "");
     return ok ? 0 : 1;
   }

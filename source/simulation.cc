@@ -59,6 +59,8 @@ namespace geocone
     scene.prepare();
     method.prepare();
     scene.materials.check_closed_form(method.name);
+    for (const auto &stage : scene.loading.stages)
+      stage->check_implicit();
     newton.prepare();
     step_control.prepare();
     exact_solution.prepare();

@@ -52,6 +52,16 @@ namespace geocone
                   "shared (every rank stores the whole mesh).");
   }
 
+  std::array<std::vector<double>, dim>
+  BackgroundMesh::uniform_lines(const Scene &scene, const Method &method)
+  {
+    parameters.prepare(scene.geometry, method);
+    if (scene.geometry.shape == Geometry::Shape::file ||
+        parameters.type != "uniform" || parameters.cells != "quadrilaterals")
+      return {};
+    return grid_lines(parameters);
+  }
+
   void
   BackgroundMesh::prepare(const Scene &scene, const Method &method)
   {

@@ -289,8 +289,8 @@ namespace geocone
     }
   } // namespace
 
-  CoarseMesh
-  structured_mesh(const MeshParameters &parameters)
+  std::array<std::vector<double>, dim>
+  grid_lines(const MeshParameters &parameters)
   {
     const Point<dim> lower = parameters.outline[0],
                      upper = parameters.outline[2];
@@ -305,6 +305,13 @@ namespace geocone
         }
       else
         x[c] = uniform_coordinates(lower[c], upper[c], parameters.cell_size);
+    return x;
+  }
+
+  CoarseMesh
+  structured_mesh(const MeshParameters &parameters)
+  {
+    const std::array<std::vector<double>, dim> x = grid_lines(parameters);
 
     CoarseMesh         mesh;
     const unsigned int nx = x[0].size() - 1, ny = x[1].size() - 1;

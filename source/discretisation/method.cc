@@ -13,14 +13,18 @@ namespace geocone
                   name,
                   "FEM: the mesh fits the body, its quadrature points carry "
                   "the material. MPM: particles carry it through a background "
-                  "mesh, implicitly, with inertia.");
+                  "mesh, implicitly, with inertia. explicit MPM: the same in "
+                  "many small explicit steps, for fast flows and soils without "
+                  "a closed form.");
   }
 
   void
   Method::prepare()
   {
-    if (name != "FEM" && name != "MPM")
-      throw InputError(
-        "Discretisation/Method", name, "FEM | MPM", "choose one of them");
+    if (name != "FEM" && name != "MPM" && name != "explicit MPM")
+      throw InputError("Discretisation/Method",
+                       name,
+                       "FEM | MPM | explicit MPM",
+                       "choose one of them");
   }
 } // namespace geocone

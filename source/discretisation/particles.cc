@@ -54,24 +54,15 @@ namespace geocone
   } // namespace
 
   Particles::Particles(const ParameterFile &file)
-    : ParameterAcceptor("/Particles")
-    , seeding(file)
-  {
-    add_parameter("Outflow",
-                  outflow,
-                  "What a particle does that leaves the background mesh: "
-                  "error (ends the run and names it) | count (it is removed "
-                  "and counted).");
-  }
+    : seeding(file)
+  {}
 
   std::string
   Particles::prepare(const Scene          &scene,
                      const BackgroundMesh &mesh,
                      const Space          &space)
   {
-    if (outflow != "error" && outflow != "count")
-      throw InputError(
-        "Particles/Outflow", outflow, "error | count", "choose one of them");
+    outflow.prepare();
     comm = mesh.triangulation().get_communicator();
     seeding.prepare(scene);
     const std::vector<Seed> seeds = seeding.make(scene, mesh);
@@ -280,7 +271,7 @@ namespace geocone
 
     const unsigned int n_now = Utilities::MPI::sum(lost.size(), comm);
     n_lost_all += n_now;
-    if (n_now > 0 && outflow == "error")
+    if (n_now > 0 && outflow.is_error())
       {
         std::string which;
         if (!lost.empty())

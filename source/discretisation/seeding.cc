@@ -258,6 +258,17 @@ namespace geocone
         }
     }
 
+    InputError
+    outside_mesh(const Point<dim> &x)
+    {
+      return InputError(format("the seed at (%g, %g) lies outside the "
+                               "background mesh",
+                               x[0],
+                               x[1]) +
+                        "\n  allowed: points in the mesh\n"
+                        "  remedy:  enlarge 'Mesh/Box'");
+    }
+
     /** Of seeds that all ranks have, those in the cells of this rank. */
     std::vector<Seed>
     own_ones(const std::vector<Seed> &all, const BackgroundMesh &mesh)
@@ -281,12 +292,7 @@ namespace geocone
       std::vector<Seed> own;
       for (std::size_t i = 0; i < all.size(); ++i)
         if (owner[i] == n_ranks)
-          throw InputError(format("the seed at (%g, %g) lies outside the "
-                                  "background mesh",
-                                  all[i].position[0],
-                                  all[i].position[1]) +
-                           "\n  allowed: points in the mesh\n"
-                           "  remedy:  enlarge 'Mesh/Box'");
+          throw outside_mesh(all[i].position);
         else if (owner[i] == rank)
           own.push_back(all[i]);
       return own;
@@ -396,13 +402,57 @@ namespace geocone
   Seeding::make(const Scene &scene, const BackgroundMesh &mesh) const
   {
     std::set<std::string> given;
-    std::vector<Seed>     seeds =
-      points_per_direction() > 0
-            ? follow_cells(scene.geometry, mesh)
-            : own_ones(layout == "lattice"  ? make_lattice(scene.geometry)
-                   : layout == "random" ? make_random(scene.geometry)
-                                        : read_file(scene.materials, given),
-                   mesh);
+    std::vector<Seed>     seeds = points_per_direction() > 0
+                                    ? follow_cells(scene.geometry, mesh)
+                                    : own_ones(make_all(scene, given), mesh);
+    describe(seeds, scene, given);
+    check_numbers(
+      seeds, scene.materials, mesh.triangulation().get_communicator());
+    return seeds;
+  }
+
+  std::vector<Seed>
+  Seeding::make(const Scene         &scene,
+                const CartesianGrid &grid,
+                const MPI_Comm       comm) const
+  {
+    const unsigned int rank    = Utilities::MPI::this_mpi_process(comm);
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
+    const unsigned int n       = grid.axes[0].n_intervals;
+    const std::array<unsigned int, 2> columns = {
+      {static_cast<unsigned int>(1ULL * n * rank / n_ranks),
+       static_cast<unsigned int>(1ULL * n * (rank + 1) / n_ranks)}};
+    std::set<std::string> given;
+    std::vector<Seed>     seeds;
+    if (points_per_direction() > 0)
+      seeds = follow_cells(scene.geometry, grid, columns);
+    else
+      for (Seed &seed : make_all(scene, given))
+        {
+          if (!grid.contains(seed.position))
+            throw outside_mesh(seed.position);
+          const unsigned int column = grid.axes[0].interval(seed.position[0]);
+          if (column >= columns[0] && column < columns[1])
+            seeds.push_back(seed);
+        }
+    describe(seeds, scene, given);
+    check_numbers(seeds, scene.materials, comm);
+    return seeds;
+  }
+
+  std::vector<Seed>
+  Seeding::make_all(const Scene &scene, std::set<std::string> &given) const
+  {
+    return layout == "lattice"  ? make_lattice(scene.geometry)
+           : layout == "random" ? make_random(scene.geometry)
+                                : read_file(scene.materials, given);
+  }
+
+  void
+  Seeding::describe(std::vector<Seed>           &seeds,
+                    const Scene                 &scene,
+                    const std::set<std::string> &given) const
+  {
     for (Seed &seed : seeds)
       {
         if (given.count("material") == 0)
@@ -412,9 +462,38 @@ namespace geocone
         if (given.count("sxx") == 0)
           seed.stress = scene.initial_stress.at(
             seed.position, scene.materials, scene.regions);
+        seed.stress_zz = scene.initial_stress.zz_at(seed.position, seed.stress);
       }
-    check_numbers(
-      seeds, scene.materials, mesh.triangulation().get_communicator());
+  }
+
+  std::vector<Seed>
+  Seeding::follow_cells(const Geometry                    &geometry,
+                        const CartesianGrid               &grid,
+                        const std::array<unsigned int, 2> &columns) const
+  {
+    const Quadrature<1> line =
+      layout == "Gauss" ? Quadrature<1>(QGauss<1>(k))
+                        : Quadrature<1>(QIterated<1>(QMidpoint<1>(), k));
+    std::vector<Seed> seeds;
+    const auto        place = [&](const unsigned int d,
+                           const unsigned int interval,
+                           const unsigned int q) {
+      return grid.axes[d].begin +
+             (interval + line.point(q)[0]) * grid.axes[d].size;
+    };
+    for (unsigned int i = columns[0]; i < columns[1]; ++i)
+      for (unsigned int j = 0; j < grid.axes[1].n_intervals; ++j)
+        for (unsigned int b = 0; b < k; ++b)
+          for (unsigned int a = 0; a < k; ++a)
+            {
+              const Point<dim> x(place(0, i, a), place(1, j, b));
+              if (!geometry.contains(x))
+                continue;
+              seeds.emplace_back();
+              seeds.back().position = x;
+              seeds.back().volume   = line.weight(a) * line.weight(b) *
+                                    grid.axes[0].size * grid.axes[1].size;
+            }
     return seeds;
   }
 

@@ -40,8 +40,8 @@ namespace geocone
                   name,
                   "P1, P2, P3 on triangles; Q1, Q2, Q3 on quadrilaterals; "
                   "B-spline 2, B-spline 3 on uniform and graded grids of them; "
-                  "automatic: P3 or Q3 for FEM, B-spline 3 for MPM (Q1 where "
-                  "the mesh comes from a file).");
+                  "automatic: P3 or Q3 for FEM, B-spline 3 for MPM, B-spline 2 "
+                  "for explicit MPM (Q1 where the mesh comes from a file).");
     add_parameter("Basis",
                   basis,
                   "Of Q2 and Q3: Lagrange | Bernstein | automatic: Lagrange's "
@@ -53,16 +53,16 @@ namespace geocone
   }
 
   void
-  Space::prepare(const BackgroundMesh &background, const Method &method)
+  Space::choose_element(const bool    simplicial,
+                        const bool    has_grid,
+                        const Method &method)
   {
-    mesh                  = &background;
-    const bool simplicial = mesh->is_simplicial();
-    const bool has_grid   = !mesh->grid()[0].empty();
     if (name == "automatic")
-      name = simplicial         ? "P3"
-             : !method.is_mpm() ? "Q3"
-             : has_grid         ? "B-spline 3"
-                                : "Q1";
+      name = simplicial             ? "P3"
+             : !method.is_mpm()     ? "Q3"
+             : !has_grid            ? "Q1"
+             : method.is_explicit() ? "B-spline 2"
+                                    : "B-spline 3";
     std::vector<std::string> allowed = {"P1", "P2", "P3"};
     if (!simplicial)
       allowed = {"Q1", "Q2", "Q3"};
@@ -78,6 +78,18 @@ namespace geocone
                          text + " on this mesh",
                          "choose one of them, or change the cells of the mesh");
       }
+    p = name.back() - '0';
+    if (method.is_explicit() && (name == "Q2" || name == "Q3"))
+      throw InputError("Discretisation/Element",
+                       name,
+                       "Q1 | B-spline 2 | B-spline 3 with explicit MPM",
+                       "the stable step of elements of higher degree is very "
+                       "small: take splines, or Q1 on an unstructured mesh");
+    if (method.is_explicit() && b_bar)
+      throw InputError("Discretisation/B-bar",
+                       "true",
+                       "false with explicit MPM",
+                       "take B-spline 2 or 3, which hardly lock");
     if (basis == "automatic")
       basis = method.is_mpm() ? "Bernstein" : "Lagrange";
     if (basis != "Lagrange" && basis != "Bernstein")
@@ -85,13 +97,20 @@ namespace geocone
                        basis,
                        "automatic | Lagrange | Bernstein",
                        "choose one of them");
-    p = name.back() - '0';
     if (b_bar && name != "Q1")
       throw InputError("Discretisation/B-bar",
                        "true",
                        "true for Q1 only",
                        "elements and splines of higher degree do not need it: "
                        "set B-bar = false, or Element = Q1");
+  }
+
+  void
+  Space::prepare(const BackgroundMesh &background, const Method &method)
+  {
+    mesh                  = &background;
+    const bool simplicial = mesh->is_simplicial();
+    choose_element(simplicial, !mesh->grid()[0].empty(), method);
 
     n_nodes_per_cell = simplicial ? (p + 1) * (p + 2) / 2 : (p + 1) * (p + 1);
     const IndexSet owned =

@@ -1,7 +1,10 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/materials/cone_kernel.h>
 #include <geocone/materials/linear_elastic.h>
+
+#include <limits>
 
 namespace geocone
 {
@@ -17,5 +20,14 @@ namespace geocone
       }
     for (MandelMatrix &tangent : response.tangent)
       tangent = elasticity().stiffness();
+  }
+
+  void
+  LinearElastic::advance(const PointBlock &block, LawCounts &counts) const
+  {
+    counts.updates += block.n_points;
+    FlowCone everything;
+    everything.k = std::numeric_limits<double>::max();
+    advance_cone(everything, elasticity(), block);
   }
 } // namespace geocone

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/materials/cone_kernel.h>
 #include <geocone/materials/material.h>
 
 #include <array>
@@ -44,6 +45,8 @@ namespace geocone
   Material::advance(const PointBlock &block, LawCounts &counts) const
   {
     counts.updates += block.n_points;
+    if (const std::optional<FlowCone> cone = flow_cone())
+      return advance_cone(*cone, elastic, block);
     constexpr unsigned int   size = PointBlock::capacity;
     std::array<Mandel, size> strain, stress_n, stress;
     std::array<Mode, size>   mode;

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
-#include <geocone/output/run_folder.h>
 #include <geocone/output/run_output.h>
 
 #include <deal.II/base/mpi.h>
@@ -10,46 +9,8 @@
 namespace geocone
 {
   RunOutput::RunOutput(const MPI_Comm comm, Log &log)
-    : dealii::ParameterAcceptor("/Output")
-    , comm(comm)
-    , writes(dealii::Utilities::MPI::this_mpi_process(comm) == 0)
-    , log(log)
-  {
-    add_parameter("Folder",
-                  path,
-                  "Folder of the run; empty: results/NAME for NAME.prm. The "
-                  "option --output goes before it.");
-    add_parameter("If folder exists",
-                  if_exists,
-                  "number (take NAME-2, NAME-3, ...) | refuse | overwrite (the "
-                  "files of the run before are removed).");
-    add_parameter("Fields",
-                  with_fields,
-                  "Whether VTU files are written (see Loading/.../Output "
-                  "every).");
-    add_parameter("Fields format",
-                  fields_format,
-                  "vtu (for ParaView and the pictures) | hdf5 (with XDMF "
-                  "records) | both.");
-    add_parameter("Pictures",
-                  pictures,
-                  "Whether the curve and the fields are drawn at the end, by "
-                  "scripts/plot.");
-    add_parameter("Verbosity",
-                  verbosity,
-                  "0: results only, 1: progress, 2: also the table of every "
-                  "Newton iteration.");
-    add_parameter("Expectations",
-                  expectation_texts,
-                  "Comma-separated statements about summary.json that must "
-                  "hold at the end, else the exit code is 1: TOPIC/NAME <= "
-                  "NUMBER or >= NUMBER, e.g. newton/iterations_mean <= 7.");
-    add_parameter("Report for tests",
-                  report_for_tests,
-                  "none | loads | expectations: writes a file 'output' into "
-                  "the folder of the call, with the load of each step and the "
-                  "expectations, or the latter only.");
-  }
+    : OutputBase(comm, log)
+  {}
 
   void
   RunOutput::prepare(const std::string &default_name,
@@ -57,31 +18,11 @@ namespace geocone
                      const Scene       &scene_)
   {
     scene = &scene_;
-    name  = default_name;
-    if (if_exists != "number" && if_exists != "refuse" &&
-        if_exists != "overwrite")
-      throw InputError("Output/If folder exists",
-                       if_exists,
-                       "number | refuse | overwrite",
-                       "choose one of them");
-    if (report_for_tests != "none" && report_for_tests != "loads" &&
-        report_for_tests != "expectations")
-      throw InputError("Output/Report for tests",
-                       report_for_tests,
-                       "none | loads | expectations",
-                       "choose one of them");
     fields.set_format(fields_format);
-    for (const std::string &text : expectation_texts)
-      expectations.emplace_back(text, "Output/Expectations");
-    if (!folder_of_call.empty())
-      path = folder_of_call;
-    if (path.empty())
-      path = "results/" + default_name;
-    path = make_run_folder(comm, path, if_exists);
+    make_folder(default_name, folder_of_call);
 
     if (!writes)
       return;
-    log.open(path + "/log.txt");
     std::vector<std::string> columns = {
       "step", "time (s)", "displacement (m)", "load (N/m)"};
     for (const unsigned int c : scene->observation.conditions)
@@ -346,8 +287,7 @@ namespace geocone
                                  {"stress", field_errors->stress}};
     summary["size"] = size;
     summary["cost"] = cost;
-    write_file(path + "/summary.json",
-               [&](std::ostream &out) { out << summary.dump(2) << "\n"; });
+    write_summary_file();
   }
 
   void
@@ -438,28 +378,5 @@ namespace geocone
         out << "unknowns " << summary["size"]["dofs"] << " points "
             << summary["size"]["points"] << "\n";
       });
-  }
-
-  bool
-  RunOutput::expectations_hold() const
-  {
-    bool hold = true;
-    if (writes)
-      for (const Expectation &expectation : expectations)
-        {
-          const bool        holds = expectation.holds(summary);
-          const std::string answer =
-            "expected " + expectation.text + ": " + (holds ? "yes" : "NO");
-          const std::string line =
-            answer + " (" + expectation.found(summary) + ")";
-          hold = hold && holds;
-          if (holds)
-            log.print(line);
-          else
-            log.warn(line);
-          if (report_for_tests != "none")
-            std::ofstream("output", std::ios::app) << answer << "\n";
-        }
-    return dealii::Utilities::MPI::broadcast(comm, hold);
   }
 } // namespace geocone

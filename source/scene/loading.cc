@@ -30,6 +30,74 @@ namespace geocone
                   reset_displacement,
                   "Count displacements and plastic strains from the beginning "
                   "of this stage.");
+    add_parameter("Damping",
+                  damping,
+                  "Explicit MPM: local damping, the part (0 to 1) of each "
+                  "node's unbalanced force that opposes its velocity; 0.5 to "
+                  "0.75 where a state of rest is looked for.");
+    add_parameter(
+      "Kinetic damping",
+      kinetic_damping,
+      "Explicit MPM: set all velocities to zero at each peak of the "
+      "kinetic energy.");
+    add_parameter("Largest unbalanced force",
+                  largest_unbalanced_force,
+                  "Explicit MPM: the stage must end in equilibrium, with no "
+                  "node's unbalanced force larger than this part of the "
+                  "weight of the body, e.g. 1e-3; 0: not tested.");
+    add_parameter(
+      "Largest kinetic energy",
+      largest_kinetic_energy,
+      "Explicit MPM: the stage must end with a kinetic energy of at "
+      "most this part of the stress work done, e.g. 1e-6; 0: not "
+      "tested.");
+    add_parameter("Reset velocity",
+                  reset_velocity,
+                  "Explicit MPM: begin this stage at rest.");
+    add_parameter("Reset history",
+                  reset_history,
+                  "Explicit MPM: at the beginning of this stage, set the "
+                  "internal variables of the soil from its stress, as at the "
+                  "start of a run.");
+    add_parameter("Removed polygon",
+                  removed_polygon,
+                  "Explicit MPM: vertices x, y; x, y; ... (m); the points that "
+                  "lie in it when the stage begins are taken away (a cut).");
+    add_parameter("Removal duration",
+                  removal_duration,
+                  "Explicit MPM: time (s) over which the weight and the stress "
+                  "of the removed points go to zero; 0: at once.");
+  }
+
+  void
+  Stage::check_implicit() const
+  {
+    const std::string section = get_section_name().substr(1) + "/";
+    const auto        refuse  = [&](const std::string &entry,
+                            const std::string &value,
+                            const std::string &unset) {
+      throw InputError(section + entry,
+                       value,
+                       unset + " where Discretisation/Method is not explicit "
+                                       "MPM",
+                       "leave it out, or set Discretisation/Method = explicit "
+                               "MPM");
+    };
+    for (const auto &[entry, value] :
+         {std::pair<const char *, double>("Damping", damping),
+          {"Largest unbalanced force", largest_unbalanced_force},
+          {"Largest kinetic energy", largest_kinetic_energy},
+          {"Removal duration", removal_duration}})
+      if (value != 0.)
+        refuse(entry, std::to_string(value), "0");
+    for (const auto &[entry, value] :
+         {std::pair<const char *, bool>("Kinetic damping", kinetic_damping),
+          {"Reset velocity", reset_velocity},
+          {"Reset history", reset_history}})
+      if (value)
+        refuse(entry, "true", "false");
+    if (!removed_polygon.empty())
+      refuse("Removed polygon", "given", "empty");
   }
 
   void
@@ -56,6 +124,30 @@ namespace geocone
                        growth,
                        "> 1 where the first step is smaller than the others",
                        "2 or 3 are usual");
+    if (!(damping >= 0. && damping < 1.))
+      throw InputError(section + "Damping",
+                       damping,
+                       "0 <= damping < 1",
+                       "0 is none; 0.5 to 0.75 finds a state of rest");
+    for (const auto &[entry, value] :
+         {std::pair<const char *, double>("Largest unbalanced force",
+                                          largest_unbalanced_force),
+          {"Largest kinetic energy", largest_kinetic_energy},
+          {"Removal duration", removal_duration}})
+      if (!(value >= 0.))
+        throw InputError(section + entry, value, ">= 0", "0 is none");
+    if (!removed_polygon.empty())
+      check_polygon(removed_polygon, section + "Removed polygon");
+    else if (removal_duration > 0.)
+      throw InputError(section + "Removal duration",
+                       removal_duration,
+                       "0 where no polygon is removed",
+                       "give 'Removed polygon', too");
+    if (removal_duration > duration)
+      throw InputError(section + "Removal duration",
+                       removal_duration,
+                       "at most the duration of the stage",
+                       "make the stage longer");
   }
 
   std::vector<double>
@@ -173,6 +265,10 @@ namespace geocone
                   "For 'given': formula in x, y (Pa, tension positive).");
     add_parameter("Stress yy", texts[1], "As Stress xx.");
     add_parameter("Stress xy", texts[2], "As Stress xx.");
+    add_parameter("Stress zz",
+                  text_zz,
+                  "For 'given' and laws that know it: as Stress xx; empty: "
+                  "equal to it.");
     add_parameter(
       "K0", k0, "For 'geostatic': horizontal over vertical stress (-), > 0.");
     add_parameter("Surface level",
@@ -194,6 +290,8 @@ namespace geocone
         for (unsigned int i = 0; i < 3; ++i)
           components[i].prepare(texts[i],
                                 std::string("Initial stress/") + names[i]);
+        if (!text_zz.empty())
+          component_zz.prepare(text_zz, "Initial stress/Stress zz");
       }
     else if (type == "geostatic")
       {
@@ -279,9 +377,18 @@ namespace geocone
     for (unsigned int i = 0; i < n; ++i)
       {
         const dealii::Point<dim> above(x[0], x[1] + depth * (i + 0.5) / n);
-        mass += materials.law(regions.material_at(above, -1)).density() * depth / n;
+        mass +=
+          materials.law(regions.material_at(above, -1)).density() * depth / n;
       }
     const double vertical = -(surcharge + g * mass);
     return {k0 * vertical, vertical, 0.};
+  }
+
+  double
+  InitialStress::zz_at(const dealii::Point<dim> &x,
+                       const Mandel             &in_plane) const
+  {
+    return type == "given" && !text_zz.empty() ? component_zz.value(x, 0.)
+                                               : in_plane[0];
   }
 } // namespace geocone

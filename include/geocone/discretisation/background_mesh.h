@@ -37,6 +37,13 @@ namespace geocone
     void
     prepare(const Scene &scene, const Method &method);
 
+    /**
+     * The lines of a uniform grid of rectangles, without creating the mesh;
+     * nothing if the mesh is another one. @throws InputError as prepare()
+     */
+    std::array<std::vector<double>, dim>
+    uniform_lines(const Scene &scene, const Method &method);
+
     using Cell = dealii::Triangulation<dim>::active_cell_iterator;
 
     /** The cells of this rank, one after another. */

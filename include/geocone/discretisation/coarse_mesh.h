@@ -83,6 +83,10 @@ namespace geocone
     std::vector<dealii::Point<dim>> box;
   };
 
+  /** Coordinates of the lines of a uniform or graded mesh of a box (m). */
+  std::array<std::vector<double>, dim>
+  grid_lines(const MeshParameters &parameters);
+
   /** Uniform and graded meshes of a box. */
   CoarseMesh
   structured_mesh(const MeshParameters &parameters);

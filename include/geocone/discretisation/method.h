@@ -27,7 +27,14 @@ namespace geocone
     bool
     is_mpm() const
     {
-      return name == "MPM";
+      return name != "FEM";
+    }
+
+    /** Whether time is stepped explicitly. */
+    bool
+    is_explicit() const
+    {
+      return name == "explicit MPM";
     }
 
     std::string name = "FEM";

@@ -5,6 +5,7 @@
 #define geocone_discretisation_particles_h
 
 #include <geocone/discretisation/material_points.h>
+#include <geocone/discretisation/outflow.h>
 #include <geocone/discretisation/seeding.h>
 #include <geocone/discretisation/space.h>
 
@@ -18,7 +19,7 @@ namespace geocone
    * to other ranks. A step works on the contiguous copy that collect() makes, and
    * hands it back to move().
    */
-  class Particles : public dealii::ParameterAcceptor
+  class Particles
   {
   public:
     explicit Particles(const ParameterFile &file);
@@ -64,8 +65,8 @@ namespace geocone
     void
     sort();
 
-    Seeding     seeding;
-    std::string outflow = "error";
+    Seeding seeding;
+    Outflow outflow;
 
     std::unique_ptr<dealii::Particles::ParticleHandler<dim>> handler;
 

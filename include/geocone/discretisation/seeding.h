@@ -5,6 +5,7 @@
 #define geocone_discretisation_seeding_h
 
 #include <geocone/discretisation/background_mesh.h>
+#include <geocone/discretisation/cartesian_grid.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -21,7 +22,8 @@ namespace geocone
     double                 volume   = 0.; ///< per unit thickness (m^2)
     unsigned int           material = 0;
     dealii::Tensor<1, dim> velocity;
-    Mandel                 stress = Mandel::Zero();
+    Mandel                 stress    = Mandel::Zero();
+    double                 stress_zz = 0.;
   };
 
   /**
@@ -52,6 +54,12 @@ namespace geocone
     std::vector<Seed>
     make(const Scene &scene, const BackgroundMesh &mesh) const;
 
+    /** The same on a uniform grid, of which each rank gets a slab of columns. */
+    std::vector<Seed>
+    make(const Scene         &scene,
+         const CartesianGrid &grid,
+         const MPI_Comm       comm) const;
+
     /** The k of the layouts that follow the cells, 0 for the others. */
     unsigned int
     points_per_direction() const;
@@ -60,6 +68,21 @@ namespace geocone
     /** The points in this rank's cells, for layouts that follow the cells. */
     std::vector<Seed>
     follow_cells(const Geometry &geometry, const BackgroundMesh &mesh) const;
+
+    std::vector<Seed>
+    follow_cells(const Geometry                    &geometry,
+                 const CartesianGrid               &grid,
+                 const std::array<unsigned int, 2> &columns) const;
+
+    /** The points of the layouts that do not follow cells; all of them. */
+    std::vector<Seed>
+    make_all(const Scene &scene, std::set<std::string> &given) const;
+
+    /** What the scene says of the seeds, where a file has not said it. */
+    void
+    describe(std::vector<Seed>           &seeds,
+             const Scene                 &scene,
+             const std::set<std::string> &given) const;
 
     std::vector<Seed>
     make_lattice(const Geometry &geometry) const;

@@ -54,6 +54,12 @@ namespace geocone
     void
     prepare(const BackgroundMesh &mesh, const Method &method);
 
+    /** Chooses and checks the element only. @throws InputError */
+    void
+    choose_element(const bool    simplicial,
+                   const bool    has_grid,
+                   const Method &method);
+
     using Cell = BackgroundMesh::Cell;
 
     /** Name of the element: P1 ... Q3, B-spline 2, B-spline 3. */

@@ -52,7 +52,8 @@ namespace geocone
     virtual void
     advance(const PointBlock &block, LawCounts &counts) const = 0;
 
-    /** Number of history variables of a point. */
+    /** Number of history variables of a point. Where there are some, the first is
+     *  the out-of-plane stress s_zz (Pa). */
     virtual unsigned int
     n_history() const
     {

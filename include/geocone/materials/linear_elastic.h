@@ -16,6 +16,10 @@ namespace geocone
 
     void
     update(const Increment &increment, const Response &response) const override;
+
+    /** By the kernel of the cones, with one that is never reached. */
+    void
+    advance(const PointBlock &block, LawCounts &counts) const override;
   };
 } // namespace geocone
 

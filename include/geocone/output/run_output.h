@@ -4,13 +4,11 @@
 #ifndef geocone_output_run_output_h
 #define geocone_output_run_output_h
 
-#include <geocone/base/files.h>
-#include <geocone/base/log.h>
 #include <geocone/base/parameter_file.h>
 #include <geocone/output/exact_solution.h>
-#include <geocone/output/expectations.h>
 #include <geocone/output/fields.h>
 #include <geocone/output/limit_load.h>
+#include <geocone/output/output_base.h>
 #include <geocone/time_stepping/time_stepper.h>
 
 #include <string>
@@ -39,7 +37,7 @@ namespace geocone
    * statistics.csv (a line per step), newton.csv (a line per iteration),
    * summary.json, VTU series, log.txt. Read only with respect to the state.
    */
-  class RunOutput : public dealii::ParameterAcceptor
+  class RunOutput : public OutputBase
   {
   public:
     RunOutput(const MPI_Comm comm, Log &log);
@@ -99,51 +97,15 @@ namespace geocone
     void
     print_result() const;
 
-    /**
-     * Compares the summary with the expectations of the parameter file.
-     * @return whether all hold
-     */
-    bool
-    expectations_hold() const;
-
-    const std::string &
-    folder() const
-    {
-      return path;
-    }
-
-    bool
-    wants_pictures() const
-    {
-      return pictures;
-    }
-
-    unsigned int verbosity = 1;
-
   private:
     Json
     results() const;
 
-    const MPI_Comm comm;
-    const bool     writes; ///< whether this is the rank that writes tables
-    Log           &log;
-
-    std::string              path;
-    std::string              name;
-    std::string              if_exists        = "number";
-    bool                     with_fields      = true;
-    std::string              fields_format    = "vtu";
-    bool                     pictures         = true;
-    std::string              report_for_tests = "none";
-    std::vector<std::string> expectation_texts;
-    std::vector<Expectation> expectations;
-
     const Scene               *scene = nullptr;
-    CsvFile                    statistics, newton;
+    CsvFile                    newton;
     Fields                     fields;
     unsigned int               n_fields = 0;
     std::vector<StepRecord>    records;
-    Json                       summary;
     std::optional<FieldErrors> field_errors;
 
     /** Sums since the start (J/m), and the least loss of a step. */

@@ -31,10 +31,37 @@ namespace geocone
     std::vector<double>
     step_sizes() const;
 
+    /** @throws InputError if it asks for what only explicit MPM can do */
+    void
+    check_implicit() const;
+
     const std::string name;
     double            duration           = 1.;
     unsigned int      output_every       = 0;
     bool              reset_displacement = false;
+
+    /** @name For explicit MPM only */
+    /** @{ */
+
+    /** Local damping: the part of the unbalanced force that opposes motion. */
+    double damping = 0.;
+
+    /** Whether velocities are set to zero at each peak of the kinetic energy. */
+    bool kinetic_damping = false;
+
+    /** At the end: largest unbalanced force over weight, and kinetic energy over
+     *  stress work, that count as equilibrium; 0: not tested. */
+    double largest_unbalanced_force = 0.;
+    double largest_kinetic_energy   = 0.;
+
+    /** At the beginning: no velocity; history anew from the stress. */
+    bool reset_velocity = false;
+    bool reset_history  = false;
+
+    /** The points in this polygon are taken away, over this time (s). */
+    std::vector<dealii::Point<dim>> removed_polygon;
+    double                          removal_duration = 0.;
+    /** @} */
 
   private:
     double step_size       = 0.01;
@@ -124,6 +151,11 @@ namespace geocone
        const Materials          &materials,
        const Regions            &regions) const;
 
+    /** Out-of-plane stress (Pa): as s_xx, unless it is given by a formula.
+     *  Laws in the plane have no use for it. */
+    double
+    zz_at(const dealii::Point<dim> &x, const Mandel &in_plane) const;
+
   private:
     void
     check_level_ground(const Geometry &geometry) const;
@@ -131,6 +163,8 @@ namespace geocone
     std::string                type  = "zero";
     std::array<std::string, 3> texts = {{"0", "0", "0"}};
     std::array<Expression, 3>  components;
+    std::string                text_zz;
+    Expression                 component_zz;
     double                     k0        = 0.5;
     double                     surface   = 0.;
     double                     surcharge = 0.;

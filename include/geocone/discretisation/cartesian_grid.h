@@ -1,0 +1,94 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_discretisation_cartesian_grid_h
+#define geocone_discretisation_cartesian_grid_h
+
+#include <geocone/base/types.h>
+#include <geocone/discretisation/spline_basis.h>
+
+#include <deal.II/base/point.h>
+
+#include <array>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * A uniform grid of rectangles over a box, with the splines of degree 1 (hats,
+   * that is Q1), 2 or 3 on it, of clamped knots: the same functions as those of
+   * Space on such a mesh, without a triangulation. Cells and functions are counted
+   * by column and row.
+   */
+  class CartesianGrid
+  {
+  public:
+    CartesianGrid() = default;
+
+    /**
+     * @param degree 1 to 3
+     * @param lines ends of the intervals per direction, equally spaced (m)
+     */
+    CartesianGrid(const unsigned int                          degree,
+                  const std::array<std::vector<double>, dim> &lines);
+
+    /** One direction: intervals, and functions in piecewise powers. */
+    struct Axis
+    {
+      double       begin = 0., end = 0.; ///< (m)
+      double       size        = 0.;     ///< of an interval (m)
+      unsigned int n_intervals = 0;
+      unsigned int n_functions = 0;
+
+      /** Place of a function: its Greville abscissa (m). */
+      std::vector<double> places;
+
+      /** Kind of each interval: those near the ends differ from the others. */
+      std::vector<unsigned char> type;
+
+      /** Per kind p + 1 vectors of 4 coefficients of the values, and p of the
+       *  derivatives (1/m), both in powers of the place in the interval. */
+      std::vector<double> coefficients;
+
+      /** The interval of a place, which may lie beyond the ends. */
+      int
+      interval(const double x) const
+      {
+        const int i = static_cast<int>((x - begin) / size);
+        return x < begin                           ? 0
+               : i < static_cast<int>(n_intervals) ? i
+                                                   : n_intervals - 1;
+      }
+    };
+
+    unsigned int          degree = 1;
+    std::array<Axis, dim> axes;
+
+    /** The smaller side of a cell (m). */
+    double
+    cell_size() const
+    {
+      return std::min(axes[0].size, axes[1].size);
+    }
+
+    unsigned long
+    n_cells() const
+    {
+      return static_cast<unsigned long>(axes[0].n_intervals) *
+             axes[1].n_intervals;
+    }
+
+    /** Whether x lies in the box, up to a part of a cell's size. */
+    bool
+    contains(const dealii::Point<dim> &x, const double tolerance = 1e-9) const
+    {
+      bool inside = true;
+      for (unsigned int d = 0; d < dim; ++d)
+        inside = inside && x[d] >= axes[d].begin - tolerance * axes[d].size &&
+                 x[d] <= axes[d].end + tolerance * axes[d].size;
+      return inside;
+    }
+  };
+} // namespace geocone
+
+#endif

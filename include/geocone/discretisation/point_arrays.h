@@ -1,0 +1,138 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_discretisation_point_arrays_h
+#define geocone_discretisation_point_arrays_h
+
+#include <geocone/base/types.h>
+
+#include <deal.II/base/point.h>
+
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * The points of one material on this rank, as explicit steps want them: a
+   * contiguous array per quantity. Arrays are filled up to a multiple of
+   * PointBlock::lanes with copies of the last point that have no mass and no
+   * volume, so that kernels need no remainder loops.
+   */
+  class PointArrays
+  {
+  public:
+    /** The arrays; tensor components, tension positive, SI units. */
+    enum Field : unsigned int
+    {
+      x,
+      y,
+      vx,
+      vy,
+      s_xx,
+      s_yy,
+      s_xy,
+      volume, ///< per unit thickness (m^2)
+      mass,   ///< (kg/m)
+      plastic_strain,
+      x_start, ///< where displacements count from
+      y_start,
+      n_common
+    };
+
+    /**
+     * @param material index of the material
+     * @param n_history history variables of its law
+     * @param affine whether there are the four components of APIC
+     */
+    PointArrays(const unsigned int material,
+                const unsigned int n_history,
+                const bool         affine);
+
+    unsigned int
+    n_points() const
+    {
+      return id.size();
+    }
+
+    /** Points with the copies that fill up the last vector. */
+    unsigned int
+    n_padded() const
+    {
+      return data[0].size();
+    }
+
+    double *
+    operator[](const unsigned int field)
+    {
+      return data[field].data();
+    }
+    const double *
+    operator[](const unsigned int field) const
+    {
+      return data[field].data();
+    }
+
+    /** The first of the history arrays, and of C_xx, C_xy, C_yx, C_yy. */
+    unsigned int
+    first_history() const
+    {
+      return n_common;
+    }
+    unsigned int
+    first_affine() const
+    {
+      return n_common + n_history;
+    }
+
+    unsigned int
+    n_fields() const
+    {
+      return data.size();
+    }
+
+    /** Adds a point; pad() must follow before kernels see the arrays. */
+    void
+    append(const double *values, const unsigned int id);
+
+    /** Removes the copies at the end; append() does it by itself. */
+    void
+    unpad();
+
+    /** Fills up the arrays; clears nothing else. */
+    void
+    pad();
+
+    /** Point i becomes what point order[i] was; those not in it are removed. */
+    void
+    reorder(const std::vector<unsigned int> &order);
+
+    dealii::Point<dim>
+    position(const unsigned int p) const
+    {
+      return {data[x][p], data[y][p]};
+    }
+
+    /** Bytes of the arrays. */
+    std::size_t
+    memory() const;
+
+    const unsigned int material;
+    const unsigned int n_history;
+    const bool         affine;
+
+    /** Counted through all ranks. */
+    std::vector<unsigned int> id;
+
+    /** The cells of the points, where a transfer keeps them here; or empty. */
+    std::vector<unsigned int> cell;
+
+    /** Whether these points are being taken away (see Stage). */
+    bool fading = false;
+
+  private:
+    std::vector<std::vector<double>> data;
+    std::vector<double>              buffer; ///< of reorder()
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,26 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_materials_cone_kernel_h
+#define geocone_materials_cone_kernel_h
+
+#include <geocone/materials/elasticity.h>
+#include <geocone/materials/point_block.h>
+#include <geocone/materials/second_order_cone.h>
+
+namespace geocone
+{
+  /**
+   * An explicit step of a linear elastic material with a cone, for a block of
+   * points: return_map() of the turned stress plus D e, free of branches. With
+   * the mean m = (s_xx + s_yy)/2, the half difference d = (s_xx - s_yy)/2 and
+   * tau = sqrt(d^2 + s_xy^2), the cone is tau <= -a m + k/sqrt2.
+   * A cut-off of the cone in tension is not looked at.
+   */
+  void
+  advance_cone(const FlowCone   &cone,
+               const Elasticity &elasticity,
+               const PointBlock &block);
+} // namespace geocone
+
+#endif

@@ -1,0 +1,141 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mechanics_grid_transfer_h
+#define geocone_mechanics_grid_transfer_h
+
+#include <geocone/discretisation/point_arrays.h>
+#include <geocone/mechanics/transfer_kernels.h>
+#include <geocone/scene/boundary_conditions.h>
+
+#include <deal.II/base/point.h>
+
+#include <mpi.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /** A component of a node's velocity that a condition prescribes. */
+  struct PrescribedNode
+  {
+    unsigned int       node;      ///< among the stored ones
+    unsigned int       component; ///< 0 or 1
+    unsigned int       condition; ///< index in Scene::dirichlet
+    dealii::Point<dim> place;
+    bool               mine; ///< whether this rank counts it in sums
+  };
+
+  /**
+   * The nodes of an explicit step, and how points give to them and take from
+   * them. A node has four doubles to read, four to write, and a mass, at the same
+   * place of three arrays:
+   *   read:  velocity and its change in the step, for the points;
+   *   write: momentum and force, from the points;
+   *   mass.
+   * Nodes that several ranks store hold the sums of all ranks after exchange().
+   * Points go to the rank that owns their place in refresh(), and not before: the
+   * stored nodes reach at least a cell farther than the points.
+   */
+  class GridTransfer
+  {
+  public:
+    virtual ~GridTransfer() = default;
+
+    /**
+     * Sends points to their ranks, sorts them by cell, and stores the nodes around
+     * them, with nothing in write and mass. Collective.
+     */
+    virtual void
+    refresh(std::vector<PointArrays> &groups) = 0;
+
+    /** Whether refresh() must come before the next step, for points that have
+     *  moved to these bounds on this rank (not collective). */
+    virtual bool
+    must_refresh(const PassSums &sums) const = 0;
+
+    /** @name Blocks of points; see TransferKernels */
+    /** @{ */
+    virtual void
+    gather(const BlockPoints &points, BlockScratch &scratch) = 0;
+    virtual void
+    gather_values(const BlockPoints &points, BlockScratch &scratch) = 0;
+    virtual void
+    gather_affine(const BlockPoints &points, BlockScratch &scratch) = 0;
+    virtual void
+    scatter(const BlockPoints &points,
+            BlockScratch      &scratch,
+            const bool         with_mass) = 0;
+    virtual void
+    scatter_values(const BlockPoints &points,
+                   BlockScratch      &scratch,
+                   const bool         with_mass) = 0;
+    virtual void
+    scatter_affine(const BlockPoints &points, BlockScratch &scratch) = 0;
+    /** @} */
+
+    /**
+     * Sums over the ranks what their points have written: everything, and the
+     * masses if @p with_mass. Collective.
+     */
+    virtual void
+    exchange(const bool with_mass) = 0;
+
+    /** Whether points may be at x, where all stored nodes are. */
+    virtual bool
+    reaches(const dealii::Point<dim> &x) const = 0;
+
+    /** A place that reaches() accepts. */
+    virtual dealii::Point<dim>
+    a_stored_place() const = 0;
+
+    /** Whether refresh() must come before every step. */
+    virtual bool
+    moves_each_step() const
+    {
+      return false;
+    }
+
+    /** The place of the domain that is nearest to x. */
+    virtual dealii::Point<dim>
+    nearest_in_domain(const dealii::Point<dim> &x) const = 0;
+
+    /** Smallest side of a cell (m). */
+    virtual double
+    cell_size() const = 0;
+
+    /** Number of nodes of the whole grid, and of its cells. */
+    virtual unsigned long
+    n_all_nodes() const = 0;
+    virtual unsigned long
+    n_cells() const = 0;
+
+    /** Bytes of the nodes. */
+    virtual std::size_t
+    memory() const = 0;
+
+    /** What the kernels are called, for the log. */
+    virtual std::string
+    description() const = 0;
+
+    std::vector<double> read, write, mass;
+
+    /** Ranges [begin, end) of the nodes that this rank counts in sums. */
+    std::vector<std::array<unsigned int, 2>> mine;
+
+    std::vector<PrescribedNode> prescribed;
+
+    /** Points (group, number) that refresh() has found outside the mesh. */
+    std::vector<std::array<unsigned int, 2>> lost;
+
+    unsigned int
+    n_nodes() const
+    {
+      return read.size() / 4;
+    }
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,162 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mechanics_mesh_transfer_h
+#define geocone_mechanics_mesh_transfer_h
+
+#include <geocone/discretisation/space.h>
+#include <geocone/mechanics/grid_transfer.h>
+
+#include <deal.II/grid/grid_tools_cache.h>
+
+#include <set>
+
+namespace geocone
+{
+  /**
+   * The transfer on any mesh of quadrilaterals: each step looks for the cell of
+   * each point, first in the cell where it was, then in those that share a vertex
+   * with it, then everywhere, and evaluates the functions there once.
+   */
+  class MeshTransfer : public GridTransfer
+  {
+  public:
+    /** @throws InputError for sides that the mesh has not */
+    MeshTransfer(const BackgroundMesh     &mesh,
+                 const Space              &space,
+                 const BoundaryConditions &conditions);
+
+    void
+    refresh(std::vector<PointArrays> &groups) override;
+    bool
+    must_refresh(const PassSums &) const override
+    {
+      return true;
+    }
+    bool
+    moves_each_step() const override
+    {
+      return true;
+    }
+
+    void
+    gather(const BlockPoints &points, BlockScratch &scratch) override;
+    void
+    gather_values(const BlockPoints &points, BlockScratch &scratch) override;
+    void
+    gather_affine(const BlockPoints &points, BlockScratch &scratch) override;
+    void
+    scatter(const BlockPoints &points,
+            BlockScratch      &scratch,
+            const bool         with_mass) override;
+    void
+    scatter_values(const BlockPoints &points,
+                   BlockScratch      &scratch,
+                   const bool         with_mass) override;
+    void
+    scatter_affine(const BlockPoints &points, BlockScratch &scratch) override;
+
+    void
+    exchange(const bool with_mass) override;
+
+    /** Points may be anywhere until the next refresh() finds them. */
+    bool
+    reaches(const dealii::Point<dim> &) const override
+    {
+      return true;
+    }
+    dealii::Point<dim>
+    nearest_in_domain(const dealii::Point<dim> &x) const override
+    {
+      return x;
+    }
+    dealii::Point<dim>
+    a_stored_place() const override;
+
+    double
+    cell_size() const override
+    {
+      return smallest_cell;
+    }
+    unsigned long
+    n_all_nodes() const override
+    {
+      return space.n_nodes();
+    }
+    unsigned long
+    n_cells() const override
+    {
+      return mesh.triangulation().n_global_active_cells();
+    }
+    std::size_t
+    memory() const override;
+    std::string
+    description() const override
+    {
+      return "general transfer";
+    }
+
+  private:
+    using Cell = BackgroundMesh::Cell;
+
+    /** Where a point is. */
+    struct Place
+    {
+      Cell               cell;
+      dealii::Point<dim> unit;
+    };
+
+    /** The functions at a point: local nodes, values, gradients. */
+    struct Functions
+    {
+      std::vector<unsigned int> nodes;
+      std::vector<double>       N, dN_dx, dN_dy; ///< (-), (1/m)
+    };
+
+    /**
+     * The place of x.
+     * @param hint a cell to begin with, or an invalid iterator
+     * @return whether it is in a cell that this rank knows
+     */
+    bool
+    find(const dealii::Point<dim> &x, const Cell &hint, Place &place) const;
+
+    /** The place of x in one of this rank's cells. */
+    bool
+    find_own(const dealii::Point<dim> &x, Place &place) const;
+
+    /** Whether x lies in a cell, up to rounding; then its place is set. */
+    bool
+    is_in(const dealii::Point<dim> &x, const Cell &cell, Place &place) const;
+
+    /** Evaluates the functions of all points of a group, and its padding. */
+    void
+    evaluate(const PointArrays         &group,
+             const std::vector<Place> &places,
+             Functions                 &functions) const;
+
+    template <bool with_gradients>
+    void
+    gather_any(const BlockPoints &points, BlockScratch &scratch) const;
+    template <bool with_gradients>
+    void
+    scatter_any(const BlockPoints  &points,
+                const BlockScratch &scratch,
+                const bool          with_mass);
+
+    const BackgroundMesh &mesh;
+    const Space          &space;
+    const MPI_Comm        comm;
+    const unsigned int    n; ///< nodes per cell
+    double                smallest_cell = 0.;
+
+    dealii::GridTools::Cache<dim> cache;
+    std::vector<std::vector<Cell>> neighbours; ///< by active cell index
+    std::vector<Cell>              cells;      ///< by active cell index
+    std::vector<unsigned int>      cell_nodes; ///< n per active cell index
+    std::vector<Functions>         functions;  ///< per group
+    Vector                         exchanged;
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,166 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mechanics_transfer_kernels_h
+#define geocone_mechanics_transfer_kernels_h
+
+#include <geocone/materials/point_block.h>
+
+namespace geocone
+{
+  /**
+   * One direction of a uniform grid, with the splines (or hats) of a degree p on
+   * it, as kernels read it. On the interval i, with xi in [0, 1],
+   *   N_f = sum_k coefficients[type[i]][k][f] xi^k,   k = 0 ... p,
+   *   dN_f/dx = sum_k coefficients[type[i]][p + 1 + k][f] xi^k,  k = 0 ... p - 1,
+   * f = 0 ... p (padded by zeros to 4) for the functions i, ..., i + p.
+   */
+  struct GridAxis
+  {
+    double               origin       = 0.; ///< (m)
+    double               inverse_size = 1.; ///< 1/h (1/m)
+    int                  n_intervals  = 0;
+    int                  first        = 0; ///< lowest function that is stored
+    const unsigned char *type         = nullptr;
+    const double        *coefficients = nullptr;
+    const double        *places = nullptr; ///< Greville abscissae (m), for APIC
+  };
+
+  /**
+   * The stored part of a grid: functions x.first, ... and y.first, ..., those of
+   * a column one after another. A node has four doubles, and its mass.
+   */
+  struct GridView
+  {
+    GridAxis      x, y;
+    int           stride = 0; ///< functions stored of a column
+    const double *read   = nullptr;
+    double       *write  = nullptr;
+    double       *mass   = nullptr;
+  };
+
+  /** What a block of points holds between the parts of a pass; in cache. */
+  struct BlockScratch
+  {
+    static constexpr unsigned int size = PointBlock::capacity;
+    /** What nodes gave: v (4 values), dv/dx (4), dv/dy (4) of each point. */
+    alignas(32) double gathered[12 * size];
+    /** What nodes get, a, b, c (4 each): (m v, 0), (0, -V s_x), (0, -V s_y). */
+    alignas(32) double given[12 * size];
+    alignas(32) double l_xx[size], l_xy[size], l_yx[size], l_yy[size];
+    alignas(32) double work[size], wave_modulus[size];
+  };
+
+  /** The arrays of a block of points, and of their affine velocities (APIC). */
+  struct BlockPoints
+  {
+    unsigned int n;     ///< a multiple of PointBlock::lanes
+    unsigned int group; ///< the arrays that they are part of
+    unsigned int first; ///< and the place of the first one there
+    double      *x, *y, *vx, *vy, *s_xx, *s_yy, *s_xy, *volume, *mass;
+    double      *c_xx, *c_xy, *c_yx, *c_yy; ///< null without APIC
+  };
+
+  /** Sums and extremes of a pass, which the time stepper reads. */
+  struct PassSums
+  {
+    double work         = 0.;             ///< stress work (J/m)
+    double wave_speed2  = 0.;             ///< largest M V/m ((m/s)^2)
+    double speed2       = 0.;             ///< largest v^2 ((m/s)^2)
+    double strain       = 0.;             ///< largest |dt dv_i/dx_j|
+    double least_volume = 1.;             ///< least det(I + dt grad v)
+    double lower[2]     = {1e300, 1e300}; ///< of the positions (m)
+    double upper[2]     = {-1e300, -1e300};
+    /** Sum of values that are not finite if one of the points is not. */
+    double check = 0.;
+
+    void
+    add(const PassSums &other);
+  };
+
+  /** What update_points() does with the gathered values. */
+  struct Update
+  {
+    bool strain, velocity, position;
+  };
+
+  /**
+   * The innermost loops of the explicit material point method, in one of several
+   * versions for the instructions that the machine has. All work on the blocks of
+   * at most PointBlock::capacity points. Nothing is allocated, and points cost no
+   * call of their own.
+   */
+  struct TransferKernels
+  {
+    const char *name; ///< of the instructions
+
+    /** @name By the degree of the functions, 1 to 3 */
+    /** @{ */
+
+    /** v, dv/dx, dv/dy from the nodes: sum_i q_i (N_i, dN_i/dx, dN_i/dy). */
+    void (*gather[4])(const GridView &, const BlockPoints &, BlockScratch &);
+
+    /** The same of v only. */
+    void (*gather_values[4])(const GridView &,
+                             const BlockPoints &,
+                             BlockScratch &);
+
+    /**
+     * The affine velocity of APIC: per direction d the column
+     *   C_d = sum_i v_i N_i (x_i - x)_d / sum_i N_i (x_i - x)_d^2,
+     * for a tensor product the usual B D^{-1}; the gradient where the sum
+     * vanishes, as it does at the ends of the grid.
+     */
+    void (*gather_affine[4])(const GridView &,
+                             const BlockPoints &,
+                             BlockScratch &);
+
+    /**
+     * To the nodes, of the given values (a | b | c):
+     *   node += N (a) + dN/dx (b) + dN/dy (c),
+     * and N m to the masses unless they are null.
+     */
+    void (*scatter[4])(const GridView &, const BlockPoints &, BlockScratch &);
+
+    /** The same of a and the masses only. */
+    void (*scatter_values[4])(const GridView &,
+                              const BlockPoints &,
+                              BlockScratch &);
+
+    /** Adds m N C (x_i - x) to the momentum, after scatter(). */
+    void (*scatter_affine[4])(const GridView &,
+                              const BlockPoints &,
+                              BlockScratch &);
+    /** @} */
+
+    /**
+     * From the gathered (v, dv) of a point with velocity v_p:
+     *   strain:   l = dt grad v
+     *   velocity: v_p <- f (v_p + dv) + (1 - f) v
+     *   position: x <- x + dt v.
+     */
+    void (*update_points)(const Update,
+                          const double dt,
+                          const double flip_part,
+                          const BlockPoints &,
+                          BlockScratch &);
+
+    /** V <- det(I + l) V, the stress work, and the extremes. */
+    void (*finish)(const BlockPoints &, BlockScratch &, PassSums &);
+
+    /** Bounds of positions and velocities. */
+    void (*bound)(const BlockPoints &, PassSums &);
+
+    /** The values that scatter() takes: (m v, -V s); parts of it, or all. */
+    void (*prepare_scatter)(const bool momentum,
+                            const bool force,
+                            const BlockPoints &,
+                            BlockScratch &);
+  };
+
+  /** The best version that this machine has; @p baseline: the plainest. */
+  const TransferKernels &
+  transfer_kernels(const bool baseline = false);
+} // namespace geocone
+
+#endif

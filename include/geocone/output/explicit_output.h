@@ -1,0 +1,96 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_output_explicit_output_h
+#define geocone_output_explicit_output_h
+
+#include <geocone/output/output_base.h>
+#include <geocone/scene/scene.h>
+#include <geocone/time_stepping/explicit_mpm.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace geocone
+{
+  /** The points and the balance at the end of a step of the loading programme. */
+  struct ExplicitRecord
+  {
+    unsigned int   step = 0;
+    double         time = 0.;
+    ExplicitReport report;
+    ExplicitState  state;
+    Balance        balance;
+  };
+
+  /**
+   * The folder of an explicit run: statistics.csv (a line per step of the loading
+   * programme, each of many explicit ones), summary.json and points-NNNN.vtu, with
+   *   energy residual   = kinetic energy gained + stress work + damping
+   *                       + removed - gravity's and the supports' work,
+   *   momentum residual = momentum gained + removed - impulse of gravity,
+   *                       supports and damping.
+   * The former is what the time integration and the transfer take or add (the
+   * stress work of a hypoelastic soil is not a stored energy); the latter is zero
+   * up to rounding. Read only with respect to the state.
+   */
+  class ExplicitOutput : public OutputBase
+  {
+  public:
+    using OutputBase::OutputBase;
+
+    /** Makes the folder. @throws InputError */
+    void
+    prepare(const std::string &default_name,
+            const std::string &folder_of_call,
+            const Scene       &scene);
+
+    /** The state that gains are counted from. */
+    void
+    set_initial(const ExplicitState &state)
+    {
+      initial = state;
+    }
+
+    /** Adds a line to statistics.csv. */
+    void
+    add_record(const ExplicitRecord &record);
+
+    /** Writes the points, if wanted. */
+    void
+    write_points(const double time, const std::vector<PointArrays> &groups);
+
+    /** Writes summary.json. @param status running | finished | failed: why */
+    void
+    write_summary(const std::string &status,
+                  const LawCounts   &counts,
+                  const Json        &size,
+                  const Json        &cost);
+
+    /** Prints the result; in tests also a file `output` with all records. */
+    void
+    print_result() const;
+
+    /** See the class. */
+    /** @{ */
+    double
+    energy_residual(const ExplicitRecord &record) const;
+    dealii::Tensor<1, dim>
+    momentum_residual(const ExplicitRecord &record) const;
+    /** @} */
+
+  private:
+    const Scene                                *scene = nullptr;
+    ExplicitState                               initial;
+    std::vector<ExplicitRecord>                 records;
+    unsigned int                                n_fields = 0;
+    std::vector<std::pair<double, std::string>> vtu_series;
+    std::vector<std::string>                    hdf5_series;
+
+    /** Largest of all records, for scales. */
+    double largest_kinetic = 0., largest_impulse = 0.;
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,385 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_time_stepping_explicit_mpm_h
+#define geocone_time_stepping_explicit_mpm_h
+
+#include <geocone/discretisation/background_mesh.h>
+#include <geocone/discretisation/outflow.h>
+#include <geocone/discretisation/point_arrays.h>
+#include <geocone/discretisation/seeding.h>
+#include <geocone/discretisation/space.h>
+#include <geocone/mechanics/grid_transfer.h>
+#include <geocone/scene/scene.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * What has come into and gone out of the body since the start: sums over all
+   * explicit steps, of all ranks once ExplicitMPM::balance() has gathered them.
+   */
+  struct Balance
+  {
+    double stress_work  = 0.;       ///< sum of s : de V (J/m)
+    double gravity_work = 0.;       ///< sum of m g dx (J/m)
+    double damping_work = 0.;       ///< taken by local damping (J/m)
+    double support_work = 0.;       ///< of prescribed velocities (J/m)
+    dealii::Tensor<1, dim> impulse; ///< of gravity, supports, damping (N s/m)
+
+    /** What was taken away (Stage::removed_polygon), or left the grid. */
+    double                 removed_mass = 0.;   ///< (kg/m)
+    dealii::Tensor<1, dim> removed_momentum;    ///< (N s/m)
+    double                 removed_energy = 0.; ///< kinetic (J/m)
+
+    /** Of kinetic damping: kinetic energy set to zero (J/m). */
+    double stopped_energy = 0.;
+
+    unsigned long small_masses = 0; ///< nodes passed over as massless
+  };
+
+  /** The state of the points at one time, of all ranks. */
+  struct ExplicitState
+  {
+    unsigned long          n_points  = 0;
+    double                 mass      = 0.; ///< (kg/m)
+    double                 volume    = 0.; ///< (m^2)
+    double                 kinetic   = 0.; ///< (J/m)
+    double                 potential = 0.; ///< from the lower corner (J/m)
+    dealii::Tensor<1, dim> momentum;       ///< (N s/m)
+    double                 angular_momentum = 0.; ///< about the origin
+    dealii::Point<dim>     lower, upper; ///< bounds of the positions (m)
+    /** 1 and 99 % of the mass lie left of these (m). */
+    double left_front = 0., right_front = 0.;
+    double largest_speed          = 0.;
+    double largest_plastic_strain = 0.;
+
+    /** The point that limits the step: its number, place and wave speed. */
+    unsigned int       limiting_id = 0;
+    dealii::Point<dim> limiting_place;
+    double             limiting_wave_speed = 0.;
+  };
+
+  /** What happened between two records. */
+  struct ExplicitReport
+  {
+    unsigned int n_steps       = 0;
+    double       smallest_step = 0., largest_step = 0.; ///< (s)
+
+    /** Largest unbalanced force of a free node in the last step (N/m). */
+    double unbalanced_force = 0.;
+
+    /** Mean force on the body per condition (N/m). */
+    std::vector<dealii::Tensor<1, dim>> reactions;
+  };
+
+  /**
+   * The explicit material point method of the STSM report (section 2): many small
+   * steps, each as long as the elastic wave allows,
+   *   dt = C h/(c + v),  c^2 = max M V/m,  v = max |v_p|.
+   * With N at the start of the step, and conditions on the sides of the grid, the
+   * three orders of operations are
+   *   MUSL: a = F/m; v_p += dt sum N a; v = sum m_p v_p N/m; stress; x_p += dt
+   *         sum N v   (the report's eleven steps);
+   *   USL:  a = F/m; v = sum m_p v_p N/m + dt a; v_p += dt sum N a; stress; x_p;
+   *   USF:  v = sum m_p v_p N/m; stress; a = F/m; v_p += dt sum N a; x_p.
+   * Neither divides by the mass of a node but where the quotient is bounded or
+   * is multiplied by N again; only nodes with less than 1e-14 of the largest
+   * point's mass are passed over, and counted.
+   *
+   * Passes over the points work on blocks that stay in cache, with the points
+   * sorted by cell now and then. What one step writes for the next is written
+   * while the points are at hand: USL passes over them once, the others twice.
+   */
+  class ExplicitMPM : public dealii::ParameterAcceptor
+  {
+  public:
+    ExplicitMPM(const MPI_Comm comm, const ParameterFile &file);
+
+    /**
+     * Seeds the body.
+     * @return remarks on what was found or changed
+     * @throws InputError
+     */
+    std::vector<std::string>
+    prepare(const Scene &scene, const Method &method);
+
+    /**
+     * What a stage does before its first step: resets, and points to be removed.
+     * @return remarks
+     * @throws StepFailure if its polygon holds no point, or all of them
+     */
+    std::vector<std::string>
+    begin_stage(const Stage &stage, const double t);
+
+    /**
+     * Steps from t to t + h.
+     * @throws StepFailure where points leave the grid, volumes vanish, values are
+     * not finite, or a prescribed step is unstable
+     */
+    ExplicitReport
+    advance(const Stage &stage, const double t, const double h);
+
+    /** @throws StepFailure if a stage that must end in equilibrium does not */
+    void
+    check_equilibrium(const Stage          &stage,
+                      const ExplicitState  &state,
+                      const ExplicitReport &report) const;
+
+    /** @name All ranks must ask together */
+    /** @{ */
+    ExplicitState
+    state(const double t) const;
+    Balance
+    balance() const;
+    LawCounts
+    law_counts() const;
+    /** @} */
+
+    /** The points of this rank, a group per material. */
+    const std::vector<PointArrays> &
+    points() const
+    {
+      return groups;
+    }
+
+    const GridTransfer &
+    grid() const
+    {
+      return *transfer;
+    }
+
+    const std::string &
+    element() const
+    {
+      return space.element();
+    }
+
+    const std::string &
+    order() const
+    {
+      return order_name;
+    }
+
+    /** Bytes of points and nodes of this rank. */
+    std::size_t
+    memory() const;
+
+    /** Seconds of wall time in the parts of the steps. */
+    struct Seconds
+    {
+      double passes = 0., grid = 0., exchange = 0., refresh = 0.;
+    };
+    const Seconds &
+    seconds() const
+    {
+      return clock;
+    }
+
+    /** Explicit steps, and points times steps, since the start on this rank. */
+    unsigned long n_steps       = 0;
+    double        n_point_steps = 0.;
+
+  private:
+    enum class Order
+    {
+      musl,
+      usf,
+      usl
+    };
+
+    /** What a pass gives to the nodes. */
+    enum class Gives
+    {
+      nothing,
+      momentum,
+      force,
+      momentum_and_mass,
+      all
+    };
+
+    /** A pass over all points. */
+    struct Pass
+    {
+      bool   reads; ///< whether nodes give anything to the points
+      bool   gradients;
+      Update update;
+      Gives  gives;
+      bool   last; ///< of the step: fading points fade
+    };
+
+    void
+    check_parameters() const;
+
+    void
+    seed_points(const std::vector<Seed>  &seeds,
+                std::vector<std::string> &remarks);
+
+    /** Takes the points in a stage's polygon away, or begins to. */
+    std::string
+    remove_polygon(const Stage &stage, const double t);
+
+    void
+    end_removal();
+
+    /** The plane-strain stress; s_zz as far as the law knows it. */
+    ConstitutiveLaw::Stress
+    stress_of(const PointArrays &group, const unsigned int p) const;
+
+    BlockPoints
+    block(const unsigned int group, const unsigned int first);
+
+    void
+    pass(const Pass &what, const double dt);
+
+    /** Takes a part of the weight of a block of fading points. */
+    void
+    fade_points(const BlockPoints &points);
+
+    /** Says that a point has left the mesh. */
+    std::string
+    has_left(const PointArrays &group, const unsigned int p) const;
+
+    /** Deals with points that have left the stored nodes. */
+    void
+    mend_positions(const BlockPoints &points);
+
+    /** The nodes at the start of a step: what the points give to them. */
+    void
+    start_nodes();
+
+    void
+    step(const Stage &stage, const double t, const double dt);
+
+    /** Refresh of the transfer, and what the nodes hold at the start of a step. */
+    void
+    refresh();
+
+    /**
+     * From momentum (or velocity) and force of the nodes: velocity after and
+     * change in the step, with conditions and damping.
+     * @param velocity_is_read USF: the velocity before is in `read`
+     */
+    void
+    accelerate(const Stage &stage,
+               const double t,
+               const double dt,
+               const bool   velocity_is_read,
+               const bool   keep_mass);
+
+    /**
+     * Velocity from momentum at time t, with conditions.
+     * @param moves the time over which it will move the points (s), or 0
+     */
+    void
+    take_velocity(const double t, const double moves, const bool keep_mass);
+
+    void
+    count_gravity_work(const double dt);
+
+    /** The largest force in write on a free component of a node. */
+    void
+    measure_unbalanced_force();
+
+    /** Adds local damping to the forces in write. */
+    void
+    damp(const double damping, const double dt);
+
+    /** Of this rank (kg/m). */
+    double
+    current_mass() const;
+
+    /** The place left of which there is so much mass (m), within a range. */
+    double
+    mass_quantile(const double wanted, double left, double right) const;
+
+    double
+    prescribed_velocity(const PrescribedNode &node, const double t);
+
+    /** The greatest step that is stable with Courant number 1 (s). */
+    double
+    stability_limit() const;
+
+    void
+    stop_at_peak();
+
+    /** Sums of the last pass over all ranks, and whether to refresh. */
+    void
+    gather_sums();
+
+    /** Counts a point as removed, and takes its mass. */
+    void
+    take_away(PointArrays &group, const unsigned int p);
+
+    /** Removes the points that have no mass any more. */
+    void
+    remove_massless();
+
+    double
+    kinetic_energy(const PointArrays &group, const unsigned int p) const;
+
+    const MPI_Comm comm;
+    BackgroundMesh mesh;
+    Space          space;
+    Seeding        seeding;
+    Outflow        outflow;
+
+    std::string  order_name     = "MUSL";
+    std::string  transfer_name  = "FLIP";
+    double       flip_part      = 1.;
+    double       courant        = 0.3;
+    double       fixed_step     = 0.;
+    bool         allow_unstable = false;
+    double       largest_strain = 1e-3;
+    bool         fast_path      = true;
+    unsigned int sort_every     = 50;
+
+    const Scene                  *scene   = nullptr;
+    Order                         kind    = Order::musl;
+    bool                          affine  = false;
+    const TransferKernels        *kernels = nullptr;
+    std::unique_ptr<GridTransfer> transfer;
+    std::vector<PointArrays>      groups;
+    BlockScratch                  scratch = {};
+    std::vector<double *>         history; ///< pointers for the law
+
+    dealii::Point<dim>     datum;
+    dealii::Tensor<1, dim> gravity; ///< now
+    double                 least_mass = 0.;
+    double                 body_mass  = 0.; ///< of this rank's points (kg/m)
+    double                 fade       = 1.; ///< of the last pass of this step
+    double                 fade_end   = 0.;
+    double                 last_step  = 0.;
+    PassSums     sums; ///< of the last pass; after gather_sums() of all
+    bool         must_refresh     = true;
+    unsigned int since_refresh    = 0;
+    bool         some_left        = false; ///< some points have no mass
+    double       unbalanced       = 0.;
+    bool         wants_unbalanced = false;
+    std::string  obstacle; ///< why this rank cannot go on
+
+    /** Kinetic damping: the kinetic energy of the steps before. */
+    double energy_n = 0.;
+    bool   rising   = false;
+
+    /** A component of a node whose velocity is given in this step. */
+    struct Held
+    {
+      unsigned int node, component;
+      double       velocity, change;
+    };
+    std::vector<Held> held;
+
+    Balance                             sum;
+    LawCounts                           counts;
+    std::vector<dealii::Tensor<1, dim>> support_impulse; ///< per condition
+    std::vector<double> constant_value; ///< per condition and component, or NaN
+    Seconds             clock;
+  };
+} // namespace geocone
+
+#endif

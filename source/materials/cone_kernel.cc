@@ -1,0 +1,40 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/simd_level.h>
+#include <geocone/materials/cone_kernel.h>
+#include <geocone/materials/cone_kernel.templates.h>
+
+#include <limits>
+
+namespace geocone
+{
+#ifdef GEOCONE_HAS_AVX2_UNITS
+  namespace avx2
+  {
+    void
+    advance_cone(const ConeNumbers &, const PointBlock &);
+  }
+#endif
+
+  void
+  advance_cone(const FlowCone   &cone,
+               const Elasticity &elasticity,
+               const PointBlock &block)
+  {
+    const ConeNumbers numbers = {cone.a,
+                                 cone.b,
+                                 cone.k / sqrt2,
+                                 cone.a > 0.
+                                   ? cone.k / sqrt2 / cone.a
+                                   : std::numeric_limits<double>::max(),
+                                 elasticity.normal_stiffness(),
+                                 elasticity.two_G,
+                                 elasticity.lambda + elasticity.two_G};
+#ifdef GEOCONE_HAS_AVX2_UNITS
+    if (machine_has_avx2())
+      return avx2::advance_cone(numbers, block);
+#endif
+    advance_cone_block<BaselineArch>(numbers, block);
+  }
+} // namespace geocone

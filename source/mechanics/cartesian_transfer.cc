@@ -1,0 +1,508 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/mechanics/cartesian_transfer.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <map>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Cells around the points in which they may move until the next refresh. */
+    constexpr int margin = 2;
+
+    /** Nodes are read and written by four values, the mass up to three beyond. */
+    constexpr unsigned int mass_padding = 4;
+  } // namespace
+
+  CartesianTransfer::CartesianTransfer(const MPI_Comm            comm,
+                                       const CartesianGrid      &grid,
+                                       const BoundaryConditions &conditions)
+    : comm(comm)
+    , rank(Utilities::MPI::this_mpi_process(comm))
+    , n_ranks(Utilities::MPI::n_mpi_processes(comm))
+    , grid(grid)
+    , kernels(transfer_kernels())
+  {
+    // Only the first and the last function are not zero at the ends of an axis.
+    const unsigned int last_x = grid.axes[0].n_functions - 1,
+                       last_y = grid.axes[1].n_functions - 1;
+    const std::map<std::string, std::array<unsigned int, 2>> sides = {
+      {"bottom", {{1, 0}}},
+      {"right", {{0, last_x}}},
+      {"top", {{1, last_y}}},
+      {"left", {{0, 0}}}};
+
+    // The last condition in the list that prescribes a component holds it.
+    std::map<std::array<unsigned int, 3>, Prescribed> of_component;
+    for (unsigned int c = 0; c < conditions.list.size(); ++c)
+      {
+        const BoundaryCondition &condition = *conditions.list[c];
+        for (const std::string &side : condition.sides)
+          if (side != "all" && sides.count(side) == 0)
+            throw InputError(condition.parameter("Sides"),
+                             side,
+                             "bottom, right, top, left, all: the sides of the "
+                             "background mesh",
+                             "choose among them");
+        unsigned int n_found = 0;
+        for (const auto &[side, place] : sides)
+          if (condition.is_on_side(side))
+            {
+              const unsigned int along = 1 - place[0];
+              for (unsigned int f = 0; f < grid.axes[along].n_functions; ++f)
+                {
+                  Prescribed p;
+                  p.function[place[0]] = place[1];
+                  p.function[along]    = f;
+                  p.condition          = c;
+                  for (unsigned int d = 0; d < dim; ++d)
+                    p.place[d] = grid.axes[d].places[p.function[d]];
+                  if (!condition.in_box(p.place))
+                    continue;
+                  ++n_found;
+                  for (unsigned int d = 0; d < dim; ++d)
+                    if (condition.components[d])
+                      {
+                        p.component                                       = d;
+                        of_component[{{p.function[0], p.function[1], d}}] = p;
+                      }
+                }
+            }
+        if (n_found == 0)
+          throw InputError(condition.parameter("Box"),
+                           condition.part(),
+                           "a part of the boundary with at least one node",
+                           "this condition selects no node: check its sides, "
+                           "its box, and the size of the cells there");
+      }
+    for (const auto &entry : of_component)
+      prescribed_functions.push_back(entry.second);
+  }
+
+  void
+  CartesianTransfer::refresh(std::vector<PointArrays> &groups)
+  {
+    if (n_ranks > 1)
+      {
+        cut_slabs(groups);
+        migrate(groups);
+      }
+    sort(groups);
+    store_nodes();
+  }
+
+  void
+  CartesianTransfer::cut_slabs(const std::vector<PointArrays> &groups)
+  {
+    const CartesianGrid::Axis &axis = grid.axes[0];
+    std::vector<unsigned int>  points_in(axis.n_intervals, 0);
+    for (const PointArrays &group : groups)
+      for (unsigned int p = 0; p < group.n_points(); ++p)
+        ++points_in[axis.interval(group[PointArrays::x][p])];
+    Utilities::MPI::sum(points_in, comm, points_in);
+    unsigned long total = 0;
+    for (const unsigned int n : points_in)
+      total += n;
+    slab_begin.assign(n_ranks + 1, axis.n_intervals);
+    slab_begin[0]        = 0;
+    unsigned long before = 0;
+    unsigned int  r      = 1;
+    for (unsigned int column = 0; column < axis.n_intervals; ++column)
+      {
+        // The border goes to the side of the column that is nearer to its place.
+        while (r < n_ranks &&
+               2 * n_ranks * before + n_ranks * points_in[column] >=
+                 2 * r * total)
+          slab_begin[r++] = column;
+        before += points_in[column];
+      }
+  }
+
+  void
+  CartesianTransfer::migrate(std::vector<PointArrays> &groups) const
+  {
+    const CartesianGrid::Axis &axis = grid.axes[0];
+    for (PointArrays &group : groups)
+      {
+        std::map<unsigned int, std::vector<double>> leaving;
+        std::vector<unsigned int>                   staying;
+        for (unsigned int p = 0; p < group.n_points(); ++p)
+          {
+            const int          column = axis.interval(group[PointArrays::x][p]);
+            const unsigned int owner  = std::upper_bound(slab_begin.begin() + 1,
+                                                        slab_begin.end() - 1,
+                                                        column) -
+                                       slab_begin.begin() - 1;
+            if (owner == rank)
+              {
+                staying.push_back(p);
+                continue;
+              }
+            std::vector<double> &message = leaving[owner];
+            for (unsigned int field = 0; field < group.n_fields(); ++field)
+              message.push_back(group[field][p]);
+            message.push_back(group.id[p]);
+          }
+        if (Utilities::MPI::logical_or(!leaving.empty(), comm))
+          {
+            if (staying.size() < group.n_points())
+              group.reorder(staying);
+            const unsigned int size = group.n_fields() + 1;
+            for (const auto &[sender, message] :
+                 Utilities::MPI::some_to_some(comm, leaving))
+              for (std::size_t i = 0; i < message.size(); i += size)
+                group.append(&message[i],
+                             static_cast<unsigned int>(message[i + size - 1]));
+          }
+        group.pad();
+      }
+  }
+
+  void
+  CartesianTransfer::sort(std::vector<PointArrays> &groups)
+  {
+    // Where the points are, with room to move in.
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const CartesianGrid::Axis &axis = grid.axes[d];
+        cells[d] = {static_cast<int>(axis.n_intervals), 0};
+        for (const PointArrays &group : groups)
+          for (unsigned int p = 0; p < group.n_points(); ++p)
+            {
+              const int i    = axis.interval(group[PointArrays::x + d][p]);
+              cells[d].begin = std::min(cells[d].begin, i - margin);
+              cells[d].end   = std::max(cells[d].end, i + 1 + margin);
+            }
+        cells[d].begin = std::max(cells[d].begin, 0);
+        cells[d].end =
+          std::min(cells[d].end, static_cast<int>(axis.n_intervals));
+        if (cells[d].end < cells[d].begin)
+          cells[d] = {0, 0};
+      }
+    // Rows are the same on all ranks, so that shared columns are alike.
+    std::array<int, 2> rows = {{cells[1].size() > 0
+                                  ? -cells[1].begin
+                                  : -static_cast<int>(grid.axes[1].n_intervals),
+                                cells[1].end}};
+    Utilities::MPI::max(rows, comm, rows);
+    if (cells[1].size() > 0)
+      cells[1] = {-rows[0], rows[1]};
+
+    const int n_rows = cells[1].size();
+    for (PointArrays &group : groups)
+      {
+        const unsigned int n = group.n_points();
+        if (n == 0)
+          continue;
+        const auto cell_of = [&](const unsigned int p) {
+          return (grid.axes[0].interval(group[PointArrays::x][p]) -
+                  cells[0].begin) *
+                   n_rows +
+                 grid.axes[1].interval(group[PointArrays::y][p]) -
+                 cells[1].begin;
+        };
+        count.assign(static_cast<std::size_t>(cells[0].size()) * n_rows + 1, 0);
+        bool sorted = true;
+        int  last   = 0;
+        for (unsigned int p = 0; p < n; ++p)
+          {
+            const int cell = cell_of(p);
+            ++count[cell + 1];
+            sorted = sorted && cell >= last;
+            last   = cell;
+          }
+        if (sorted)
+          continue;
+        for (std::size_t c = 1; c < count.size(); ++c)
+          count[c] += count[c - 1];
+        order.resize(n);
+        for (unsigned int p = 0; p < n; ++p)
+          order[count[cell_of(p)]++] = p;
+        group.reorder(order);
+      }
+  }
+
+  void
+  CartesianTransfer::store_nodes()
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      stored[d] =
+        cells[d].size() > 0
+          ? Range{cells[d].begin, cells[d].end + static_cast<int>(grid.degree)}
+          : Range{0, 0};
+    const std::size_t n =
+      static_cast<std::size_t>(stored[0].size()) * stored[1].size();
+    read.assign(4 * n, 0.);
+    write.assign(4 * n, 0.);
+    mass.assign(n + mass_padding, 0.);
+
+    // A column counts on the lowest rank that stores it.
+    const auto all = Utilities::MPI::all_gather(
+      comm, std::array<int, 2>{{stored[0].begin, stored[0].end}});
+    stored_columns.clear();
+    for (const auto &range : all)
+      stored_columns.push_back({range[0], range[1]});
+    const auto is_mine = [&](const int column) {
+      for (unsigned int r = 0; r < rank; ++r)
+        if (column >= stored_columns[r].begin && column < stored_columns[r].end)
+          return false;
+      return true;
+    };
+    const unsigned int stride = stored[1].size();
+    mine.clear();
+    for (int column = stored[0].begin; column < stored[0].end; ++column)
+      if (is_mine(column))
+        {
+          const unsigned int first = (column - stored[0].begin) * stride;
+          if (!mine.empty() && mine.back()[1] == first)
+            mine.back()[1] += stride;
+          else
+            mine.push_back({{first, first + stride}});
+        }
+
+    prescribed.clear();
+    for (const Prescribed &p : prescribed_functions)
+      {
+        const int column = p.function[0], row = p.function[1];
+        if (column >= stored[0].begin && column < stored[0].end &&
+            row >= stored[1].begin && row < stored[1].end)
+          prescribed.push_back(
+            {(column - stored[0].begin) * stride + row - stored[1].begin,
+             p.component,
+             p.condition,
+             p.place,
+             is_mine(column)});
+      }
+  }
+
+  bool
+  CartesianTransfer::must_refresh(const PassSums &sums) const
+  {
+    if (sums.lower[0] > sums.upper[0])
+      return false; // no points
+    bool must = false;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const CartesianGrid::Axis &axis = grid.axes[d];
+        must                            = must ||
+               (cells[d].begin > 0 &&
+                axis.interval(sums.lower[d]) <= cells[d].begin) ||
+               (cells[d].end < static_cast<int>(axis.n_intervals) &&
+                axis.interval(sums.upper[d]) >= cells[d].end - 1);
+      }
+    return must;
+  }
+
+  GridView
+  CartesianTransfer::view(const bool with_mass)
+  {
+    GridView g;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const CartesianGrid::Axis &from = grid.axes[d];
+        GridAxis                  &to   = d == 0 ? g.x : g.y;
+        to.origin                       = from.begin;
+        to.inverse_size                 = 1. / from.size;
+        to.n_intervals                  = from.n_intervals;
+        to.first                        = stored[d].begin;
+        to.type                         = from.type.data();
+        to.coefficients                 = from.coefficients.data();
+        to.places                       = from.places.data();
+      }
+    g.stride = stored[1].size();
+    g.read   = read.data();
+    g.write  = write.data();
+    g.mass   = with_mass ? mass.data() : nullptr;
+    return g;
+  }
+
+  void
+  CartesianTransfer::gather(const BlockPoints &points, BlockScratch &scratch)
+  {
+    kernels.gather[grid.degree](view(false), points, scratch);
+  }
+
+  void
+  CartesianTransfer::gather_values(const BlockPoints &points,
+                                   BlockScratch      &scratch)
+  {
+    kernels.gather_values[grid.degree](view(false), points, scratch);
+  }
+
+  void
+  CartesianTransfer::gather_affine(const BlockPoints &points,
+                                   BlockScratch      &scratch)
+  {
+    kernels.gather_affine[grid.degree](view(false), points, scratch);
+  }
+
+  void
+  CartesianTransfer::scatter(const BlockPoints &points,
+                             BlockScratch      &scratch,
+                             const bool         with_mass)
+  {
+    kernels.scatter[grid.degree](view(with_mass), points, scratch);
+  }
+
+  void
+  CartesianTransfer::scatter_values(const BlockPoints &points,
+                                    BlockScratch      &scratch,
+                                    const bool         with_mass)
+  {
+    kernels.scatter_values[grid.degree](view(with_mass), points, scratch);
+  }
+
+  void
+  CartesianTransfer::scatter_affine(const BlockPoints &points,
+                                    BlockScratch      &scratch)
+  {
+    kernels.scatter_affine[grid.degree](view(false), points, scratch);
+  }
+
+  void
+  CartesianTransfer::exchange(const bool with_mass)
+  {
+    if (n_ranks == 1)
+      return;
+    // What this rank shares with each other one: columns, all their rows.
+    const unsigned int       stride = stored[1].size();
+    std::vector<Range>       shared(n_ranks);
+    Range                    all = {stored[0].end, stored[0].begin};
+    std::vector<MPI_Request> requests;
+    receive.resize(n_ranks);
+    for (unsigned int r = 0; r < n_ranks; ++r)
+      {
+        shared[r] = {std::max(stored[0].begin, stored_columns[r].begin),
+                     std::min(stored[0].end, stored_columns[r].end)};
+        if (r == rank || shared[r].size() <= 0)
+          {
+            shared[r] = {0, 0};
+            continue;
+          }
+        all.begin = std::min(all.begin, shared[r].begin);
+        all.end   = std::max(all.end, shared[r].end);
+      }
+    if (all.size() <= 0)
+      return;
+    shared[rank] = all;
+
+    const unsigned int per_node = with_mass ? 5 : 4;
+    const auto         offset   = [&](const int column) {
+      return static_cast<std::size_t>(column - stored[0].begin) * stride;
+    };
+    const auto pack = [&](const Range &range, std::vector<double> &buffer) {
+      const std::size_t first = offset(range.begin),
+                        n     = static_cast<std::size_t>(range.size()) * stride;
+      buffer.resize(per_node * n);
+      std::copy_n(write.begin() + 4 * first, 4 * n, buffer.begin());
+      if (with_mass)
+        std::copy_n(mass.begin() + first, n, buffer.begin() + 4 * n);
+    };
+    pack(all, receive[rank]);
+    for (unsigned int r = 0; r < n_ranks; ++r)
+      if (r != rank && shared[r].size() > 0)
+        {
+          receive[r].resize(
+            per_node * static_cast<std::size_t>(shared[r].size()) * stride);
+          requests.emplace_back();
+          MPI_Irecv(receive[r].data(),
+                    receive[r].size(),
+                    MPI_DOUBLE,
+                    r,
+                    0,
+                    comm,
+                    &requests.back());
+        }
+    sent.resize(n_ranks);
+    for (unsigned int r = 0; r < n_ranks; ++r)
+      if (r != rank && shared[r].size() > 0)
+        {
+          pack(shared[r], sent[r]);
+          requests.emplace_back();
+          MPI_Isend(sent[r].data(),
+                    sent[r].size(),
+                    MPI_DOUBLE,
+                    r,
+                    0,
+                    comm,
+                    &requests.back());
+        }
+    MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
+
+    // Summed in the order of the ranks, so that all get the same to the last bit.
+    std::fill_n(write.begin() + 4 * offset(all.begin),
+                4 * static_cast<std::size_t>(all.size()) * stride,
+                0.);
+    if (with_mass)
+      std::fill_n(mass.begin() + offset(all.begin),
+                  static_cast<std::size_t>(all.size()) * stride,
+                  0.);
+    for (unsigned int r = 0; r < n_ranks; ++r)
+      {
+        if (shared[r].size() <= 0)
+          continue;
+        const std::size_t first = offset(shared[r].begin),
+                          n =
+                            static_cast<std::size_t>(shared[r].size()) * stride;
+        for (std::size_t i = 0; i < 4 * n; ++i)
+          write[4 * first + i] += receive[r][i];
+        if (with_mass)
+          for (std::size_t i = 0; i < n; ++i)
+            mass[first + i] += receive[r][4 * n + i];
+      }
+  }
+
+  bool
+  CartesianTransfer::reaches(const Point<dim> &x) const
+  {
+    bool inside = grid.contains(x, 0.);
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const int i = inside ? grid.axes[d].interval(x[d]) : 0;
+        inside      = inside && i >= cells[d].begin && i < cells[d].end;
+      }
+    return inside;
+  }
+
+  Point<dim>
+  CartesianTransfer::a_stored_place() const
+  {
+    Point<dim> place;
+    for (unsigned int d = 0; d < dim; ++d)
+      place[d] =
+        grid.axes[d].begin + (cells[d].begin + 0.5) * grid.axes[d].size;
+    return place;
+  }
+
+  Point<dim>
+  CartesianTransfer::nearest_in_domain(const Point<dim> &x) const
+  {
+    Point<dim> nearest;
+    for (unsigned int d = 0; d < dim; ++d)
+      nearest[d] =
+        std::min(std::max(x[d], grid.axes[d].begin), grid.axes[d].end);
+    return nearest;
+  }
+
+  std::size_t
+  CartesianTransfer::memory() const
+  {
+    return (read.capacity() + write.capacity() + mass.capacity()) *
+             sizeof(double) +
+           (count.capacity() + order.capacity()) * sizeof(unsigned int);
+  }
+
+  std::string
+  CartesianTransfer::description() const
+  {
+    return std::string("uniform grid, ") + kernels.name + " kernels";
+  }
+} // namespace geocone

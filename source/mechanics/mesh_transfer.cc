@@ -1,0 +1,459 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/mechanics/mesh_transfer.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <deal.II/numerics/rtree.h>
+
+#include <map>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Field = PointArrays::Field;
+
+    /** Of unit coordinates, beyond a cell's border. */
+    constexpr double tolerance = 1e-8;
+  } // namespace
+
+  MeshTransfer::MeshTransfer(const BackgroundMesh     &mesh,
+                             const Space              &space,
+                             const BoundaryConditions &conditions)
+    : mesh(mesh)
+    , space(space)
+    , comm(mesh.triangulation().get_communicator())
+    , n(space.nodes_per_cell())
+    , cache(mesh.triangulation(), mesh.mapping())
+    , exchanged(space.partitioner())
+  {
+    const auto &tria = mesh.triangulation();
+    cells.resize(tria.n_active_cells());
+    neighbours.resize(tria.n_active_cells());
+    cell_nodes.assign(n * tria.n_active_cells(), numbers::invalid_unsigned_int);
+    smallest_cell                = std::numeric_limits<double>::max();
+    const auto  cells_of_vertex  = GridTools::vertex_to_cell_map(tria);
+    std::vector<types::global_dof_index> nodes;
+    for (const auto &cell : tria.active_cell_iterators())
+      if (!cell->is_artificial())
+        {
+          const unsigned int c = cell->active_cell_index();
+          cells[c]             = cell;
+          smallest_cell =
+            std::min(smallest_cell, cell->minimum_vertex_distance());
+          std::set<Cell> around;
+          for (const unsigned int v : cell->vertex_indices())
+            for (const auto &other : cells_of_vertex[cell->vertex_index(v)])
+              if (other != cell && !other->is_artificial())
+                around.insert(other);
+          neighbours[c].assign(around.begin(), around.end());
+          if (cell->is_locally_owned())
+            {
+              space.cell_nodes(cell, nodes);
+              for (unsigned int i = 0; i < n; ++i)
+                cell_nodes[c * n + i] = space.local_node(nodes[i]);
+            }
+        }
+    smallest_cell = Utilities::MPI::min(smallest_cell, comm);
+
+    const std::size_t n_nodes = space.n_local_nodes();
+    read.resize(4 * n_nodes);
+    write.resize(4 * n_nodes);
+    mass.resize(n_nodes);
+    mine = {{{0, space.n_owned_nodes()}}};
+
+    // The last condition in the list that prescribes a component holds it.
+    std::map<std::array<unsigned int, 2>, unsigned int> condition_of;
+    for (unsigned int c = 0; c < conditions.list.size(); ++c)
+      {
+        const BoundaryCondition &condition = *conditions.list[c];
+        unsigned int             n_found   = 0;
+        for (const unsigned int node :
+             space.nodes_on_sides(mesh.side_ids(condition)))
+          if (condition.in_box(space.node_positions()[node]))
+            {
+              ++n_found;
+              for (unsigned int d = 0; d < dim; ++d)
+                if (condition.components[d])
+                  condition_of[{{node, d}}] = c;
+            }
+        if (Utilities::MPI::max(n_found, comm) == 0)
+          throw InputError(condition.parameter("Box"),
+                           condition.part(),
+                           "a part of the boundary with at least one node",
+                           "this condition selects no node: check its sides, "
+                           "its box, and the size of the cells there");
+      }
+    for (const auto &[component, condition] : condition_of)
+      prescribed.push_back({component[0],
+                            component[1],
+                            condition,
+                            space.node_positions()[component[0]],
+                            component[0] < space.n_owned_nodes()});
+  }
+
+  bool
+  MeshTransfer::is_in(const Point<dim> &x, const Cell &cell, Place &place) const
+  {
+    try
+      {
+        place.unit = mesh.mapping().transform_real_to_unit_cell(cell, x);
+      }
+    catch (const Mapping<dim>::ExcTransformationFailed &)
+      {
+        return false; // too far outside
+      }
+    if (!GeometryInfo<dim>::is_inside_unit_cell(place.unit, tolerance))
+      return false;
+    place.unit = GeometryInfo<dim>::project_to_unit_cell(place.unit);
+    place.cell = cell;
+    return true;
+  }
+
+  bool
+  MeshTransfer::find(const Point<dim> &x, const Cell &hint, Place &place) const
+  {
+    if (hint.state() == IteratorState::valid)
+      {
+        if (is_in(x, hint, place))
+          return true;
+        for (const Cell &cell : neighbours[hint->active_cell_index()])
+          if (is_in(x, cell, place))
+            return true;
+      }
+    namespace bgi = boost::geometry::index;
+    // Boxes a little larger, for points on the border of the mesh.
+    Point<dim> lower = x, upper = x;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        lower[d] -= tolerance * smallest_cell;
+        upper[d] += tolerance * smallest_cell;
+      }
+    const BoundingBox<dim> around({lower, upper});
+    for (const auto &[box, cell] : cache.get_cell_bounding_boxes_rtree() |
+                                     bgi::adaptors::queried(
+                                       bgi::intersects(around)))
+      if (!cell->is_artificial() && is_in(x, cell, place))
+        return true;
+    return false;
+  }
+
+  void
+  MeshTransfer::refresh(std::vector<PointArrays> &groups)
+  {
+    lost.clear();
+    functions.resize(groups.size());
+    for (unsigned int g = 0; g < groups.size(); ++g)
+      {
+        PointArrays &group = groups[g];
+        group.pad();
+        group.cell.resize(group.n_points(), numbers::invalid_unsigned_int);
+
+        // Points in other ranks' cells go there, the others know their place.
+        std::vector<Place>                          places;
+        std::map<unsigned int, std::vector<double>> leaving;
+        std::vector<unsigned int>                   staying;
+        std::vector<unsigned int>                   lost_here;
+        for (unsigned int p = 0; p < group.n_points(); ++p)
+          {
+            const unsigned int c = group.cell[p];
+            Place              place;
+            const bool         found =
+              find(group.position(p), c < cells.size() ? cells[c] : Cell(), place);
+            if (found && !place.cell->is_locally_owned())
+              {
+                std::vector<double> &message =
+                  leaving[place.cell->subdomain_id()];
+                for (unsigned int field = 0; field < group.n_fields(); ++field)
+                  message.push_back(group[field][p]);
+                message.push_back(group.id[p]);
+                continue;
+              }
+            if (!found)
+              {
+                lost_here.push_back(staying.size());
+                place.cell = *mesh.own_cells().begin();
+                place.unit = Point<dim>(0.5, 0.5);
+              }
+            group.cell[p] = place.cell->active_cell_index();
+            staying.push_back(p);
+            places.push_back(place);
+          }
+        if (staying.size() < group.n_points())
+          group.reorder(staying);
+        if (Utilities::MPI::logical_or(!leaving.empty(), comm))
+          {
+            const unsigned int size = group.n_fields() + 1;
+            for (const auto &[sender, message] :
+                 Utilities::MPI::some_to_some(comm, leaving))
+              for (std::size_t i = 0; i < message.size(); i += size)
+                {
+                  const Point<dim> x(message[i + Field::x],
+                                     message[i + Field::y]);
+                  Place            place;
+                  bool             found = find(x, Cell(), place);
+                  if (found && !place.cell->is_locally_owned())
+                    // On a border that both ranks take for the other's.
+                    found = find_own(x, place);
+                  if (!found)
+                    {
+                      lost_here.push_back(places.size());
+                      place.cell = *mesh.own_cells().begin();
+                      place.unit = Point<dim>(0.5, 0.5);
+                    }
+                  group.append(&message[i],
+                               static_cast<unsigned int>(
+                                 message[i + size - 1]));
+                  group.cell.push_back(place.cell->active_cell_index());
+                  places.push_back(place);
+                }
+          }
+        group.pad();
+        for (const unsigned int p : lost_here)
+          lost.push_back({{g, p}});
+        evaluate(group, places, functions[g]);
+      }
+    std::fill(write.begin(), write.end(), 0.);
+    std::fill(mass.begin(), mass.end(), 0.);
+  }
+
+  bool
+  MeshTransfer::find_own(const Point<dim> &x, Place &place) const
+  {
+    for (const auto &cell : mesh.own_cells())
+      if (cell->point_inside(x) && is_in(x, cell, place))
+        return true;
+    // Within the rounding of the search that has sent it here.
+    double nearest = std::numeric_limits<double>::max();
+    for (const auto &cell : mesh.own_cells())
+      {
+        const double distance = cell->center().distance_square(x);
+        if (distance < nearest)
+          {
+            nearest    = distance;
+            place.cell = cell;
+          }
+      }
+    return is_in(x, place.cell, place);
+  }
+
+  void
+  MeshTransfer::evaluate(const PointArrays        &group,
+                         const std::vector<Place> &places,
+                         Functions                &at) const
+  {
+    const unsigned int padded = group.n_padded();
+    at.nodes.resize(n * padded);
+    at.N.resize(n * padded);
+    at.dN_dx.resize(n * padded);
+    at.dN_dy.resize(n * padded);
+    std::vector<Tensor<1, dim>> gradient(n);
+    for (unsigned int p = 0; p < padded; ++p)
+      {
+        // Padding is at the place of the last point.
+        const Place &place = places[std::min<std::size_t>(p, places.size() - 1)];
+        space.evaluate(place.cell, place.unit, &at.N[p * n], gradient.data());
+        const Tensor<2, dim> inverse =
+          mesh.inverse_jacobian(place.cell, place.unit);
+        const unsigned int c = place.cell->active_cell_index();
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            const Tensor<1, dim> slope = gradient[i] * inverse;
+            at.dN_dx[p * n + i]        = slope[0];
+            at.dN_dy[p * n + i]        = slope[1];
+            at.nodes[p * n + i]        = cell_nodes[c * n + i];
+          }
+      }
+  }
+
+  template <bool with_gradients>
+  void
+  MeshTransfer::gather_any(const BlockPoints &points,
+                           BlockScratch      &scratch) const
+  {
+    const Functions &at = functions[points.group];
+    for (unsigned int k = 0; k < points.n; ++k)
+      {
+        double           *out   = scratch.gathered + 12 * k;
+        const std::size_t first = n * static_cast<std::size_t>(points.first + k);
+        std::fill_n(out, with_gradients ? 12 : 4, 0.);
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            const double *v = &read[4 * at.nodes[first + i]];
+            for (unsigned int c = 0; c < 4; ++c)
+              {
+                out[c] += at.N[first + i] * v[c];
+                if (with_gradients)
+                  {
+                    out[4 + c] += at.dN_dx[first + i] * v[c];
+                    out[8 + c] += at.dN_dy[first + i] * v[c];
+                  }
+              }
+          }
+      }
+  }
+
+  void
+  MeshTransfer::gather(const BlockPoints &points, BlockScratch &scratch)
+  {
+    gather_any<true>(points, scratch);
+  }
+
+  void
+  MeshTransfer::gather_values(const BlockPoints &points, BlockScratch &scratch)
+  {
+    gather_any<false>(points, scratch);
+  }
+
+  void
+  MeshTransfer::gather_affine(const BlockPoints &points, BlockScratch &)
+  {
+    const Functions &at = functions[points.group];
+    for (unsigned int k = 0; k < points.n; ++k)
+      {
+        const std::size_t first = n * static_cast<std::size_t>(points.first + k);
+        const Point<dim>  x(points.x[k], points.y[k]);
+        Tensor<2, dim>    B, D, gradient;
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            const unsigned int   node = at.nodes[first + i];
+            const Tensor<1, dim> r    = space.node_positions()[node] - x;
+            const double slope[dim]   = {at.dN_dx[first + i],
+                                         at.dN_dy[first + i]};
+            for (unsigned int d = 0; d < dim; ++d)
+              for (unsigned int e = 0; e < dim; ++e)
+                {
+                  B[d][e] += at.N[first + i] * read[4 * node + d] * r[e];
+                  D[d][e] += at.N[first + i] * r[d] * r[e];
+                  gradient[d][e] += slope[e] * read[4 * node + d];
+                }
+          }
+        // At the ends of the mesh only one function is left: the limit is the
+        // gradient.
+        const Tensor<2, dim> C =
+          determinant(D) > 1e-12 * trace(D) * trace(D) && trace(D) > 0. ?
+            B * invert(D) :
+            gradient;
+        points.c_xx[k] = C[0][0];
+        points.c_xy[k] = C[0][1];
+        points.c_yx[k] = C[1][0];
+        points.c_yy[k] = C[1][1];
+      }
+  }
+
+  template <bool with_gradients>
+  void
+  MeshTransfer::scatter_any(const BlockPoints  &points,
+                            const BlockScratch &scratch,
+                            const bool          with_mass)
+  {
+    const Functions &at = functions[points.group];
+    for (unsigned int k = 0; k < points.n; ++k)
+      {
+        const double     *in    = scratch.given + 12 * k;
+        const std::size_t first = n * static_cast<std::size_t>(points.first + k);
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            const unsigned int node = at.nodes[first + i];
+            const double       N    = at.N[first + i];
+            for (unsigned int c = 0; c < 4; ++c)
+              {
+                write[4 * node + c] += N * in[c];
+                if (with_gradients)
+                  write[4 * node + c] += at.dN_dx[first + i] * in[4 + c] +
+                                         at.dN_dy[first + i] * in[8 + c];
+              }
+            if (with_mass)
+              mass[node] += N * points.mass[k];
+          }
+      }
+  }
+
+  void
+  MeshTransfer::scatter(const BlockPoints &points,
+                        BlockScratch      &scratch,
+                        const bool         with_mass)
+  {
+    scatter_any<true>(points, scratch, with_mass);
+  }
+
+  void
+  MeshTransfer::scatter_values(const BlockPoints &points,
+                               BlockScratch      &scratch,
+                               const bool         with_mass)
+  {
+    scatter_any<false>(points, scratch, with_mass);
+  }
+
+  void
+  MeshTransfer::scatter_affine(const BlockPoints &points, BlockScratch &)
+  {
+    const Functions &at = functions[points.group];
+    for (unsigned int k = 0; k < points.n; ++k)
+      {
+        const std::size_t first = n * static_cast<std::size_t>(points.first + k);
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            const unsigned int node = at.nodes[first + i];
+            const double       mN   = points.mass[k] * at.N[first + i];
+            const double rx = space.node_positions()[node][0] - points.x[k];
+            const double ry = space.node_positions()[node][1] - points.y[k];
+            write[4 * node] +=
+              mN * (points.c_xx[k] * rx + points.c_xy[k] * ry);
+            write[4 * node + 1] +=
+              mN * (points.c_yx[k] * rx + points.c_yy[k] * ry);
+          }
+      }
+  }
+
+  void
+  MeshTransfer::exchange(const bool with_mass)
+  {
+    if (Utilities::MPI::n_mpi_processes(comm) == 1)
+      return;
+    const unsigned int n_nodes = space.n_local_nodes();
+    // Momentum, force, and the mass (as both components of a vector).
+    for (unsigned int part = 0; part < (with_mass ? 3 : 2); ++part)
+      {
+        exchanged.zero_out_ghost_values();
+        for (unsigned int i = 0; i < n_nodes; ++i)
+          for (unsigned int d = 0; d < dim; ++d)
+            exchanged.local_element(dim * i + d) =
+              part < 2 ? write[4 * i + 2 * part + d] : mass[i];
+        exchanged.compress(VectorOperation::add);
+        exchanged.update_ghost_values();
+        for (unsigned int i = 0; i < n_nodes; ++i)
+          if (part < 2)
+            for (unsigned int d = 0; d < dim; ++d)
+              write[4 * i + 2 * part + d] =
+                exchanged.local_element(dim * i + d);
+          else
+            mass[i] = exchanged.local_element(dim * i);
+      }
+  }
+
+  Point<dim>
+  MeshTransfer::a_stored_place() const
+  {
+    return (*mesh.own_cells().begin())->center();
+  }
+
+  std::size_t
+  MeshTransfer::memory() const
+  {
+    std::size_t bytes =
+      (read.capacity() + write.capacity() + mass.capacity()) * sizeof(double);
+    for (const Functions &at : functions)
+      bytes += at.nodes.capacity() * sizeof(unsigned int) +
+               (at.N.capacity() + at.dN_dx.capacity() + at.dN_dy.capacity()) *
+                 sizeof(double);
+    return bytes;
+  }
+} // namespace geocone

@@ -1,0 +1,357 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/output/explicit_output.h>
+#include <geocone/output/patch_output.h>
+
+#include <limits>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  void
+  ExplicitOutput::prepare(const std::string &default_name,
+                          const std::string &folder_of_call,
+                          const Scene       &scene_)
+  {
+    scene = &scene_;
+    if (fields_format != "vtu" && fields_format != "hdf5" &&
+        fields_format != "both")
+      throw InputError("Output/Fields format",
+                       fields_format,
+                       "vtu | hdf5 | both",
+                       "choose one of them");
+    make_folder(default_name, folder_of_call);
+    if (!writes)
+      return;
+    std::vector<std::string> columns = {"step",
+                                        "time (s)",
+                                        "explicit steps (-)",
+                                        "smallest step (s)",
+                                        "largest step (s)",
+                                        "limiting point (-)",
+                                        "limiting point x (m)",
+                                        "limiting point y (m)",
+                                        "limiting wave speed (m/s)",
+                                        "points (-)",
+                                        "mass (kg/m)",
+                                        "volume (m^2)",
+                                        "x least (m)",
+                                        "x largest (m)",
+                                        "y largest (m)",
+                                        "left front, 1 % of mass (m)",
+                                        "right front, 99 % of mass (m)",
+                                        "largest speed (m/s)",
+                                        "largest plastic strain (-)",
+                                        "unbalanced force (N/m)",
+                                        "kinetic energy (J/m)",
+                                        "potential energy (J/m)",
+                                        "stress work (J/m)",
+                                        "gravity work (J/m)",
+                                        "support work (J/m)",
+                                        "damping work (J/m)",
+                                        "stopped energy (J/m)",
+                                        "removed kinetic energy (J/m)",
+                                        "energy residual (J/m)",
+                                        "momentum x (N s/m)",
+                                        "momentum y (N s/m)",
+                                        "momentum residual x (N s/m)",
+                                        "momentum residual y (N s/m)",
+                                        "angular momentum (N m s/m)",
+                                        "removed mass (kg/m)"};
+    for (const auto &condition : scene->dirichlet.list)
+      for (const char *direction : {" x", " y"})
+        columns.push_back("force " + condition->name + direction + " (N/m)");
+    statistics.open(path + "/statistics.csv", columns);
+  }
+
+  double
+  ExplicitOutput::energy_residual(const ExplicitRecord &record) const
+  {
+    const Balance &b = record.balance;
+    return record.state.kinetic - initial.kinetic + b.stress_work +
+           b.damping_work + b.stopped_energy + b.removed_energy -
+           b.gravity_work - b.support_work;
+  }
+
+  Tensor<1, dim>
+  ExplicitOutput::momentum_residual(const ExplicitRecord &record) const
+  {
+    return record.state.momentum - initial.momentum +
+           record.balance.removed_momentum - record.balance.impulse;
+  }
+
+  void
+  ExplicitOutput::add_record(const ExplicitRecord &record)
+  {
+    records.push_back(record);
+    const ExplicitState &s = record.state;
+    const Balance       &b = record.balance;
+    const Tensor<1, dim> r = momentum_residual(record);
+    largest_kinetic = std::max({largest_kinetic, s.kinetic, initial.kinetic});
+    largest_impulse =
+      std::max({largest_impulse,
+                b.impulse.norm(),
+                std::sqrt(2. * s.mass * std::max(s.kinetic, initial.kinetic))});
+    if (!writes)
+      return;
+    std::vector<double> line = {double(record.step),
+                                record.time,
+                                double(record.report.n_steps),
+                                record.report.smallest_step,
+                                record.report.largest_step,
+                                double(s.limiting_id),
+                                s.limiting_place[0],
+                                s.limiting_place[1],
+                                s.limiting_wave_speed,
+                                double(s.n_points),
+                                s.mass,
+                                s.volume,
+                                s.lower[0],
+                                s.upper[0],
+                                s.upper[1],
+                                s.left_front,
+                                s.right_front,
+                                s.largest_speed,
+                                s.largest_plastic_strain,
+                                record.report.unbalanced_force,
+                                s.kinetic,
+                                s.potential,
+                                b.stress_work,
+                                b.gravity_work,
+                                b.support_work,
+                                b.damping_work,
+                                b.stopped_energy,
+                                b.removed_energy,
+                                energy_residual(record),
+                                s.momentum[0],
+                                s.momentum[1],
+                                r[0],
+                                r[1],
+                                s.angular_momentum,
+                                b.removed_mass};
+    for (const Tensor<1, dim> &reaction : record.report.reactions)
+      for (unsigned int d = 0; d < dim; ++d)
+        line.push_back(reaction[d]);
+    statistics.add_line(line);
+  }
+
+  void
+  ExplicitOutput::write_points(const double                    time,
+                               const std::vector<PointArrays> &groups)
+  {
+    if (!with_fields)
+      return;
+    using Field = PointArrays::Field;
+    PatchOutput<0>           output;
+    std::vector<std::string> scalars = {"material",
+                                        "volume",
+                                        "stress_xx",
+                                        "stress_yy",
+                                        "stress_xy",
+                                        "cumulative_plastic_strain"};
+    // What any of the laws can show; where a law cannot, not a number.
+    const unsigned int first_of_laws = scalars.size();
+    for (unsigned int m = 0; m < scene->materials.size(); ++m)
+      for (const std::string &shown : scene->materials.law(m).shown_names())
+        if (std::find(scalars.begin(), scalars.end(), shown) == scalars.end())
+          scalars.push_back(shown);
+    for (const std::string &scalar : scalars)
+      output.add_scalar(scalar);
+    output.add_vector("velocity");
+    output.add_vector("displacement");
+    for (const PointArrays &group : groups)
+      {
+        const ConstitutiveLaw    &law = scene->materials.law(group.material);
+        std::vector<unsigned int> place;
+        for (const std::string &shown : law.shown_names())
+          place.push_back(std::find(scalars.begin(), scalars.end(), shown) -
+                          scalars.begin());
+        std::vector<double> shown(place.size()), history(group.n_history);
+        for (unsigned int p = 0; p < group.n_points(); ++p)
+          {
+            PatchOutput<0>::Patch patch;
+            patch.patch_index = output.patches.size();
+            patch.vertices[0] = group.position(p);
+            patch.data.reinit(output.names.size(), 1);
+            const double common[] = {double(group.material),
+                                     group[Field::volume][p],
+                                     group[Field::s_xx][p],
+                                     group[Field::s_yy][p],
+                                     group[Field::s_xy][p],
+                                     group[Field::plastic_strain][p]};
+            for (unsigned int i = 0; i < first_of_laws; ++i)
+              patch.data(i, 0) = common[i];
+            for (unsigned int i = first_of_laws; i < scalars.size(); ++i)
+              patch.data(i, 0) = std::numeric_limits<double>::quiet_NaN();
+            for (unsigned int k = 0; k < group.n_history; ++k)
+              history[k] = group[group.first_history() + k][p];
+            law.show({{common[2], common[3], common[4]}},
+                     history.data(),
+                     shown.data());
+            for (unsigned int k = 0; k < place.size(); ++k)
+              patch.data(place[k], 0) = shown[k];
+            const unsigned int n = scalars.size();
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                patch.data(n + d, 0) = group[Field::vx + d][p];
+                patch.data(n + dim + d, 0) =
+                  group[Field::x + d][p] - group[Field::x_start + d][p];
+              }
+            output.patches.push_back(patch);
+          }
+      }
+    if (fields_format != "hdf5")
+      output.write_as_vtu(path, "points", n_fields, time, comm, vtu_series);
+    if (fields_format != "vtu")
+      output.write_as_hdf5(path, "points", n_fields, time, comm, hdf5_series);
+    ++n_fields;
+  }
+
+  void
+  ExplicitOutput::write_summary(const std::string &status,
+                                const LawCounts   &counts,
+                                const Json        &size,
+                                const Json        &cost)
+  {
+    if (!writes)
+      return;
+    summary = Json{{"name", name}, {"status", status}};
+    if (!records.empty())
+      {
+        const ExplicitRecord &last = records.back();
+        const ExplicitState  &s    = last.state;
+        const Balance        &b    = last.balance;
+        unsigned long         n    = 0;
+        double least = 1e300, largest = 0., momentum = 0., energy = 0.,
+               drift = 0.;
+        const double energy_scale =
+          std::max({largest_kinetic, std::abs(b.gravity_work), 1e-300});
+        for (const ExplicitRecord &record : records)
+          {
+            n += record.report.n_steps;
+            least    = std::min(least, record.report.smallest_step);
+            largest  = std::max(largest, record.report.largest_step);
+            momentum = std::max(momentum, momentum_residual(record).norm());
+            energy   = std::max(energy, std::abs(energy_residual(record)));
+            drift    = std::max(
+              drift,
+              std::abs(record.state.kinetic + record.balance.stress_work -
+                       record.balance.gravity_work - initial.kinetic));
+          }
+        summary["explicit"] = {{"time_s", last.time},
+                               {"steps", n},
+                               {"smallest_step_s", least},
+                               {"largest_step_s", largest},
+                               {"massless_nodes", b.small_masses}};
+        summary["state"]    = {
+             {"points", s.n_points},
+             {"mass_kg_per_m", s.mass},
+             {"volume_m2", s.volume},
+             {"x_least_m", s.lower[0]},
+             {"x_largest_m", s.upper[0]},
+             {"y_largest_m", s.upper[1]},
+             {"left_front_m", s.left_front},
+             {"right_front_m", s.right_front},
+             {"largest_speed_m_per_s", s.largest_speed},
+             {"largest_plastic_strain", s.largest_plastic_strain},
+             {"removed_mass_kg_per_m", b.removed_mass}};
+        summary["energy"] = {
+          {"kinetic_J_per_m", s.kinetic},
+          {"largest_kinetic_J_per_m", largest_kinetic},
+          {"potential_J_per_m", s.potential},
+          {"released_potential_J_per_m", initial.potential - s.potential},
+          {"stress_work_J_per_m", b.stress_work},
+          {"gravity_work_J_per_m", b.gravity_work},
+          {"support_work_J_per_m", b.support_work},
+          {"damping_work_J_per_m", b.damping_work},
+          {"residual_J_per_m", energy_residual(last)},
+          {"residual_relative", energy_residual(last) / energy_scale},
+          {"residual_max_relative", energy / energy_scale}};
+        if (initial.kinetic > 0.)
+          {
+            summary["energy"]["kinetic_to_initial"] =
+              s.kinetic / initial.kinetic;
+            summary["energy"]["drift_to_initial"] =
+              (s.kinetic + b.stress_work - b.gravity_work - initial.kinetic) /
+              initial.kinetic;
+            summary["energy"]["drift_max_to_initial"] = drift / initial.kinetic;
+          }
+        summary["momentum"] = {
+          {"x_N_s_per_m", s.momentum[0]},
+          {"y_N_s_per_m", s.momentum[1]},
+          {"angular_N_m_s_per_m", s.angular_momentum},
+          {"angular_change_relative",
+           initial.angular_momentum != 0.
+             ? Json(s.angular_momentum / initial.angular_momentum - 1.)
+             : Json()},
+          {"residual_max_relative",
+           momentum / std::max(largest_impulse, 1e-300)}};
+        summary["law"] = {
+          {"updates", counts.updates},
+          {"substeps", counts.substeps},
+          {"substeps_per_update",
+           counts.updates > 0 ? double(counts.substeps) / counts.updates : 0.},
+          {"most_substeps", counts.most},
+          {"forced_substeps", counts.forced},
+          {"limited_stresses", counts.limited}};
+      }
+    summary["size"] = size;
+    summary["cost"] = cost;
+    write_summary_file();
+  }
+
+  void
+  ExplicitOutput::print_result() const
+  {
+    if (!writes || records.empty())
+      return;
+    const ExplicitRecord &last = records.back();
+    const ExplicitState  &s    = last.state;
+    log.print(
+      format("%lu explicit steps of %.3g to %.3g s; the body reaches from x = "
+             "%.4g to %.4g m, up to y = %.4g m",
+             summary["explicit"]["steps"].get<unsigned long>(),
+             summary["explicit"]["smallest_step_s"].get<double>(),
+             summary["explicit"]["largest_step_s"].get<double>(),
+             s.lower[0],
+             s.upper[0],
+             s.upper[1]));
+    log.print(format(
+      "kinetic energy %.4g J/m (at most %.4g), stress work %.4g, released "
+      "%.4g, numerical %+.2g J/m; momentum to %.1e",
+      s.kinetic,
+      largest_kinetic,
+      last.balance.stress_work,
+      summary["energy"]["released_potential_J_per_m"].get<double>(),
+      energy_residual(last),
+      summary["momentum"]["residual_max_relative"].get<double>()));
+    if (summary["law"]["substeps"].get<unsigned long long>() > 0)
+      log.print(
+        format("soil model: %.3f substeps per update (at most %u), "
+               "%llu forced, %llu stresses limited",
+               summary["law"]["substeps_per_update"].get<double>(),
+               summary["law"]["most_substeps"].get<unsigned int>(),
+               summary["law"]["forced_substeps"].get<unsigned long long>(),
+               summary["law"]["limited_stresses"].get<unsigned long long>()));
+    if (report_for_tests == "expectations")
+      write_file("output", [](std::ostream &) {});
+    else if (report_for_tests == "loads")
+      write_file("output", [&](std::ostream &out) {
+        out << "time  kinetic  stress work  gravity work  x  y  plastic\n";
+        for (const ExplicitRecord &record : records)
+          out << format("%.6g %.7g %.7g %.7g %.7g %.7g %.7g %.7g\n",
+                        record.time,
+                        record.state.kinetic,
+                        record.balance.stress_work,
+                        record.balance.gravity_work,
+                        record.state.lower[0],
+                        record.state.upper[0],
+                        record.state.upper[1],
+                        record.state.largest_plastic_strain);
+        out << "explicit steps " << summary["explicit"]["steps"] << " points "
+            << s.n_points << "\n";
+      });
+  }
+} // namespace geocone
