@@ -30,7 +30,8 @@ namespace geocone
                              const ExplicitReport &report)
   {
     state = stepper.state(t);
-    explicit_output.add_record({step, t, report, state, stepper.balance()});
+    explicit_output.add_record(
+      {step, t, step_loop.last_cpu_time(), report, state, stepper.balance()});
     if (explicit_output.verbosity >= 1)
       log.progress(
         format("step %u/%u  t = %.4g s  %lu explicit steps  kinetic energy = "

@@ -188,10 +188,10 @@ namespace geocone
           cells[d] = {0, 0};
       }
     // Rows are the same on all ranks, so that shared columns are alike.
-    std::array<int, 2> rows = {{cells[1].size() > 0
-                                  ? -cells[1].begin
-                                  : -static_cast<int>(grid.axes[1].n_intervals),
-                                cells[1].end}};
+    int rows[2] = {cells[1].size() > 0
+                     ? -cells[1].begin
+                     : -static_cast<int>(grid.axes[1].n_intervals),
+                   cells[1].end};
     Utilities::MPI::max(rows, comm, rows);
     if (cells[1].size() > 0)
       cells[1] = {-rows[0], rows[1]};

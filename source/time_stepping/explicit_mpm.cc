@@ -751,7 +751,20 @@ namespace geocone
       }
     for (const PrescribedNode &node : transfer->prescribed)
       if (mass[node.node] > least_mass)
-        read[4 * node.node + node.component] = prescribed_velocity(node, t);
+        {
+          double      &v      = read[4 * node.node + node.component];
+          const double before = v;
+          v                   = prescribed_velocity(node, t);
+          // USF: PIC gives the points what the condition has changed.
+          if (kind == Order::usf && node.mine)
+            {
+              const double impulse =
+                (1. - flip_part) * mass[node.node] * (v - before);
+              support_impulse[node.condition][node.component] += impulse;
+              sum.impulse[node.component] += impulse;
+              sum.support_work += impulse * v;
+            }
+        }
     if (moves > 0.)
       count_gravity_work(moves);
     std::fill_n(write, 4 * static_cast<std::size_t>(n), 0.);
@@ -969,12 +982,12 @@ namespace geocone
                               group.id[p],
                               group[Field::x][p],
                               group[Field::y][p]);
-    std::array<double, 5> largest = {
-      {sums.wave_speed2,
-       sums.speed2,
-       sums.strain,
-       double(must_refresh || some_left || transfer->must_refresh(sums)),
-       double(!obstacle.empty())}};
+    double largest[5] = {
+      sums.wave_speed2,
+      sums.speed2,
+      sums.strain,
+      double(must_refresh || some_left || transfer->must_refresh(sums)),
+      double(!obstacle.empty())};
     Utilities::MPI::max(largest, comm, largest);
     sums.wave_speed2 = largest[0];
     sums.speed2      = largest[1];

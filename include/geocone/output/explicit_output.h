@@ -19,6 +19,7 @@ namespace geocone
   {
     unsigned int   step = 0;
     double         time = 0.;
+    double         cpu  = 0.; ///< CPU time of its explicit steps, this rank (s)
     ExplicitReport report;
     ExplicitState  state;
     Balance        balance;

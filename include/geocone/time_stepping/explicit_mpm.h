@@ -334,7 +334,7 @@ namespace geocone
     double       courant        = 0.3;
     double       fixed_step     = 0.;
     bool         allow_unstable = false;
-    double       largest_strain = 1e-3;
+    double       largest_strain = 0.;
     bool         fast_path      = true;
     unsigned int sort_every     = 50;
 
