@@ -510,6 +510,16 @@ namespace geocone
     return in_plane.wave_modulus(-(stress[0] + stress[1] + stress[2]) / 3.);
   }
 
+  SubloadingState<4>
+  Subloading::state(const std::array<double, 3> &stress,
+                    const double                *history) const
+  {
+    return state_of(stress[0],
+                    stress[1],
+                    stress[2],
+                    [&](const unsigned int k) { return history[k]; });
+  }
+
   std::vector<std::string>
   Subloading::shown_names() const
   {
@@ -527,11 +537,8 @@ namespace geocone
                    const double                *history,
                    double                      *values) const
   {
-    const SubloadingState<4> y =
-      state_of(stress[0], stress[1], stress[2], [&](const unsigned int k) {
-        return history[k];
-      });
-    const double p = (y.stress[0] + y.stress[1] + y.stress[2]) / 3.;
+    const SubloadingState<4> y = state(stress, history);
+    const double             p = (y.stress[0] + y.stress[1] + y.stress[2]) / 3.;
     values[0]      = -y.stress[2];
     values[1]      = p;
     // sqrt(3/2) ||s|| and the same of beta, a stress ratio q/p.

@@ -76,6 +76,10 @@ namespace geocone
     std::string
     initial_state(const typename SubloadingModel<n>::Vector &stress,
                   SubloadingState<n>                        &state) const;
+
+    /** The state of a point. @param stress s_xx, s_yy, s_xy, tension positive */
+    SubloadingState<4>
+    state(const std::array<double, 3> &stress, const double *history) const;
     /** @} */
 
   private:
