@@ -74,9 +74,8 @@ namespace
         Log                 log(MPI_COMM_WORLD, call.quiet);
         ElementTest         test(MPI_COMM_WORLD, file, log);
         file.parse();
-        const bool ok =
-          test.run(std::filesystem::path(call.file).stem().string(),
-                   call.folder);
+        const bool ok = test.run(
+          std::filesystem::path(call.file).stem().string(), call.folder);
         if (test.output().wants_pictures())
           drawing = drawing_command(test.output().folder(), call.quiet);
         return ok ? 0 : 1;

@@ -105,8 +105,9 @@ namespace
           throw InputError("--replay works on one rank\n"
                            "  remedy:  call it without mpirun");
         Log log(MPI_COMM_WORLD, call.quiet);
-        return replay(call.own.at("--replay"), call.overrides, call.folder, log) ? 0
-                                                                          : 1;
+        return replay(call.own.at("--replay"), call.overrides, call.folder, log)
+                 ? 0
+                 : 1;
       }
     if (call.file.empty())
       {

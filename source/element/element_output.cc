@@ -41,9 +41,10 @@ namespace geocone
                   if_exists,
                   "number (take NAME-2, NAME-3, ...) | refuse | overwrite (the "
                   "files of the run before are removed).");
-    add_parameter("Pictures",
-                  pictures,
-                  "Whether the pictures are drawn at the end, by scripts/plot.");
+    add_parameter(
+      "Pictures",
+      pictures,
+      "Whether the pictures are drawn at the end, by scripts/plot.");
     add_parameter("Verbosity",
                   verbosity,
                   "0: results only, 1: the end of each stage, 2: each "
@@ -111,10 +112,10 @@ namespace geocone
     for (const auto &[entry, value] : last.items())
       for (const bool largest : {false, true})
         {
-          Json        &extreme = extremes[entry + (largest ? "_most" : "_least")];
-          const double x       = value.get<double>();
-          if (extreme.is_null() || (largest ? x > extreme.get<double>() :
-                                              x < extreme.get<double>()))
+          Json &extreme  = extremes[entry + (largest ? "_most" : "_least")];
+          const double x = value.get<double>();
+          if (extreme.is_null() ||
+              (largest ? x > extreme.get<double>() : x < extreme.get<double>()))
             extreme = x;
         }
   }
@@ -147,9 +148,8 @@ namespace geocone
     summary["stages"]   = stages;
     summary["final"]    = last;
     summary["extremes"] = extremes;
-    write_file(path + "/summary.json", [&](std::ostream &out) {
-      out << summary.dump(2) << "\n";
-    });
+    write_file(path + "/summary.json",
+               [&](std::ostream &out) { out << summary.dump(2) << "\n"; });
   }
 
   bool
@@ -161,23 +161,32 @@ namespace geocone
         report += "after " + stage + "\n";
         for (const auto &[entry, value] : values.items())
           {
-            // In units that make numbers of order one of all but zeros.
-            const bool   is_stress = entry.size() > 3 &&
-                                   entry.substr(entry.size() - 3) == "_Pa";
-            const double factor    = is_stress ? 1e-3 : 1e2;
-            const double shown     = factor * value.get<double>();
+            // In units that make numbers of order one; substeps depend on last
+            // digits.
+            if (entry.find("substeps") != std::string::npos)
+              continue;
+            const bool is_stress =
+              entry.size() > 3 && entry.substr(entry.size() - 3) == "_Pa";
+            const bool is_strain = entry.find("eps_") == 0 ||
+                                   entry.find("strain") != std::string::npos;
+            const double shown = (is_stress   ? 1e-3
+                                  : is_strain ? 1e2
+                                              : 1.) *
+                                 value.get<double>();
             report += format("  %s %.6f %s\n",
                              entry.c_str(),
                              std::abs(shown) < 1e-6 ? 0. : shown,
-                             is_stress ? "k" : "%");
+                             is_stress   ? "k"
+                             : is_strain ? "%"
+                                         : "");
           }
       }
     bool hold = true;
     for (const Expectation &expectation : expectations)
       {
-        const bool        holds  = expectation.holds(summary);
-        const std::string answer = "expected " + expectation.text + ": " +
-                                   (holds ? "yes" : "NO");
+        const bool        holds = expectation.holds(summary);
+        const std::string answer =
+          "expected " + expectation.text + ": " + (holds ? "yes" : "NO");
         const std::string line =
           answer + " (" + expectation.found(summary) + ")";
         hold = hold && holds;

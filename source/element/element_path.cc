@@ -26,11 +26,12 @@ namespace geocone
       double             value;
       std::string        rest;
       if (!(in >> value) || in >> rest || !std::isfinite(value))
-        throw InputError(parameter,
-                         text,
-                         "a number, or nothing",
-                         "e.g. -0.01 for a strain of 1 % in compression, -100e3 "
-                         "for 100 kPa");
+        throw InputError(
+          parameter,
+          text,
+          "a number, or nothing",
+          "e.g. -0.01 for a strain of 1 % in compression, -100e3 "
+          "for 100 kPa");
       return value;
     }
 
@@ -70,16 +71,17 @@ namespace geocone
     : dealii::ParameterAcceptor("/Path/" + name)
     , name(name)
   {
-    add_parameter("Kind",
-                  kind,
-                  "components (each by its own strain or stress below) | "
-                  "isotropic (equal strains, Amount: volumetric strain) | "
-                  "oedometric (Amount: strain of the axis, no other) | drained "
-                  "(Amount: strain of the axis, other normal stresses constant) "
-                  "| undrained (Amount: strain of the axis, others equal, no "
-                  "volume change) | simple shear (Amount: shear angle gamma = 2 "
-                  "eps_xy, no other strain). Tension is positive: -0.1 is 10 % "
-                  "in compression.");
+    add_parameter(
+      "Kind",
+      kind,
+      "components (each by its own strain or stress below) | "
+      "isotropic (equal strains, Amount: volumetric strain) | "
+      "oedometric (Amount: strain of the axis, no other) | drained "
+      "(Amount: strain of the axis, other normal stresses constant) "
+      "| undrained (Amount: strain of the axis, others equal, no "
+      "volume change) | simple shear (Amount: shear angle gamma = 2 "
+      "eps_xy, no other strain). Tension is positive: -0.1 is 10 % "
+      "in compression.");
     add_parameter("Axis", axis, "xx | yy | zz: the axis of these kinds.");
     add_parameter("Amount", amount, "See Kind (-).");
     add_parameter("Increments",
@@ -93,10 +95,11 @@ namespace geocone
                   cycle_form,
                   "two-way (to the amplitude, to its opposite, back) | one-way "
                   "(to the amplitude and back).");
-    add_parameter("Stop when",
-                  stop_text,
-                  "Ends the stage early: NAME <= NUMBER or NAME >= NUMBER with a "
-                  "column of path.csv, e.g. p <= 20e3, eps_q >= 0.05.");
+    add_parameter(
+      "Stop when",
+      stop_text,
+      "Ends the stage early: NAME <= NUMBER or NAME >= NUMBER with a "
+      "column of path.csv, e.g. p <= 20e3, eps_q >= 0.05.");
     for (unsigned int i = 0; i < 6; ++i)
       {
         add_parameter(std::string("Strain ") + component_names[i],
@@ -130,13 +133,12 @@ namespace geocone
     for (unsigned int i = 0; i < 6; ++i)
       {
         const std::string component = component_names[i];
-        const bool        given =
-          !strain_texts[i].empty() || !stress_texts[i].empty();
-        any = any || given;
+        const bool given = !strain_texts[i].empty() || !stress_texts[i].empty();
+        any              = any || given;
         if (given && kind != "components")
-          throw InputError(parameter(!strain_texts[i].empty() ?
-                                       "Strain " + component :
-                                       "Stress " + component),
+          throw InputError(parameter(!strain_texts[i].empty()
+                                       ? "Strain " + component
+                                       : "Stress " + component),
                            strain_texts[i] + stress_texts[i],
                            "nothing where Kind = " + kind,
                            "set 'Kind = components' and give all components");
@@ -146,9 +148,9 @@ namespace geocone
                            "strain or stress of a component, not both",
                            "take one of them out");
         if (given && !point.has(i))
-          throw InputError(parameter(!strain_texts[i].empty() ?
-                                       "Strain " + component :
-                                       "Stress " + component),
+          throw InputError(parameter(!strain_texts[i].empty()
+                                       ? "Strain " + component
+                                       : "Stress " + component),
                            strain_texts[i] + stress_texts[i],
                            "nothing: it has no strain in plane strain",
                            "control xx, yy and xy, or set 'Element/Components "
@@ -179,8 +181,8 @@ namespace geocone
     if (axis_index() > 2 || !point.has(axis_index()))
       throw InputError(parameter("Axis"),
                        axis,
-                       point.has(2) ? "xx | yy | zz" :
-                                      "xx | yy in plane strain",
+                       point.has(2) ? "xx | yy | zz"
+                                    : "xx | yy in plane strain",
                        "choose one of them");
     if (kind != "components" && !(amount != 0. && std::isfinite(amount)))
       throw InputError(parameter("Amount"),
@@ -188,10 +190,8 @@ namespace geocone
                        "a strain, not 0",
                        "-0.01 is 1 % in compression");
     if (n_increments == 0)
-      throw InputError(parameter("Increments"),
-                       n_increments,
-                       "> 0",
-                       "100 is usual");
+      throw InputError(
+        parameter("Increments"), n_increments, "> 0", "100 is usual");
     if (cycle_form != "two-way" && cycle_form != "one-way")
       throw InputError(parameter("Cycle form"),
                        cycle_form,
@@ -281,7 +281,8 @@ namespace geocone
                        const std::vector<std::string> &columns)
   {
     if (stages.empty())
-      throw InputError("Path/Names", "", "at least one name", "set Names = shear");
+      throw InputError(
+        "Path/Names", "", "at least one name", "set Names = shear");
     for (const auto &stage : stages)
       stage->prepare(point, columns);
   }

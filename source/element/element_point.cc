@@ -78,7 +78,7 @@ namespace geocone
             const double                               R,
             const typename SubloadingModel<n>::Vector &d)
     {
-      using Vector = typename SubloadingModel<n>::Vector;
+      using Vector    = typename SubloadingModel<n>::Vector;
       Vector identity = Vector::Zero();
       identity.template head<3>().setOnes();
       const double pa    = y.a.dot(identity) / 3.;
@@ -106,9 +106,8 @@ namespace geocone
           lower.emplace_back(p, (-B - root) / (2. * A));
         }
       Surface surface{name, upper};
-      surface.p_and_q.insert(surface.p_and_q.end(),
-                             lower.rbegin(),
-                             lower.rend());
+      surface.p_and_q.insert(
+        surface.p_and_q.end(), lower.rbegin(), lower.rend());
       if (!upper.empty())
         surface.p_and_q.push_back(upper.front());
       return surface;
@@ -149,12 +148,12 @@ namespace geocone
         , subloading(dynamic_cast<const Subloading *>(&law))
         , shown(law.shown_names())
       {
-        now.stress = {stress[0], stress[1], stress[3]};
+        now.stress = {{stress[0], stress[1], stress[3]}};
         now.history.resize(law.n_history());
-        changed  = law.initialise({stress[0], stress[1], stress[2], stress[3]},
-                                 now.history.data());
-        now.wave = law.wave_modulus({stress[0], stress[1], stress[2], stress[3]},
-                                    now.history.data());
+        const ConstitutiveLaw::Stress s = {
+          {stress[0], stress[1], stress[2], stress[3]}};
+        changed  = law.initialise(s, now.history.data());
+        now.wave = law.wave_modulus(s, now.history.data());
         trial    = now;
       }
 
@@ -229,8 +228,8 @@ namespace geocone
           {
             // The out-of-plane stress is not known: those of the plane.
             const double half = (now.stress[0] - now.stress[1]) / 2.;
-            all = {-(now.stress[0] + now.stress[1]) / 2.,
-                   2. * std::hypot(half, now.stress[2])};
+            all               = {-(now.stress[0] + now.stress[1]) / 2.,
+                                 2. * std::hypot(half, now.stress[2])};
           }
         std::vector<double> values(shown.size());
         law.show(now.stress, now.history.data(), values.data());
@@ -245,11 +244,11 @@ namespace geocone
                const double       largest_p) const override
       {
         if (subloading != nullptr)
-          return subloading_surfaces(subloading->model<4>(),
-                                     subloading->state(now.stress,
-                                                       now.history.data()),
-                                     stress,
-                                     axis);
+          return subloading_surfaces(
+            subloading->model<4>(),
+            subloading->state(now.stress, now.history.data()),
+            stress,
+            axis);
         const auto *material = dynamic_cast<const Material *>(&law);
         if (material == nullptr || !material->flow_cone())
           return {};
@@ -259,8 +258,9 @@ namespace geocone
           cone.a > 0. ? -cone.k / (sqrt2 * cone.a) : std::min(0., -largest_p);
         const double q      = 2. * cone.a * largest_p + sqrt2 * cone.k;
         const double at_tip = cone.a > 0. ? 0. : sqrt2 * cone.k;
-        return {{"yield",
-                 {{largest_p, -q}, {tip, -at_tip}, {tip, at_tip}, {largest_p, q}}}};
+        return {
+          {"yield",
+           {{largest_p, -q}, {tip, -at_tip}, {tip, at_tip}, {largest_p, q}}}};
       }
 
     private:
@@ -276,8 +276,8 @@ namespace geocone
       Tensor6
       stress_of(const State &state) const
       {
-        Tensor6    all = {state.stress[0], state.stress[1], 0., state.stress[2]};
-        const auto zz  = std::find(shown.begin(), shown.end(), "stress_zz");
+        Tensor6 all = {{state.stress[0], state.stress[1], 0., state.stress[2]}};
+        const auto zz = std::find(shown.begin(), shown.end(), "stress_zz");
         if (zz != shown.end())
           {
             std::vector<double> values(shown.size());
@@ -331,15 +331,12 @@ namespace geocone
       Tensor6
       try_strain(const Tensor6 &strain) override
       {
-        trial                         = now;
+        trial = now;
         const SubloadingReport report =
           model.integrate(trial, to_model<6>(strain));
         trial_plastic_strain = plastic_strain + report.plastic_strain;
-        trial_counts         = {1,
-                                report.substeps,
-                                report.forced,
-                                report.limited,
-                                report.substeps};
+        trial_counts         = {
+                  1, report.substeps, report.forced, report.limited, report.substeps};
         return from_model<6>(trial.stress, -1.);
       }
 
@@ -405,7 +402,7 @@ namespace geocone
     private:
       const SubloadingModel<6> &model;
       SubloadingState<6>        now, trial;
-      double plastic_strain = 0., trial_plastic_strain = 0.;
+      double                    plastic_strain = 0., trial_plastic_strain = 0.;
     };
   } // namespace
 

@@ -111,8 +111,8 @@ namespace geocone
     for (const StopCondition &condition : stage.stop)
       for (std::size_t i = 0; i < names.size(); ++i)
         if (names[i].substr(0, names[i].find(" (")) == condition.name &&
-            (condition.at_most ? values[i] <= condition.bound :
-                                 values[i] >= condition.bound))
+            (condition.at_most ? values[i] <= condition.bound
+                               : values[i] >= condition.bound))
           return true;
     return false;
   }
@@ -124,8 +124,8 @@ namespace geocone
                        const double          from,
                        const double          to)
   {
-    before                = point->counts;
-    const double whole    = to - from;
+    before             = point->counts;
+    const double whole = to - from;
     const double smallest =
       std::abs(whole) * std::pow(0.5, mixed_control.max_halvings);
     double at = from, size = whole;
@@ -138,12 +138,11 @@ namespace geocone
           {
             target[i] =
               start_stress[i] + f * (control.stress[i] - start_stress[i]);
-            increment[i] = (f - at) * (control.by_stress[i] ?
-                                         guess[i] :
-                                         control.strain[i]);
+            increment[i] =
+              (f - at) * (control.by_stress[i] ? guess[i] : control.strain[i]);
           }
-        const ControlReport report = mixed_control.solve(
-          *point, control.by_stress, target, increment);
+        const ControlReport report =
+          mixed_control.solve(*point, control.by_stress, target, increment);
         n_iterations += report.iterations;
         if (!report.converged)
           {
@@ -274,12 +273,13 @@ namespace geocone
               }
             element_output.add_stage(stage.name, values);
             if (element_output.verbosity >= 1)
-              log.print(format("%s%s: p = %.6g Pa, q = %.6g Pa, eps_v = %.4g %%",
-                               stage.name.c_str(),
-                               stopped ? " (stopped)" : "",
-                               values[p_at],
-                               values[p_at + 1],
-                               100. * (strain[0] + strain[1] + strain[2])));
+              log.print(
+                format("%s%s: p = %.6g Pa, q = %.6g Pa, eps_v = %.4g %%",
+                       stage.name.c_str(),
+                       stopped ? " (stopped)" : "",
+                       values[p_at],
+                       values[p_at + 1],
+                       100. * (strain[0] + strain[1] + strain[2])));
           }
       }
     catch (const StepFailure &failure)

@@ -33,20 +33,14 @@ namespace geocone
   MixedControl::prepare()
   {
     if (!(tolerance >= 1e-13 && tolerance < 1.))
-      throw InputError("Element/Tolerance",
-                       tolerance,
-                       "1e-13 to 1",
-                       "1e-10 is usual");
+      throw InputError(
+        "Element/Tolerance", tolerance, "1e-13 to 1", "1e-10 is usual");
     if (max_iterations == 0)
-      throw InputError("Element/Maximum iterations",
-                       max_iterations,
-                       "> 0",
-                       "25 is usual");
+      throw InputError(
+        "Element/Maximum iterations", max_iterations, "> 0", "25 is usual");
     if (max_halvings > 30)
-      throw InputError("Element/Maximum halvings",
-                       max_halvings,
-                       "0 to 30",
-                       "12 is usual");
+      throw InputError(
+        "Element/Maximum halvings", max_halvings, "0 to 30", "12 is usual");
   }
 
   ControlReport
@@ -72,7 +66,7 @@ namespace geocone
     Eigen::VectorXd r(n);
     const auto      evaluate = [&](const Tensor6 &e) {
       const Tensor6 s = point.try_strain(e);
-      scale = std::max({norm(s), norm(start), norm(target)});
+      scale           = std::max({norm(s), norm(start), norm(target)});
       // From no stress to no stress: what the strain would give elastically.
       if (scale == 0.)
         scale = std::max(modulus * norm(e), 1e-300);

@@ -70,9 +70,8 @@ namespace geocone
     add_parameter("Compression index lambda",
                   c.lambda,
                   "Slope of compression lines in ln v over ln p (-).");
-    add_parameter("Poisson ratio",
-                  c.nu,
-                  "nu (-), between -1 and 0.5, both excluded.");
+    add_parameter(
+      "Poisson ratio", c.nu, "nu (-), between -1 and 0.5, both excluded.");
     add_parameter("Elastic cohesion pe",
                   c.pe,
                   "pe (Pa), >= 0: the bulk modulus is (p + pe)/kappa.");
@@ -80,15 +79,17 @@ namespace geocone
                   c.xi,
                   "xi (-), 0 <= xi < 0.5: the yield surface reaches to the "
                   "tension p = -xi pcb.");
-    add_parameter("Yield slope M",
-                  c.M,
-                  "M (-), > 0: half axes of the yield ellipsoid, q over p. With "
-                  "rotational hardening M <= k Mc.");
-    add_parameter("Critical state slope Mc",
-                  c.Mc,
-                  "Mc (-), > 0: q/p at the critical state in triaxial "
-                  "compression, 6 sin(phi)/(3 - sin(phi)). It acts by rotational "
-                  "hardening only; without, the critical state is at M.");
+    add_parameter(
+      "Yield slope M",
+      c.M,
+      "M (-), > 0: half axes of the yield ellipsoid, q over p. With "
+      "rotational hardening M <= k Mc.");
+    add_parameter(
+      "Critical state slope Mc",
+      c.Mc,
+      "Mc (-), > 0: q/p at the critical state in triaxial "
+      "compression, 6 sin(phi)/(3 - sin(phi)). It acts by rotational "
+      "hardening only; without, the critical state is at M.");
     add_parameter("Strength ratio k",
                   c.k,
                   "k (-), 0.5 < k <= 1: critical state slope in triaxial "
@@ -117,25 +118,29 @@ namespace geocone
     add_parameter("Atmospheric pressure",
                   c.patm,
                   "Reference pressure of rotational hardening (Pa), > 0.");
-    add_parameter("Elastic ratio Rmin",
-                  c.Rmin,
-                  "Rmin (-), 0 < Rmin < 1, much less than 1: elastic below it.");
+    add_parameter(
+      "Elastic ratio Rmin",
+      c.Rmin,
+      "Rmin (-), 0 < Rmin < 1, much less than 1: elastic below it.");
     add_parameter("Centre margin delta",
                   c.delta,
                   "delta (-), 0 < delta < 1, much less than 1: how near the "
                   "similarity centre comes to the yield surface.");
-    add_parameter("Pressure of rotation",
-                  reading,
-                  "p | ph: the reading of the report's equation (24), sh = s - p "
-                  "beta or s - ph beta with ph = p + xi pcb.");
-    add_parameter("Error tolerance",
-                  c.tolerance,
-                  "Relative error of a substep of the integration (-), 0 < STOL "
-                  "<= 0.1. Smaller increments need fewer substeps.");
-    add_parameter("Smallest substep",
-                  c.smallest_substep,
-                  "Smallest part of an increment (-), > 0 and <= 1; substeps of "
-                  "this size are accepted with any error, and counted.");
+    add_parameter(
+      "Pressure of rotation",
+      reading,
+      "p | ph: the reading of the report's equation (24), sh = s - p "
+      "beta or s - ph beta with ph = p + xi pcb.");
+    add_parameter(
+      "Error tolerance",
+      c.tolerance,
+      "Relative error of a substep of the integration (-), 0 < STOL "
+      "<= 0.1. Smaller increments need fewer substeps.");
+    add_parameter(
+      "Smallest substep",
+      c.smallest_substep,
+      "Smallest part of an increment (-), > 0 and <= 1; substeps of "
+      "this size are accepted with any error, and counted.");
     add_parameter("Lowest pressure",
                   c.lowest_pressure,
                   "p + pe is kept at this value or above (Pa), > 0; counted.");
@@ -160,13 +165,13 @@ namespace geocone
                   given_beta,
                   "Inclination beta at the start: xx, yy, zz, xy (-), of trace "
                   "zero; in 3D also yz, zx.");
-    add_parameter("Initial anisotropy by stress",
-                  zeta,
-                  "This times s/p of the initial stress is added to the initial "
-                  "anisotropy (-).");
-    add_parameter("Initial structure ratio",
-                  initial_Rb,
-                  "Rb at the start (-), >= Rbf.");
+    add_parameter(
+      "Initial anisotropy by stress",
+      zeta,
+      "This times s/p of the initial stress is added to the initial "
+      "anisotropy (-).");
+    add_parameter(
+      "Initial structure ratio", initial_Rb, "Rb at the start (-), >= Rbf.");
     add_parameter("Stress outside",
                   if_outside,
                   "refuse | raise size: what to do with an initial stress "
@@ -255,11 +260,8 @@ namespace geocone
             c.ca,
             "ca >= 0",
             "0 switches it off");
-    require(c.patm > 0.,
-            "Atmospheric pressure",
-            c.patm,
-            "> 0 Pa",
-            "1e5 Pa is usual");
+    require(
+      c.patm > 0., "Atmospheric pressure", c.patm, "> 0 Pa", "1e5 Pa is usual");
     require(c.Rmin > 0. && c.Rmin < 1.,
             "Elastic ratio Rmin",
             c.Rmin,
@@ -363,7 +365,7 @@ namespace geocone
   {
     const SubloadingModel<n> &law = model<n>();
     const double              p   = (stress[0] + stress[1] + stress[2]) / 3.;
-    const std::string         at  = format(" (p = %g Pa)", p);
+    const std::string         at  = format(" (p = %g Pa)", p + 0.);
     if (!(p + c.pe >= c.lowest_pressure))
       throw InputError(parameter("Elastic cohesion pe"),
                        c.pe,
@@ -375,7 +377,8 @@ namespace geocone
     y.a      = chi * stress;
     y.Rb     = initial_Rb;
     y.beta.setZero();
-    for (unsigned int i = 0; i < std::min<std::size_t>(n, given_beta.size()); ++i)
+    for (unsigned int i = 0; i < std::min<std::size_t>(n, given_beta.size());
+         ++i)
       y.beta[i] = (i < 3 ? 1. : sqrt2) * given_beta[i];
     if (zeta != 0.)
       {
@@ -394,25 +397,26 @@ namespace geocone
                        "a yield surface that can contain the initial stress" +
                          at,
                        "raise xi, or start from compression");
-    y.pcb = given_size > 0. ? given_size : std::max(ocr * through, smallest_size);
+    y.pcb =
+      given_size > 0. ? given_size : std::max(ocr * through, smallest_size);
 
     std::string changed;
     double      R = law.ratio(y);
     if (!(R <= 1. + 1e-12))
       {
-        const std::string where = given_size > 0. ? "Initial size pcb" :
-                                                    "Overconsolidation ratio";
+        const std::string where =
+          given_size > 0. ? "Initial size pcb" : "Overconsolidation ratio";
         if (if_outside == "refuse")
-          throw InputError(
-            parameter(where),
-            given_size > 0. ? given_size : ocr,
-            "an initial stress within the yield surface; R = " +
-              format("%g", R) + at,
-            "raise it, or set 'Stress outside = raise size'");
-        changed = "the size pcb was raised from " + format("%g", y.pcb) +
-                  " to " + format("%g", through) +
-                  " Pa: the initial stress was outside the yield surface, R = " +
-                  format("%g", R);
+          throw InputError(parameter(where),
+                           given_size > 0. ? given_size : ocr,
+                           "an initial stress within the yield surface; R = " +
+                             format("%g", R) + at,
+                           "raise it, or set 'Stress outside = raise size'");
+        changed =
+          "the size pcb was raised from " + format("%g", y.pcb) + " to " +
+          format("%g", through) +
+          " Pa: the initial stress was outside the yield surface, R = " +
+          format("%g", R);
         y.pcb = through;
         R     = law.ratio(y);
       }
@@ -440,12 +444,8 @@ namespace geocone
   Subloading::initialise(const Stress &stress, double *history) const
   {
     SubloadingState<4> state;
-    const std::string  changed =
-      initial_state<4>(Vector4(-stress[0],
-                               -stress[1],
-                               -stress[2],
-                               -sqrt2 * stress[3]),
-                       state);
+    const std::string  changed = initial_state<4>(
+      Vector4(-stress[0], -stress[1], -stress[2], -sqrt2 * stress[3]), state);
     store(state, [&](const unsigned int k) -> double & { return history[k]; });
     return changed;
   }
@@ -471,22 +471,20 @@ namespace geocone
         const double sin2     = 2. * sine * cosine;
         const auto   turn     = [&](Vector4 &x) {
           const double mean = (x[0] + x[1]) / 2., half = (x[0] - x[1]) / 2.;
-          const double xy   = x[3] / sqrt2;
-          const double h    = cos2 * half - sin2 * xy;
-          x = Vector4(mean + h,
-                      mean - h,
-                      x[2],
-                      sqrt2 * (sin2 * half + cos2 * xy));
+          const double xy = x[3] / sqrt2;
+          const double h  = cos2 * half - sin2 * xy;
+          x               = Vector4(
+            mean + h, mean - h, x[2], sqrt2 * (sin2 * half + cos2 * xy));
         };
         turn(y.stress);
         turn(y.a);
         turn(y.beta);
 
-        const Vector4 strain(-block.l_xx[i],
+        const Vector4          strain(-block.l_xx[i],
                              -block.l_yy[i],
                              0.,
                              -(block.l_xy[i] + block.l_yx[i]) / sqrt2);
-        const Vector4 before          = y.stress;
+        const Vector4          before = y.stress;
         const SubloadingReport report = in_plane.integrate(y, strain);
         counts.substeps += report.substeps;
         counts.forced += report.forced;
@@ -495,8 +493,8 @@ namespace geocone
 
         block.work[i] = 0.5 * strain.dot(before + y.stress);
         block.plastic_strain[i] += report.plastic_strain;
-        block.wave_modulus[i] = in_plane.wave_modulus(
-          (y.stress[0] + y.stress[1] + y.stress[2]) / 3.);
+        block.wave_modulus[i] =
+          in_plane.wave_modulus((y.stress[0] + y.stress[1] + y.stress[2]) / 3.);
         block.s_xx[i] = -y.stress[0];
         block.s_yy[i] = -y.stress[1];
         block.s_xy[i] = -y.stress[3] / sqrt2;
@@ -514,10 +512,9 @@ namespace geocone
   Subloading::state(const std::array<double, 3> &stress,
                     const double                *history) const
   {
-    return state_of(stress[0],
-                    stress[1],
-                    stress[2],
-                    [&](const unsigned int k) { return history[k]; });
+    return state_of(stress[0], stress[1], stress[2], [&](const unsigned int k) {
+      return history[k];
+    });
   }
 
   std::vector<std::string>
@@ -539,8 +536,8 @@ namespace geocone
   {
     const SubloadingState<4> y = state(stress, history);
     const double             p = (y.stress[0] + y.stress[1] + y.stress[2]) / 3.;
-    values[0]      = -y.stress[2];
-    values[1]      = p;
+    values[0]                  = -y.stress[2];
+    values[1]                  = p;
     // sqrt(3/2) ||s|| and the same of beta, a stress ratio q/p.
     values[2] =
       std::sqrt(1.5 * std::max(0., y.stress.squaredNorm() - 3. * p * p));

@@ -42,9 +42,9 @@ namespace geocone
     cos_lode(const Eigen::Matrix<double, 4, 1> &s, const double r)
     {
       // s_min = -sqrt(2/3) r cos t, by the principal values in closed form.
-      const double half  = (s[0] - s[1]) / 2.;
-      const double least = (s[0] + s[1]) / 2. -
-                           std::sqrt(half * half + s[3] * s[3] / 2.);
+      const double half = (s[0] - s[1]) / 2.;
+      const double least =
+        (s[0] + s[1]) / 2. - std::sqrt(half * half + s[3] * s[3] / 2.);
       return std::clamp(-std::sqrt(1.5) * std::min(least, s[2]) / r, 0.5, 1.);
     }
 
@@ -54,7 +54,8 @@ namespace geocone
       // cos 3t = -3 sqrt6 det(s)/r^3
       const double xy = s[3] / sqrt2, yz = s[4] / sqrt2, zx = s[5] / sqrt2;
       const double det = s[0] * (s[1] * s[2] - yz * yz) -
-                         xy * (xy * s[2] - yz * zx) + zx * (xy * yz - s[1] * zx);
+                         xy * (xy * s[2] - yz * zx) +
+                         zx * (xy * yz - s[1] * zx);
       const double cos_3t = -3. * std::sqrt(6.) * det / (r * r * r);
       return std::cos(std::acos(std::clamp(cos_3t, -1., 1.)) / 3.);
     }
@@ -101,13 +102,12 @@ namespace geocone
     f.pa            = mean(y.a);
     f.dp            = mean(y.stress) - f.pa;
     const double ph = f.pa + c.xi * y.pcb;
-    f.sa = plus_isotropic(y.a, -f.pa) -
-           (c.rotates_with_ph ? ph : f.pa) * y.beta;
-    f.sd =
-      plus_isotropic<Vector>(y.stress - y.a, -f.dp) - f.dp * y.beta;
-    f.A = slope * f.sd.squaredNorm() + f.dp * f.dp;
-    f.B = 2. * slope * f.sa.dot(f.sd) + f.dp * (2. * ph - y.pcb);
-    f.C = slope * f.sa.squaredNorm() + ph * (ph - y.pcb);
+    f.sa =
+      plus_isotropic(y.a, -f.pa) - (c.rotates_with_ph ? ph : f.pa) * y.beta;
+    f.sd = plus_isotropic<Vector>(y.stress - y.a, -f.dp) - f.dp * y.beta;
+    f.A  = slope * f.sd.squaredNorm() + f.dp * f.dp;
+    f.B  = 2. * slope * f.sa.dot(f.sd) + f.dp * (2. * ph - y.pcb);
+    f.C  = slope * f.sa.squaredNorm() + ph * (ph - y.pcb);
     return f;
   }
 
@@ -178,8 +178,8 @@ namespace geocone
 
   template <int n>
   SubloadingRates<n>
-  SubloadingModel<n>::rates(const State &y,
-                            const double R,
+  SubloadingModel<n>::rates(const State  &y,
+                            const double  R,
                             const Vector &strain) const
   {
     SubloadingRates<n> r;
@@ -203,8 +203,8 @@ namespace geocone
     r.trace_m            = along - 2. * phi_slope * sh_beta;
     r.N = plus_isotropic<Vector>(2. * slope * r.sh, trace_N / 3.);
     r.m = plus_isotropic<Vector>(2. * phi_slope * r.sh, r.trace_m / 3.);
-    const double dev_m2    = 4. * phi_slope * phi_slope * sh_sh;
-    r.norm_m               = std::sqrt(dev_m2 + r.trace_m * r.trace_m / 3.);
+    const double dev_m2 = 4. * phi_slope * phi_slope * sh_sh;
+    r.norm_m            = std::sqrt(dev_m2 + r.trace_m * r.trace_m / 3.);
     // ln 0 at R = Rmin: a value so large that the response is elastic.
     r.U = -c.cR * std::log(std::max(1e-30, (R - c.Rmin) / (1. - c.Rmin)));
 
@@ -225,35 +225,36 @@ namespace geocone
       r.h_beta.setZero();
 
     r.h_Rb = c.cb * (c.Rbf - y.Rb) * r.norm_m;
-    r.h_pc = (y.pcb + y.Rb * c.pe / (1. - c.xi)) / (c.lambda - c.kappa) *
-               r.trace_m +
-             y.pcb / y.Rb * r.h_Rb;
+    r.h_pc =
+      (y.pcb + y.Rb * c.pe / (1. - c.xi)) / (c.lambda - c.kappa) * r.trace_m +
+      y.pcb / y.Rb * r.h_Rb;
     const double growth = r.h_pc / y.pcb;
 
     // The similarity centre goes to st, and with the surface. What turns with
     // beta is p, or ph = p + xi pcb, by the reading of (24).
     const double offset = c.rotates_with_ph ? c.xi * y.pcb : 0.;
     const double half   = (0.5 - c.xi) * y.pcb;
-    const Vector centre = plus_isotropic<Vector>((half + offset) * y.beta, half);
+    const Vector centre =
+      plus_isotropic<Vector>((half + offset) * y.beta, half);
     r.st               = centre + (1. - c.delta) * (r.sy - centre);
     const Vector to_st = c.ca * r.norm_m * (r.st - y.a);
-    r.h_a               = to_st + growth * y.a + (pa + offset) * r.h_beta;
+    r.h_a              = to_st + growth * y.a + (pa + offset) * r.h_beta;
 
     // f is homogeneous in (sigma, a, pcb), and the rotation leaves it as it is,
     // so that df = 0 gives H with few terms.
     r.H = r.N.dot(growth * y.stress + (p + offset) * r.h_beta +
                   (1. - R) * to_st + (r.U * r.norm_m * over) * d);
-    r.N_D_m      = r.K * trace_N * r.trace_m +
-              two_G * 4. * slope * phi_slope * sh_sh;
+    r.N_D_m =
+      r.K * trace_N * r.trace_m + two_G * 4. * slope * phi_slope * sh_sh;
     const double volume = strain[0] + strain[1] + strain[2];
-    r.N_D_strain        = r.K * trace_N * volume +
-                   two_G * 2. * slope * r.sh.dot(strain);
+    r.N_D_strain =
+      r.K * trace_N * volume + two_G * 2. * slope * r.sh.dot(strain);
     const double denominator = r.N_D_m + r.H;
     r.stable                 = denominator > 0.;
     r.d_lambda =
       r.N_D_strain > 0. && r.stable ? r.N_D_strain / denominator : 0.;
 
-    State &k             = r.increment;
+    State       &k       = r.increment;
     const Vector elastic = strain - r.d_lambda * r.m;
     k.stress             = plus_isotropic<Vector>(
       two_G * elastic, (r.K - two_G / 3.) * (volume - r.d_lambda * r.trace_m));
@@ -275,17 +276,15 @@ namespace geocone
     // it A = f.A + A1 u + A2 u^2 and B = f.B + B1 u.
     const double volume = strain[0] + strain[1] + strain[2];
     const Vector e      = plus_isotropic<Vector>(
-      2. * shear_ratio * strain,
-      volume * (1. - 2. * shear_ratio / 3.));
+      2. * shear_ratio * strain, volume * (1. - 2. * shear_ratio / 3.));
     const Vector se = deviator(e) - volume * y.beta;
     const double p = f.pa + f.dp, K = (p + c.pe) / c.kappa;
     const double A1 = 2. * (slope * f.sd.dot(se) + f.dp * volume);
     const double A2 = slope * se.squaredNorm() + volume * volume;
-    const double B1 = 2. * slope * f.sa.dot(se) +
-                      volume * (2. * (f.pa + c.xi * y.pcb) - y.pcb);
+    const double B1 =
+      2. * slope * f.sa.dot(se) + volume * (2. * (f.pa + c.xi * y.pcb) - y.pcb);
     const double whole =
-      volume == 0. ? K :
-                     (p + c.pe) * std::expm1(volume / c.kappa) / volume;
+      volume == 0. ? K : (p + c.pe) * std::expm1(volume / c.kappa) / volume;
 
     // Where R is least, dA + R dB = 0 with R the root of A + B R + C R^2.
     double u = 0., least = R;
@@ -300,7 +299,7 @@ namespace geocone
     // Where R comes back to Rmin, if it is less there.
     if (least < c.Rmin)
       {
-        const double b = A1 + B1 * c.Rmin;
+        const double b    = A1 + B1 * c.Rmin;
         const double rest = f.A + (f.B + f.C * c.Rmin) * c.Rmin;
         const double root = std::sqrt(std::max(0., b * b - 4. * A2 * rest));
         u = b <= 0. ? (root - b) / (2. * A2) : -2. * rest / (b + root);
@@ -311,9 +310,9 @@ namespace geocone
         return 1.;
       }
     y.stress += u * e;
-    return volume == 0. ?
-             u / K :
-             std::log1p(u * volume / (p + c.pe)) * c.kappa / volume;
+    return volume == 0.
+             ? u / K
+             : std::log1p(u * volume / (p + c.pe)) * c.kappa / volume;
   }
 
   template <int n>
@@ -335,20 +334,20 @@ namespace geocone
     SubloadingReport report;
     if (strain.squaredNorm() == 0.)
       return report;
-    const double largest2     = c.tolerance * c.tolerance;
-    double       done         = 0.;
-    double       size         = 1.;
-    double       grow         = 2.;
+    const double largest2        = c.tolerance * c.tolerance;
+    double       done            = 0.;
+    double       size            = 1.;
+    double       grow            = 2.;
     bool         must_be_plastic = false;
-    Quadratic    f            = quadratic(y);
-    double       R            = f.ratio();
+    Quadratic    f               = quadratic(y);
+    double       R               = f.ratio();
     while (done < 1.)
       {
         if (!must_be_plastic)
           {
             // N:D:de has the sign of dA + R dB along the elastic path.
             const double volume = strain[0] + strain[1] + strain[2];
-            const double sd_e   = f.sd.dot(strain), sa_e = f.sa.dot(strain);
+            const double sd_e = f.sd.dot(strain), sa_e = f.sa.dot(strain);
             const double beta_d = f.sd.dot(y.beta), beta_a = f.sa.dot(y.beta);
             const double sign =
               2. * slope *
@@ -357,8 +356,8 @@ namespace geocone
               volume * (2. * (f.dp + R * (f.pa + c.xi * y.pcb)) - R * y.pcb);
             if (R <= c.Rmin || sign < 0.)
               {
-                done += (1. - done) *
-                        elastic_part(y, f, R, (1. - done) * strain);
+                done +=
+                  (1. - done) * elastic_part(y, f, R, (1. - done) * strain);
                 limit(y, report);
                 ++report.substeps;
                 must_be_plastic = true;
@@ -372,29 +371,30 @@ namespace geocone
         const Vector part  = size * strain;
         const auto   first = rates(y, R, part);
         State        trial;
-        trial.stress  = y.stress + first.increment.stress;
-        trial.a       = y.a + first.increment.a;
-        trial.beta    = y.beta + first.increment.beta;
-        trial.pcb     = y.pcb + first.increment.pcb;
-        trial.Rb      = y.Rb + first.increment.Rb;
+        trial.stress         = y.stress + first.increment.stress;
+        trial.a              = y.a + first.increment.a;
+        trial.beta           = y.beta + first.increment.beta;
+        trial.pcb            = y.pcb + first.increment.pcb;
+        trial.Rb             = y.Rb + first.increment.Rb;
         const double trial_R = ratio(trial);
         const auto   second  = rates(trial, trial_R, part);
         State        next;
         next.stress =
           y.stress + 0.5 * (first.increment.stress + second.increment.stress);
-        next.a    = y.a + 0.5 * (first.increment.a + second.increment.a);
-        next.beta = y.beta + 0.5 * (first.increment.beta + second.increment.beta);
-        next.pcb  = y.pcb + 0.5 * (first.increment.pcb + second.increment.pcb);
-        next.Rb   = y.Rb + 0.5 * (first.increment.Rb + second.increment.Rb);
+        next.a = y.a + 0.5 * (first.increment.a + second.increment.a);
+        next.beta =
+          y.beta + 0.5 * (first.increment.beta + second.increment.beta);
+        next.pcb = y.pcb + 0.5 * (first.increment.pcb + second.increment.pcb);
+        next.Rb  = y.Rb + 0.5 * (first.increment.Rb + second.increment.Rb);
         const Quadratic next_f = quadratic(next);
         const double    next_R = next_f.ratio();
         const double    p      = next_f.pa + next_f.dp;
 
         // The square of the error of this substep.
-        const double scale2 = std::max(next.stress.squaredNorm(),
-                                       (p + c.pe) * (p + c.pe));
-        const auto   half2  = [](const double x) { return 0.25 * x * x; };
-        double       error2 = 0., sum = 0.;
+        const double scale2 =
+          std::max(next.stress.squaredNorm(), (p + c.pe) * (p + c.pe));
+        const auto half2  = [](const double x) { return 0.25 * x * x; };
+        double     error2 = 0., sum = 0.;
         for (const double x :
              {0.25 *
                 (second.increment.stress - first.increment.stress)
@@ -420,8 +420,8 @@ namespace geocone
             if (size > c.smallest_substep)
               {
                 const double factor =
-                  possible ? 0.9 * std::sqrt(c.tolerance / std::sqrt(error2)) :
-                             0.1;
+                  possible ? 0.9 * std::sqrt(c.tolerance / std::sqrt(error2))
+                           : 0.1;
                 size = std::max(c.smallest_substep,
                                 size * std::clamp(factor, 0.1, 0.9));
                 grow = 1.;
@@ -446,9 +446,8 @@ namespace geocone
             y    = next;
             f    = next_f;
             R    = next_R;
-            report.plastic_strain +=
-              0.5 * (first.d_lambda * first.norm_m +
-                     second.d_lambda * second.norm_m);
+            report.plastic_strain += 0.5 * (first.d_lambda * first.norm_m +
+                                            second.d_lambda * second.norm_m);
             must_be_plastic = false;
           }
         else
@@ -456,13 +455,12 @@ namespace geocone
             // Nothing but the elastic response is left: a forced substep, too.
             const double volume = part[0] + part[1] + part[2];
             const double p0     = mean(y.stress) + c.pe;
-            const double u =
-              volume == 0. ? p0 / c.kappa :
-                             p0 * std::expm1(volume / c.kappa) / volume;
-            y.stress += u * plus_isotropic<Vector>(2. * shear_ratio * part,
-                                                   volume *
-                                                     (1. - 2. * shear_ratio /
-                                                             3.));
+            const double u      = volume == 0.
+                                    ? p0 / c.kappa
+                                    : p0 * std::expm1(volume / c.kappa) / volume;
+            y.stress +=
+              u * plus_isotropic<Vector>(2. * shear_ratio * part,
+                                         volume * (1. - 2. * shear_ratio / 3.));
             f = quadratic(y);
             R = f.ratio();
           }

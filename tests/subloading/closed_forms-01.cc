@@ -83,18 +83,29 @@ check_cam_clay(const Accuracy &accuracy)
   // eps_v = (lambda-kappa)(ln(3/(3-eta)) + ln(1+eta^2/M^2))
   //         + kappa ln(3/(3-eta)), eps_q by quadrature; pc = p (1+eta^2/M^2)
   Comparison   drained_rows;
-  const double states[][5] = {
-    {.008812729190, .012672564780, 111.1111111111, 33.3333333333, 118.0555555556},
-    {.032670840468, .033471532697, 125., 75., 156.25},
-    {.089074818882, .059774092699, 142.8571428571, 128.5714285714, 223.2142857143},
-    {.190784230081, .079234829048, 157.8947368421, 173.6842105263, 290.5701754386},
-    {.412819382347,
-     .088359811571,
-     165.7458563536,
-     197.2375690608,
-     328.7407918969}};
-  y             = isotropic_state<6>(100., 0., 100.);
-  last          = 0.;
+  const double states[][5] = {{.008812729190,
+                               .012672564780,
+                               111.1111111111,
+                               33.3333333333,
+                               118.0555555556},
+                              {.032670840468, .033471532697, 125., 75., 156.25},
+                              {.089074818882,
+                               .059774092699,
+                               142.8571428571,
+                               128.5714285714,
+                               223.2142857143},
+                              {.190784230081,
+                               .079234829048,
+                               157.8947368421,
+                               173.6842105263,
+                               290.5701754386},
+                              {.412819382347,
+                               .088359811571,
+                               165.7458563536,
+                               197.2375690608,
+                               328.7407918969}};
+  y                        = isotropic_state<6>(100., 0., 100.);
+  last                     = 0.;
   for (const auto &row : states)
     {
       drained(model, y, row[0] - last, 2000);
@@ -116,10 +127,10 @@ check_subloading(const Accuracy &accuracy)
   const SubloadingModel<4> model(c);
   Comparison               compared;
   const double             rows[][4] = {
-    {.005, 66.2283807400, 103.1767568599, .641892445117},
-    {.01, 81.7457274891, 107.5332507309, .760190238215},
-    {.02, 107.8230864511, 119.2358203723, .904284351082},
-    {.04, 149.4630371530, 151.4365091297, .986968320994}};
+                {.005, 66.2283807400, 103.1767568599, .641892445117},
+                {.01, 81.7457274891, 107.5332507309, .760190238215},
+                {.02, 107.8230864511, 119.2358203723, .904284351082},
+                {.04, 149.4630371530, 151.4365091297, .986968320994}};
   auto   y    = isotropic_state<4>(50., 0., 100.);
   double last = 0.;
   for (const auto &row : rows)
@@ -162,8 +173,8 @@ check_structure(const Accuracy &accuracy)
   const SubloadingModel<6> model(c);
   auto                     y = isotropic_state<6>(100., 0., 100.);
   y.Rb                       = 2.;
-  const auto   report = model.integrate(y, axial<6>(.02, .02, 0));
-  const double norm   = report.plastic_strain;
+  const auto   report        = model.integrate(y, axial<6>(.02, .02, 0));
+  const double norm          = report.plastic_strain;
   Comparison   compared;
   compared.add(y.Rb, 1.2 + .8 * std::exp(-15. * norm));
   compared.add(y.pcb,
@@ -199,8 +210,8 @@ main()
       const double p = p0 * std::pow(100. / (2. * p0), 7. / 8.);
       compared.add(pressure(y.stress), p);
       compared.add(deviatoric(y.stress), 1.2 * p);
-      compared.print_within(p0 > 50. ? "overconsolidated, wet side" :
-                                       "overconsolidated, dry side",
+      compared.print_within(p0 > 50. ? "overconsolidated, wet side"
+                                     : "overconsolidated, dry side",
                             p0 > 50. ? 5e-4 : 2e-3);
     }
 }

@@ -52,8 +52,8 @@ main()
             {
               Comparison measured;
               measured.add(deviatoric(y.stress) / ph,
-                           with_ph ? (sign > 0. ? 1.20004 : .85717) :
-                                     (sign > 0. ? 1.17916 : .84619));
+                           with_ph ? (sign > 0. ? 1.20004 : .85717)
+                                   : (sign > 0. ? 1.17916 : .84619));
               measured.print_within("q/ph as the reference", 1e-4);
             }
         }

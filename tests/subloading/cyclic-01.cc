@@ -18,10 +18,10 @@ main()
   // Reference: R <= 0.323, Rb from 2 to 1.52; p = 73.3 falls to 65 at first.
   {
     const SubloadingModel<6> model(all_features(1e-4));
-    auto                     y     = structured_state<6>(0);
+    auto                     y      = structured_state<6>(0);
     const Vector6            strain = 1e-5 * axial<6>(1., -.5, 0);
-    double       most = 0., least_p = 100., inside = -1.;
-    unsigned int forced = 0;
+    double                   most = 0., least_p = 100., inside = -1.;
+    unsigned int             forced = 0;
     for (int leg = 0; leg < 21; ++leg)
       for (int i = 0; i < (leg == 0 ? 300 : 600); ++i)
         {
@@ -30,13 +30,11 @@ main()
           const double R = model.ratio(y);
           most           = std::max(most, R);
           least_p        = std::min(least_p, pressure(y.stress));
-          inside = std::max(inside,
-                            model.yield_function(y.a, y.beta, y.pcb) /
-                              (y.pcb * y.pcb));
+          inside         = std::max(
+            inside, model.yield_function(y.a, y.beta, y.pcb) / (y.pcb * y.pcb));
         }
     std::cout << "undrained cycles: R up to " << std::round(1e3 * most) / 1e3
-              << ", Rb "
-              << std::round(1e2 * y.Rb) / 1e2 << ", least p "
+              << ", Rb " << std::round(1e2 * y.Rb) / 1e2 << ", least p "
               << std::round(least_p) << std::endl;
     print("  the centre stays inside", inside < 0.);
     print("  no substep was forced", forced == 0);
@@ -48,7 +46,7 @@ main()
     const SubloadingModel<4> model(all_features(1e-5));
     auto                     y     = structured_state<4>(1);
     double                   total = 0., most = 0.;
-    const auto go_to = [&](const double stress) {
+    const auto               go_to = [&](const double stress) {
       // Small strains up to the target, and the last one by the secant.
       const double sign = stress > y.stress[1] ? 1. : -1.;
       while (true)
@@ -59,8 +57,8 @@ main()
           most = std::max(most, model.ratio(z));
           if (sign * (z.stress[1] - stress) >= 0.)
             {
-              const double part = (stress - y.stress[1]) /
-                                  (z.stress[1] - y.stress[1]);
+              const double part =
+                (stress - y.stress[1]) / (z.stress[1] - y.stress[1]);
               model.integrate(y, axial<4>(part * e, 0., 1));
               total += part * e;
               return;
@@ -88,8 +86,8 @@ main()
   for (const double tolerance : {1e-3, 1e-5})
     {
       const SubloadingModel<4> model(all_features(tolerance));
-      auto                     y      = structured_state<4>(1);
-      double                   least  = 1., most = 0.;
+      auto                     y     = structured_state<4>(1);
+      double                   least = 1., most = 0.;
       for (int cycle = 0; cycle < 4; ++cycle)
         for (int i = 0; i < 800; ++i)
           {
@@ -128,15 +126,16 @@ main()
           }
       print("extension: p > -pe, nothing forced or limited",
             least > 0. && forced == 0 && !limited && most < 100);
-      print("  and compressed again", std::isfinite(y.stress.norm()) &&
-                                        pressure(y.stress) > 50.);
+      print("  and compressed again",
+            std::isfinite(y.stress.norm()) && pressure(y.stress) > 50.);
       // The whole extension in one call.
-      c.tolerance       = 1e-3;
-      auto       z      = structured_state<6>(0);
-      const auto report = SubloadingModel<6>(c).integrate(
-        z, axial<6>(-.08 / 3., -.08 / 3., 0));
-      print("  8 % in one call", report.forced == 0 && report.substeps < 120 &&
-                                   pressure(z.stress) + c.pe > 0.);
+      c.tolerance  = 1e-3;
+      auto       z = structured_state<6>(0);
+      const auto report =
+        SubloadingModel<6>(c).integrate(z, axial<6>(-.08 / 3., -.08 / 3., 0));
+      print("  8 % in one call",
+            report.forced == 0 && report.substeps < 120 &&
+              pressure(z.stress) + c.pe > 0.);
     }
 
   // Without end: the pressure is kept, and it is counted.
@@ -144,7 +143,7 @@ main()
     SubloadingConstants c = cam_clay(1e-4);
     c.lowest_pressure     = .001;
     const SubloadingModel<6> model(c);
-    auto                     y      = isotropic_state<6>(100., 0., 100.);
+    auto                     y       = isotropic_state<6>(100., 0., 100.);
     bool                     limited = false;
     for (int i = 0; i < 100; ++i)
       limited = model.integrate(y, axial<6>(-.01, -.01, 0)).limited || limited;

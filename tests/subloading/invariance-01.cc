@@ -162,7 +162,7 @@ main()
     x.stress[0] = -60e3;
     x.stress[1] = -100e3;
     x.stress[2] = 0.;
-    law->initialise({-60e3, -100e3, -60e3, 0.}, x.history);
+    law->initialise({{-60e3, -100e3, -60e3, 0.}}, x.history);
     for (int k = 0; k < 11; ++k)
       x.arrays[k] = x.history + k;
   };
@@ -200,7 +200,9 @@ main()
   for (int k = 0; k < 11; ++k)
     same.add(turned_first.history[k],
              turned_last.history[k],
-             k == 0 || k == 9 ? 1e5 : k < 5 ? 1e5 : 1.);
+             k == 0 || k == 9 ? 1e5
+             : k < 5          ? 1e5
+                              : 1.);
   same.add(turned_first.plastic, turned_last.plastic);
   same.print_within("turned before and after", 1e-12);
 

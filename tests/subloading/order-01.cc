@@ -35,7 +35,7 @@ main()
   double                   last = 0.;
   for (const int n : {25, 50, 100, 200, 400, 800})
     {
-      SubloadingState<6> y = start;
+      SubloadingState<6> y        = start;
       unsigned int       substeps = 0;
       for (int i = 0; i < n; ++i)
         substeps += single.integrate(y, strain / n).substeps;
@@ -72,24 +72,24 @@ main()
       SubloadingConstants c = all_features(1e-3);
       c.cR                  = cR;
       const SubloadingModel<6> model(c);
-      SubloadingState<6>       y = structured_state<6>(1);
+      SubloadingState<6>       y     = structured_state<6>(1);
       Vector6                  shear = Vector6::Zero();
       shear[3]                       = sqrt2 * .1;
       const SubloadingReport report  = model.integrate(y, shear);
       const double           R       = model.ratio(y);
       print("10 % in one call, cR = " + std::to_string(static_cast<int>(cR)) +
               ", R in its bounds",
-            report.forced == 0 && report.substeps < 2000 && R > .999 - 1. / cR &&
-              R < 1.002);
-      if (!(report.forced == 0 && report.substeps < 2000 && R > .999 - 1. / cR &&
-            R < 1.002))
+            report.forced == 0 && report.substeps < 2000 &&
+              R > .999 - 1. / cR && R < 1.002);
+      if (!(report.forced == 0 && report.substeps < 2000 &&
+            R > .999 - 1. / cR && R < 1.002))
         std::cout << report.substeps << " " << R << std::endl;
     }
 
   // A smallest substep that is too large is told.
   {
-    SubloadingConstants c = all_features(1e-6);
-    c.smallest_substep    = .1;
+    SubloadingConstants c         = all_features(1e-6);
+    c.smallest_substep            = .1;
     SubloadingState<6>     y      = start;
     const SubloadingReport report = SubloadingModel<6>(c).integrate(y, strain);
     print("forced substeps are counted",

@@ -53,17 +53,17 @@ compare(const std::string &what,
  */
 template <int n>
 double
-modulus(const SubloadingModel<n>    &model,
-        const SubloadingState<n>    &y,
-        const double                 R,
-        const SubloadingRates<n>    &r)
+modulus(const SubloadingModel<n> &model,
+        const SubloadingState<n> &y,
+        const double              R,
+        const SubloadingRates<n> &r)
 {
-  const SubloadingConstants &c = model.constants();
-  const double ph = pressure(r.sy) + c.xi * y.pcb;
+  const SubloadingConstants &c  = model.constants();
+  const double               ph = pressure(r.sy) + c.xi * y.pcb;
   // With ph in (24), sh depends on pcb, too.
   const double sh_beta = 3. / (c.M * c.M) * r.sh.dot(y.beta);
-  const double f_pc    = c.xi * (2. * ph - y.pcb) - ph -
-                      (c.rotates_with_ph ? c.xi * sh_beta : 0.);
+  const double f_pc =
+    c.xi * (2. * ph - y.pcb) - ph - (c.rotates_with_ph ? c.xi * sh_beta : 0.);
   const double f_beta_h = -3. / (c.M * c.M) * r.p_y * r.sh.dot(r.h_beta);
   return (1. - R) * r.N.dot(r.h_a) + r.U * r.norm_m * r.N.dot(r.sy - y.a) -
          R * (f_beta_h + f_pc * r.h_pc);
@@ -167,7 +167,7 @@ main()
   compare("dpcb", r.increment.pcb, -.436747712403);
   compare("dRb", r.increment.Rb, -.00313546885579);
   // (31) by the difference of R over a tiny increment: dR = .0138180462186.
-  SubloadingState<6> z = y;
+  SubloadingState<6> z     = y;
   const double       small = 1e-6;
   z.stress += small * r.increment.stress;
   z.a += small * r.increment.a;
@@ -184,9 +184,8 @@ main()
 
   // Willam and Warnke's h in pure shear, at k = 0.6, 5/7, 0.8: closed form.
   std::cout << "h in pure shear:" << std::endl;
-  const double shear[][2] = {{.6, .682803583013},
-                             {5. / 7., .792823736882},
-                             {.8, .866025403784}};
+  const double shear[][2] = {
+    {.6, .682803583013}, {5. / 7., .792823736882}, {.8, .866025403784}};
   // The same with principal deviators 2, -0.5, -1.5.
   const double skew[] = {.798352045547, .888704988758, .936749699760};
   for (int i = 0; i < 3; ++i)
@@ -202,7 +201,8 @@ main()
         s.stress = x;
         return six.rates(s, six.ratio(s), strain).lode;
       };
-      compare("pure shear, n = 6", h(tensor(60, 60, 60, 0, 20, 0)), shear[i][1]);
+      compare(
+        "pure shear, n = 6", h(tensor(60, 60, 60, 0, 20, 0)), shear[i][1]);
       compare("skew, n = 6", h(tensor(45, 80, 55, 0, 0, 0)), skew[i]);
       compare("compression, n = 6", h(tensor(60, 100, 60, 0, 0, 0)), 1.);
       compare("extension, n = 6", h(tensor(60, 60, 40, 0, 0, 0)), shear[i][0]);

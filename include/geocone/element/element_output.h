@@ -40,7 +40,8 @@ namespace geocone
 
     /** Lines of surfaces.csv. @param state 0 for the start, 1 for the end */
     void
-    add_surfaces(const unsigned int state, const std::vector<Surface> &surfaces);
+    add_surfaces(const unsigned int          state,
+                 const std::vector<Surface> &surfaces);
 
     /** Writes summary.json. @param topics what is put beside the states */
     void

@@ -19,7 +19,7 @@ namespace geocone
   /** A condition on a column of the results, "NAME <= NUMBER" or ">=". */
   struct StopCondition
   {
-    std::string name;     ///< of the column, without its unit
+    std::string name; ///< of the column, without its unit
     bool        at_most = true;
     double      bound   = 0.;
   };
@@ -60,11 +60,13 @@ namespace geocone
     void
     check_components(const ElementPoint &point) const;
 
-    std::string  parameter(const std::string &entry) const;
-    unsigned int axis_index() const;
+    std::string
+    parameter(const std::string &entry) const;
+    unsigned int
+    axis_index() const;
 
-    std::string                kind = "components";
-    std::string                axis = "yy";
+    std::string                kind         = "components";
+    std::string                axis         = "yy";
     double                     amount       = 0.;
     unsigned int               n_increments = 100;
     unsigned int               n_cycles     = 0;

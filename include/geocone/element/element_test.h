@@ -90,9 +90,9 @@ namespace geocone
     Tensor6                       strain{}, least_strain{}, most_strain{};
     Tensor6                       guess{}; ///< increment per unit of f
     double                        strain_path = 0., largest_p = 0.;
-    unsigned int                  n_increments = 0, n_iterations = 0, n_cuts = 0;
-    double                        worst_residual = 0.;
-    LawCounts                     before; ///< counts before the increment
+    unsigned int n_increments = 0, n_iterations = 0, n_cuts = 0;
+    double       worst_residual = 0.;
+    LawCounts    before; ///< counts before the increment
   };
 } // namespace geocone
 

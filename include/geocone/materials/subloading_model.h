@@ -68,21 +68,21 @@ namespace geocone
   {
     using Vector = Eigen::Matrix<double, n, 1>;
 
-    double K = 0., G = 0.;          ///< elastic moduli (25), (26) (Pa)
-    double p_y = 0.;                ///< p of sy that turns beta in (24) (Pa)
-    Vector sy, st;                  ///< (20) and tilde sy of (38) (Pa)
-    Vector sh;                      ///< sh of (21) at sy (Pa)
-    Vector N, m;                    ///< gradients of fbar and gbar at sy (Pa)
+    double K = 0., G = 0.;            ///< elastic moduli (25), (26) (Pa)
+    double p_y = 0.;                  ///< p of sy that turns beta in (24) (Pa)
+    Vector sy, st;                    ///< (20) and tilde sy of (38) (Pa)
+    Vector sh;                        ///< sh of (21) at sy (Pa)
+    Vector N, m;                      ///< gradients of fbar and gbar at sy (Pa)
     double trace_m = 0., norm_m = 0.; ///< (Pa)
-    double U       = 0.;            ///< (31) (-)
-    double lode    = 1.;            ///< Willam and Warnke's h, Mcs = Mc h (-)
-    double eta_b   = 0.;            ///< eta_beta,cs (-)
-    Vector h_a, h_beta;             ///< (38), (32)
-    double h_pc = 0., h_Rb = 0.;    ///< (37), (36)
-    double H          = 0.;         ///< plastic modulus
-    double N_D_m      = 0.;         ///< N:D:m
-    double N_D_strain = 0.;         ///< N:D:de
-    double d_lambda   = 0.; ///< N:D:de/(N:D:m + H), 0 where it is negative
+    double U     = 0.;                ///< (31) (-)
+    double lode  = 1.;                ///< Willam and Warnke's h, Mcs = Mc h (-)
+    double eta_b = 0.;                ///< eta_beta,cs (-)
+    Vector h_a, h_beta;               ///< (38), (32)
+    double h_pc = 0., h_Rb = 0.;      ///< (37), (36)
+    double H          = 0.;           ///< plastic modulus
+    double N_D_m      = 0.;           ///< N:D:m
+    double N_D_strain = 0.;           ///< N:D:de
+    double d_lambda   = 0.;   ///< N:D:de/(N:D:m + H), 0 where it is negative
     bool   stable     = true; ///< N:D:m + H > 0
     /** The increments of the state for de. */
     SubloadingState<n> increment;
@@ -91,8 +91,8 @@ namespace geocone
   /** What an integration has cost. */
   struct SubloadingReport
   {
-    unsigned int substeps       = 0; ///< plastic passes and elastic parts
-    unsigned int forced         = 0; ///< of them, against the error control
+    unsigned int substeps       = 0;     ///< plastic passes and elastic parts
+    unsigned int forced         = 0;     ///< of them, against the error control
     bool         limited        = false; ///< p was kept away from -pe
     double       plastic_strain = 0.;    ///< integral of ||d eps_p|| (-)
   };
@@ -127,9 +127,7 @@ namespace geocone
 
     /** fbar(S; beta, pcb) (21) (Pa^2), negative inside. */
     double
-    yield_function(const Vector &S,
-                   const Vector &beta,
-                   const double  pcb) const;
+    yield_function(const Vector &S, const Vector &beta, const double pcb) const;
 
     /**
      * The size pc of the yield surface with inclination beta that passes through
