@@ -154,9 +154,9 @@ namespace geocone
                   "Size of the structured yield surface at the start (Pa); 0: "
                   "by the overconsolidation ratio.");
     add_parameter("Smallest size pcb",
-                  smallest_size,
-                  "The size by the overconsolidation ratio is at least this "
-                  "(Pa), > 0: for points near a free surface.");
+                  c.smallest_size,
+                  "The yield surface starts at least this large, and does not "
+                  "shrink below it (Pa), > 0; counted.");
     add_parameter("Initial centre ratio chi",
                   chi,
                   "chi (-), 0 <= chi < 1: the similarity centre starts at chi "
@@ -281,7 +281,7 @@ namespace geocone
             "Smallest substep",
             c.smallest_substep,
             "> 0 and <= 1",
-            "1e-6 is usual");
+            "1e-4 is usual");
     require(c.lowest_pressure > 0.,
             "Lowest pressure",
             c.lowest_pressure,
@@ -307,9 +307,9 @@ namespace geocone
                        given_size,
                        ">= 0 Pa",
                        "0: by the overconsolidation ratio");
-    if (!(smallest_size > 0.))
+    if (!(c.smallest_size > 0.))
       throw InputError(parameter("Smallest size pcb"),
-                       smallest_size,
+                       c.smallest_size,
                        "> 0 Pa",
                        "some kPa: a surface without size has no strength");
     if (!(chi >= 0. && chi < 1.))
@@ -398,7 +398,7 @@ namespace geocone
                          at,
                        "raise xi, or start from compression");
     y.pcb =
-      given_size > 0. ? given_size : std::max(ocr * through, smallest_size);
+      given_size > 0. ? given_size : std::max(ocr * through, c.smallest_size);
 
     std::string changed;
     double      R = law.ratio(y);

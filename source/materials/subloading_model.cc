@@ -228,6 +228,10 @@ namespace geocone
     r.h_pc =
       (y.pcb + y.Rb * c.pe / (1. - c.xi)) / (c.lambda - c.kappa) * r.trace_m +
       y.pcb / y.Rb * r.h_Rb;
+    // Soil that has come apart would lose all size, and could not carry the
+    // least load when it is compressed again.
+    if (y.pcb <= c.smallest_size)
+      r.h_pc = std::max(r.h_pc, 0.);
     const double growth = r.h_pc / y.pcb;
 
     // The similarity centre goes to st, and with the surface. What turns with
@@ -266,25 +270,39 @@ namespace geocone
   }
 
   template <int n>
+  typename SubloadingModel<n>::Vector
+  SubloadingModel<n>::elastic_direction(const Vector &strain) const
+  {
+    const double volume = strain[0] + strain[1] + strain[2];
+    return plus_isotropic<Vector>(2. * shear_ratio * strain,
+                                  volume * (1. - 2. * shear_ratio / 3.));
+  }
+
+  template <int n>
+  double
+  SubloadingModel<n>::elastic_length(const double p, const Vector &strain) const
+  {
+    const double volume = strain[0] + strain[1] + strain[2];
+    return (p + c.pe) * (volume == 0. ? 1. / c.kappa
+                                      : std::expm1(volume / c.kappa) / volume);
+  }
+
+  template <int n>
   double
   SubloadingModel<n>::elastic_part(State           &y,
                                    const Quadratic &f,
                                    const double     R,
                                    const Vector    &strain) const
   {
-    // The elastic path is straight, sigma + u e with u the integral of K; along
-    // it A = f.A + A1 u + A2 u^2 and B = f.B + B1 u.
+    // Along sigma + u e, A = f.A + A1 u + A2 u^2 and B = f.B + B1 u.
     const double volume = strain[0] + strain[1] + strain[2];
-    const Vector e      = plus_isotropic<Vector>(
-      2. * shear_ratio * strain, volume * (1. - 2. * shear_ratio / 3.));
-    const Vector se = deviator(e) - volume * y.beta;
-    const double p = f.pa + f.dp, K = (p + c.pe) / c.kappa;
-    const double A1 = 2. * (slope * f.sd.dot(se) + f.dp * volume);
-    const double A2 = slope * se.squaredNorm() + volume * volume;
+    const Vector e      = elastic_direction(strain);
+    const Vector se     = deviator(e) - volume * y.beta;
+    const double p      = f.pa + f.dp;
+    const double A1     = 2. * (slope * f.sd.dot(se) + f.dp * volume);
+    const double A2     = slope * se.squaredNorm() + volume * volume;
     const double B1 =
       2. * slope * f.sa.dot(se) + volume * (2. * (f.pa + c.xi * y.pcb) - y.pcb);
-    const double whole =
-      volume == 0. ? K : (p + c.pe) * std::expm1(volume / c.kappa) / volume;
 
     // Where R is least, dA + R dB = 0 with R the root of A + B R + C R^2.
     double u = 0., least = R;
@@ -294,7 +312,7 @@ namespace geocone
         least             = positive_root(f.C - B1 * B1 / (4. * A2),
                               f.B + B1 * foot,
                               std::max(0., f.A + A1 * foot / 2.));
-        u                 = foot - B1 * least / (2. * A2);
+        u                 = std::max(0., foot - B1 * least / (2. * A2));
       }
     // Where R comes back to Rmin, if it is less there.
     if (least < c.Rmin)
@@ -304,6 +322,7 @@ namespace geocone
         const double root = std::sqrt(std::max(0., b * b - 4. * A2 * rest));
         u = b <= 0. ? (root - b) / (2. * A2) : -2. * rest / (b + root);
       }
+    const double whole = elastic_length(p, strain);
     if (!(u < whole))
       {
         y.stress += whole * e;
@@ -311,7 +330,7 @@ namespace geocone
       }
     y.stress += u * e;
     return volume == 0.
-             ? u / K
+             ? u / whole
              : std::log1p(u * volume / (p + c.pe)) * c.kappa / volume;
   }
 
@@ -328,150 +347,157 @@ namespace geocone
   }
 
   template <int n>
+  bool
+  SubloadingModel<n>::loads(const State     &y,
+                            const Quadratic &f,
+                            const double     R,
+                            const Vector    &strain) const
+  {
+    if (R <= c.Rmin)
+      return false;
+    // N:D:de has the sign of dA + R dB along the elastic path.
+    const double volume = strain[0] + strain[1] + strain[2];
+    const double sd_e = f.sd.dot(strain), sa_e = f.sa.dot(strain);
+    const double sd_beta = f.sd.dot(y.beta), sa_beta = f.sa.dot(y.beta);
+    return 2. * slope *
+               (2. * shear_ratio * (sd_e + R * sa_e) -
+                volume * (sd_beta + R * sa_beta)) +
+             volume * (2. * (f.dp + R * (f.pa + c.xi * y.pcb)) - R * y.pcb) >=
+           0.;
+  }
+
+  template <int n>
+  struct SubloadingModel<n>::Substep
+  {
+    State     end;
+    Quadratic f; ///< at the end
+    double    R;
+    double    error2;   ///< square of the error
+    bool      possible; ///< nothing in it is impossible or not a number
+    double    plastic_strain;
+  };
+
+  template <int n>
+  typename SubloadingModel<n>::Substep
+  SubloadingModel<n>::substep(const State  &y,
+                              const double  R,
+                              const Vector &strain) const
+  {
+    Substep      result;
+    const auto   first = rates(y, R, strain);
+    const State &k     = first.increment;
+    State        trial;
+    trial.stress          = y.stress + k.stress;
+    trial.a               = y.a + k.a;
+    trial.beta            = y.beta + k.beta;
+    trial.pcb             = y.pcb + k.pcb;
+    trial.Rb              = y.Rb + k.Rb;
+    const double trial_R  = ratio(trial);
+    const auto   second   = rates(trial, trial_R, strain);
+    const State &l        = second.increment;
+    State       &end      = result.end;
+    end.stress            = y.stress + 0.5 * (k.stress + l.stress);
+    end.a                 = y.a + 0.5 * (k.a + l.a);
+    end.beta              = y.beta + 0.5 * (k.beta + l.beta);
+    end.pcb               = y.pcb + 0.5 * (k.pcb + l.pcb);
+    end.Rb                = y.Rb + 0.5 * (k.Rb + l.Rb);
+    result.f              = quadratic(end);
+    result.R              = result.f.ratio();
+    const double pressure = result.f.pa + result.f.dp + c.pe;
+
+    const double size2 =
+      std::max(end.stress.squaredNorm(), pressure * pressure);
+    const auto square = [](const double x) { return x * x; };
+    double     sum    = 0.;
+    result.error2     = 0.;
+    for (const double error2 :
+         {0.25 * (l.stress - k.stress).squaredNorm() / size2,
+          0.25 * (l.a - k.a).squaredNorm() / size2,
+          0.25 * (l.beta - k.beta).squaredNorm(),
+          0.25 * square((l.pcb - k.pcb) / end.pcb),
+          0.25 * square((l.Rb - k.Rb) / end.Rb),
+          square(result.R - trial_R)})
+      {
+        result.error2 = std::max(result.error2, error2);
+        sum += error2; // not a number if one of them is not
+      }
+    // Trial stages may be far out, where nothing makes sense.
+    result.possible = first.stable && second.stable && std::isfinite(sum) &&
+                      mean(trial.stress) + c.pe > 0. && pressure > 0. &&
+                      trial.pcb > 0. && end.pcb > 0.;
+    result.plastic_strain =
+      0.5 * (first.d_lambda * first.norm_m + second.d_lambda * second.norm_m);
+    return result;
+  }
+
+  template <int n>
   SubloadingReport
   SubloadingModel<n>::integrate(State &y, const Vector &strain) const
   {
     SubloadingReport report;
     if (strain.squaredNorm() == 0.)
       return report;
-    const double largest2        = c.tolerance * c.tolerance;
-    double       done            = 0.;
-    double       size            = 1.;
-    double       grow            = 2.;
-    bool         must_be_plastic = false;
-    Quadratic    f               = quadratic(y);
-    double       R               = f.ratio();
+    double    done = 0., size = 1., growth = 2.;
+    bool      must_be_plastic = false; // after an elastic part
+    Quadratic f               = quadratic(y);
+    double    R               = f.ratio();
     while (done < 1.)
       {
-        if (!must_be_plastic)
+        const double left = 1. - done;
+        if (!must_be_plastic && !loads(y, f, R, strain))
           {
-            // N:D:de has the sign of dA + R dB along the elastic path.
-            const double volume = strain[0] + strain[1] + strain[2];
-            const double sd_e = f.sd.dot(strain), sa_e = f.sa.dot(strain);
-            const double beta_d = f.sd.dot(y.beta), beta_a = f.sa.dot(y.beta);
-            const double sign =
-              2. * slope *
-                (2. * shear_ratio * (sd_e + R * sa_e) -
-                 volume * (beta_d + R * beta_a)) +
-              volume * (2. * (f.dp + R * (f.pa + c.xi * y.pcb)) - R * y.pcb);
-            if (R <= c.Rmin || sign < 0.)
-              {
-                done +=
-                  (1. - done) * elastic_part(y, f, R, (1. - done) * strain);
-                limit(y, report);
-                ++report.substeps;
-                must_be_plastic = true;
-                f               = quadratic(y);
-                R               = f.ratio();
-                continue;
-              }
+            const double part = elastic_part(y, f, R, left * strain);
+            done              = part == 1. ? 1. : done + part * left;
+            limit(y, report);
+            ++report.substeps;
+            must_be_plastic = true;
+            f               = quadratic(y);
+            R               = f.ratio();
+            continue;
           }
 
-        size               = std::min(size, 1. - done);
-        const Vector part  = size * strain;
-        const auto   first = rates(y, R, part);
-        State        trial;
-        trial.stress         = y.stress + first.increment.stress;
-        trial.a              = y.a + first.increment.a;
-        trial.beta           = y.beta + first.increment.beta;
-        trial.pcb            = y.pcb + first.increment.pcb;
-        trial.Rb             = y.Rb + first.increment.Rb;
-        const double trial_R = ratio(trial);
-        const auto   second  = rates(trial, trial_R, part);
-        State        next;
-        next.stress =
-          y.stress + 0.5 * (first.increment.stress + second.increment.stress);
-        next.a = y.a + 0.5 * (first.increment.a + second.increment.a);
-        next.beta =
-          y.beta + 0.5 * (first.increment.beta + second.increment.beta);
-        next.pcb = y.pcb + 0.5 * (first.increment.pcb + second.increment.pcb);
-        next.Rb  = y.Rb + 0.5 * (first.increment.Rb + second.increment.Rb);
-        const Quadratic next_f = quadratic(next);
-        const double    next_R = next_f.ratio();
-        const double    p      = next_f.pa + next_f.dp;
-
-        // The square of the error of this substep.
-        const double scale2 =
-          std::max(next.stress.squaredNorm(), (p + c.pe) * (p + c.pe));
-        const auto half2  = [](const double x) { return 0.25 * x * x; };
-        double     error2 = 0., sum = 0.;
-        for (const double x :
-             {0.25 *
-                (second.increment.stress - first.increment.stress)
-                  .squaredNorm() /
-                scale2,
-              0.25 * (second.increment.a - first.increment.a).squaredNorm() /
-                scale2,
-              0.25 *
-                (second.increment.beta - first.increment.beta).squaredNorm(),
-              half2((second.increment.pcb - first.increment.pcb) / next.pcb),
-              half2((second.increment.Rb - first.increment.Rb) / next.Rb),
-              (next_R - trial_R) * (next_R - trial_R)})
+        // A sliver before the end would cost as much as a substep.
+        const bool    last  = size >= left * (1. - 1e-12);
+        const double  part  = last ? left : size;
+        const Substep next  = substep(y, R, part * strain);
+        const double  error = std::sqrt(next.error2);
+        // States may start above R = 1, by limit() or by force; not go further.
+        const bool good =
+          next.possible && next.R <= std::max(1.01, R) && error <= c.tolerance;
+        if (!good && part > c.smallest_substep * (1. + 1e-9))
           {
-            error2 = std::max(error2, x);
-            sum += x; // not a number if one of them is not
-          }
-        const bool possible = first.stable && second.stable &&
-                              mean(trial.stress) + c.pe > 0. && p + c.pe > 0. &&
-                              trial.pcb > 0. && next.pcb > 0. &&
-                              std::isfinite(sum);
-        if (!(possible && next_R <= 1.01 && error2 <= largest2))
-          {
-            if (size > c.smallest_substep)
-              {
-                const double factor =
-                  possible ? 0.9 * std::sqrt(c.tolerance / std::sqrt(error2))
-                           : 0.1;
-                size = std::max(c.smallest_substep,
-                                size * std::clamp(factor, 0.1, 0.9));
-                grow = 1.;
-                continue;
-              }
-            ++report.forced;
+            const double factor =
+              next.possible ? 0.9 * std::sqrt(c.tolerance / error) : 0.1;
+            size =
+              std::max(c.smallest_substep, part * std::clamp(factor, 0.1, 0.9));
+            growth = 1.;
+            continue;
           }
         ++report.substeps;
-        const double step = size;
-        if (possible)
+        report.forced += !good;
+        done = last ? 1. : done + part;
+        if (next.possible)
           {
-            if (done + step < 1.)
-              {
-                const double error = std::sqrt(error2);
-                if (0.9 * std::sqrt(c.tolerance) < grow * std::sqrt(error))
-                  size *= 0.9 * std::sqrt(c.tolerance / error);
-                else
-                  size *= grow;
-                size = std::max(size, c.smallest_substep);
-              }
-            grow = 2.;
-            y    = next;
-            f    = next_f;
-            R    = next_R;
-            report.plastic_strain += 0.5 * (first.d_lambda * first.norm_m +
-                                            second.d_lambda * second.norm_m);
+            size = std::max(
+              c.smallest_substep,
+              part * std::min(0.9 * std::sqrt(c.tolerance / (error + 1e-300)),
+                              growth));
+            growth          = 2.;
             must_be_plastic = false;
+            y               = next.end;
+            f               = next.f;
+            R               = next.R;
+            report.plastic_strain += next.plastic_strain;
+            report.limited = report.limited || y.pcb <= c.smallest_size;
+            if (f.pa + f.dp + c.pe >= c.lowest_pressure)
+              continue;
           }
-        else
-          {
-            // Nothing but the elastic response is left: a forced substep, too.
-            const double volume = part[0] + part[1] + part[2];
-            const double p0     = mean(y.stress) + c.pe;
-            const double u      = volume == 0.
-                                    ? p0 / c.kappa
-                                    : p0 * std::expm1(volume / c.kappa) / volume;
-            y.stress +=
-              u * plus_isotropic<Vector>(2. * shear_ratio * part,
-                                         volume * (1. - 2. * shear_ratio / 3.));
-            f = quadratic(y);
-            R = f.ratio();
-          }
-        // Lands on the end exactly.
-        done = 1. - done <= step * (1. + 1e-12) ? 1. : done + step;
-        if (p + c.pe < c.lowest_pressure || !possible)
-          {
-            limit(y, report);
-            f = quadratic(y);
-            R = f.ratio();
-          }
+        else // nothing but the elastic response is left
+          y.stress += elastic_length(mean(y.stress), part * strain) *
+                      elastic_direction(part * strain);
+        limit(y, report);
+        f = quadratic(y);
+        R = f.ratio();
       }
     return report;
   }

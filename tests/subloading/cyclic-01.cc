@@ -155,4 +155,33 @@ main()
     back.add(pressure(y.stress), .001 * std::exp(3.));
     back.print_within("and closes again", 1e-9);
   }
+
+  // With stiffness in tension (pe > 0) and no apex there (xi = 0), soil that is
+  // pulled apart by 100 % yields until its surface has the smallest size, and
+  // bears load again at once: without the limit pcb would be 260 exp(-1/.07).
+  {
+    SubloadingConstants c = all_features(1e-4);
+    c.xi                  = 0.;
+    c.smallest_size       = 1.;
+    const SubloadingModel<6> model(c);
+    auto                     y       = structured_state<6>(0);
+    bool                     limited = false;
+    unsigned int             forced  = 0;
+    double                   most    = 0.;
+    for (int i = 0; i < 2200; ++i)
+      {
+        const double e =
+          (i < 1000 ? -1. : 1.) * (i % 1000 < 500 ? 1e-3 : 1.1e-3) / 3.;
+        const auto report = model.integrate(y, axial<6>(1.2 * e, .9 * e, 0));
+        limited           = limited || report.limited;
+        forced += report.forced;
+        most = std::max(most, model.ratio(y));
+        if (i == 999)
+          print("pulled apart: the size is the smallest",
+                limited && y.pcb > .99 && y.pcb < 1.01);
+      }
+    print("  R <= 1 + O(STOL), nothing forced", most <= 1.001 && forced == 0);
+    print("  loads of more than 1 MPa when compressed",
+          pressure(y.stress) > 1e3);
+  }
 }

@@ -212,6 +212,26 @@ main()
               shear[i][1]);
     }
 
+  // (32) on the axis, where s/||s|| is nothing: beta fades,
+  // h_beta = -cbeta ||dev m|| (p/patm) beta; and where p < 0: it stays.
+  std::cout << "rotation on the axis:" << std::endl;
+  for (const double p : {60., -1.})
+    {
+      const SubloadingModel<6> m(all_features(1e-7));
+      SubloadingState<6>       x = y;
+      x.stress                   = tensor(p, p, p, 0., 0., 0.);
+      x.a                        = tensor(10., 10., 10., 0., 0., 0.);
+      const auto rates           = m.rates(x, m.ratio(x), strain);
+      Vector6    dev_m           = rates.m;
+      dev_m.head<3>().array() -= pressure(rates.m);
+      compare("h_beta + I",
+              tensor(1., 1., 1., 0., 0., 0.) + rates.h_beta,
+              tensor(1., 1., 1., 0., 0., 0.) -
+                20. * dev_m.norm() * std::max(p, 0.) / 100. * x.beta,
+              1e-12);
+      print("  it turns", (rates.h_beta.norm() > 1.) == (p > 0.));
+    }
+
   // Both forms of H, in states along a path with reversals.
   std::cout << "the two forms of H:" << std::endl;
   for (const bool with_ph : {false, true})

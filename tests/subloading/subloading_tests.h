@@ -41,6 +41,7 @@ namespace subloading_tests
     c.tolerance        = tolerance;
     c.smallest_substep = 1e-9;
     c.lowest_pressure  = 1e-3;
+    c.smallest_size    = 1e-3;
     return c;
   }
 

@@ -91,14 +91,13 @@ namespace geocone
     SubloadingConstants c;
     std::string         reading = "p";
 
-    double              ocr           = 1.;
-    double              given_size    = 0.;
-    double              smallest_size = 1e3;
-    double              chi           = 0.;
-    double              zeta          = 0.;
-    std::vector<double> given_beta    = {0., 0., 0., 0.};
-    double              initial_Rb    = 1.;
-    std::string         if_outside    = "refuse";
+    double              ocr        = 1.;
+    double              given_size = 0.;
+    double              chi        = 0.;
+    double              zeta       = 0.;
+    std::vector<double> given_beta = {0., 0., 0., 0.};
+    double              initial_Rb = 1.;
+    std::string         if_outside = "refuse";
 
     SubloadingModel<4> in_plane;
     SubloadingModel<6> in_space;

@@ -39,8 +39,9 @@ namespace geocone
     bool rotates_with_ph = false;
 
     double tolerance        = 1e-4; ///< error per substep (STOL) (-)
-    double smallest_substep = 1e-6; ///< part of the increment (-)
+    double smallest_substep = 1e-4; ///< part of the increment (-)
     double lowest_pressure  = 1.;   ///< p + pe is kept above it (Pa)
+    double smallest_size    = 1e3;  ///< pcb does not shrink below it (Pa)
   };
 
   /**
@@ -93,7 +94,7 @@ namespace geocone
   {
     unsigned int substeps       = 0;     ///< plastic passes and elastic parts
     unsigned int forced         = 0;     ///< of them, against the error control
-    bool         limited        = false; ///< p was kept away from -pe
+    bool         limited        = false; ///< p or pcb was kept from its limit
     double       plastic_strain = 0.;    ///< integral of ||d eps_p|| (-)
   };
 
@@ -165,12 +166,34 @@ namespace geocone
     Quadratic
     quadratic(const State &state) const;
 
-    /** Part of the increment, 0 to 1, that is elastic; the stress follows. */
+    /** Whether R > Rmin and N:D:de > 0. */
+    bool
+    loads(const State     &state,
+          const Quadratic &f,
+          const double     R,
+          const Vector    &strain) const;
+
+    /** @name The elastic path of the stress: u e, u from 0 to the length, which
+     *  is the integral of K; e = tr(de) I + 2 G/K dev(de) */
+    /** @{ */
+    Vector
+    elastic_direction(const Vector &strain) const;
+    double
+    elastic_length(const double p, const Vector &strain) const;
+
+    /** Moves the stress to where the point loads; the part of the increment, 0
+     *  to 1, that this takes. */
     double
     elastic_part(State           &state,
                  const Quadratic &f,
                  const double     R,
                  const Vector    &strain) const;
+    /** @} */
+
+    /** A substep of the modified Euler method and its error. */
+    struct Substep;
+    Substep
+    substep(const State &state, const double R, const Vector &strain) const;
 
     /** eta_beta,cs for the deviator s of norm norm_s, and h. */
     double
