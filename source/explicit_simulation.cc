@@ -29,7 +29,7 @@ namespace geocone
                              const double          t,
                              const ExplicitReport &report)
   {
-    state = stepper.state(t);
+    state = stepper.state();
     explicit_output.add_record(
       {step, t, step_loop.last_cpu_time(), report, state, stepper.balance()});
     if (explicit_output.verbosity >= 1)
@@ -53,7 +53,7 @@ namespace geocone
     const std::vector<std::string> remarks = stepper.prepare(scene, method);
     explicit_output.prepare(name, folder, scene);
 
-    state = stepper.state(0.);
+    state = stepper.state();
     explicit_output.set_initial(state);
     log.print(format("%s: explicit MPM (%s), %s, %lu nodes, %lu points, %s, %u "
                      "rank%s",

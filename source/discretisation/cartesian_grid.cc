@@ -53,6 +53,7 @@ namespace geocone
         axis.begin              = lines[d].front();
         axis.end                = lines[d].back();
         axis.size               = (axis.end - axis.begin) / n;
+        axis.inverse_size       = 1. / axis.size;
         axis.n_intervals        = n;
         axis.n_functions        = basis.n_functions();
         for (unsigned int f = 0; f < axis.n_functions; ++f)

@@ -313,7 +313,7 @@ namespace geocone
         const CartesianGrid::Axis &from = grid.axes[d];
         GridAxis                  &to   = d == 0 ? g.x : g.y;
         to.origin                       = from.begin;
-        to.inverse_size                 = 1. / from.size;
+        to.inverse_size                 = from.inverse_size;
         to.n_intervals                  = from.n_intervals;
         to.first                        = stored[d].begin;
         to.type                         = from.type.data();

@@ -5,6 +5,7 @@
 #include <geocone/mechanics/mesh_transfer.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/symmetric_tensor.h>
 
 #include <deal.II/grid/grid_tools.h>
 
@@ -38,8 +39,8 @@ namespace geocone
     cells.resize(tria.n_active_cells());
     neighbours.resize(tria.n_active_cells());
     cell_nodes.assign(n * tria.n_active_cells(), numbers::invalid_unsigned_int);
-    smallest_cell                = std::numeric_limits<double>::max();
-    const auto  cells_of_vertex  = GridTools::vertex_to_cell_map(tria);
+    smallest_cell              = std::numeric_limits<double>::max();
+    const auto cells_of_vertex = GridTools::vertex_to_cell_map(tria);
     std::vector<types::global_dof_index> nodes;
     for (const auto &cell : tria.active_cell_iterators())
       if (!cell->is_artificial())
@@ -137,9 +138,9 @@ namespace geocone
         upper[d] += tolerance * smallest_cell;
       }
     const BoundingBox<dim> around({lower, upper});
-    for (const auto &[box, cell] : cache.get_cell_bounding_boxes_rtree() |
-                                     bgi::adaptors::queried(
-                                       bgi::intersects(around)))
+    for (const auto &[box, cell] :
+         cache.get_cell_bounding_boxes_rtree() |
+           bgi::adaptors::queried(bgi::intersects(around)))
       if (!cell->is_artificial() && is_in(x, cell, place))
         return true;
     return false;
@@ -165,8 +166,8 @@ namespace geocone
           {
             const unsigned int c = group.cell[p];
             Place              place;
-            const bool         found =
-              find(group.position(p), c < cells.size() ? cells[c] : Cell(), place);
+            const bool         found = find(
+              group.position(p), c < cells.size() ? cells[c] : Cell(), place);
             if (found && !place.cell->is_locally_owned())
               {
                 std::vector<double> &message =
@@ -208,9 +209,9 @@ namespace geocone
                       place.cell = *mesh.own_cells().begin();
                       place.unit = Point<dim>(0.5, 0.5);
                     }
-                  group.append(&message[i],
-                               static_cast<unsigned int>(
-                                 message[i + size - 1]));
+                  group.append(
+                    &message[i],
+                    static_cast<unsigned int>(message[i + size - 1]));
                   group.cell.push_back(place.cell->active_cell_index());
                   places.push_back(place);
                 }
@@ -258,7 +259,8 @@ namespace geocone
     for (unsigned int p = 0; p < padded; ++p)
       {
         // Padding is at the place of the last point.
-        const Place &place = places[std::min<std::size_t>(p, places.size() - 1)];
+        const Place &place =
+          places[std::min<std::size_t>(p, places.size() - 1)];
         space.evaluate(place.cell, place.unit, &at.N[p * n], gradient.data());
         const Tensor<2, dim> inverse =
           mesh.inverse_jacobian(place.cell, place.unit);
@@ -281,8 +283,9 @@ namespace geocone
     const Functions &at = functions[points.group];
     for (unsigned int k = 0; k < points.n; ++k)
       {
-        double           *out   = scratch.gathered + 12 * k;
-        const std::size_t first = n * static_cast<std::size_t>(points.first + k);
+        double           *out = scratch.gathered + 12 * k;
+        const std::size_t first =
+          n * static_cast<std::size_t>(points.first + k);
         std::fill_n(out, with_gradients ? 12 : 4, 0.);
         for (unsigned int i = 0; i < n; ++i)
           {
@@ -318,15 +321,16 @@ namespace geocone
     const Functions &at = functions[points.group];
     for (unsigned int k = 0; k < points.n; ++k)
       {
-        const std::size_t first = n * static_cast<std::size_t>(points.first + k);
-        const Point<dim>  x(points.x[k], points.y[k]);
-        Tensor<2, dim>    B, D, gradient;
+        const std::size_t first =
+          n * static_cast<std::size_t>(points.first + k);
+        const Point<dim> x(points.x[k], points.y[k]);
+        Tensor<2, dim>   B, D, gradient;
         for (unsigned int i = 0; i < n; ++i)
           {
-            const unsigned int   node = at.nodes[first + i];
-            const Tensor<1, dim> r    = space.node_positions()[node] - x;
-            const double slope[dim]   = {at.dN_dx[first + i],
-                                         at.dN_dy[first + i]};
+            const unsigned int   node       = at.nodes[first + i];
+            const Tensor<1, dim> r          = space.node_positions()[node] - x;
+            const double         slope[dim] = {at.dN_dx[first + i],
+                                               at.dN_dy[first + i]};
             for (unsigned int d = 0; d < dim; ++d)
               for (unsigned int e = 0; e < dim; ++e)
                 {
@@ -335,12 +339,16 @@ namespace geocone
                   gradient[d][e] += slope[e] * read[4 * node + d];
                 }
           }
-        // At the ends of the mesh only one function is left: the limit is the
-        // gradient.
-        const Tensor<2, dim> C =
-          determinant(D) > 1e-12 * trace(D) * trace(D) && trace(D) > 0. ?
-            B * invert(D) :
-            gradient;
+        // Direction by direction: at a side of the mesh only the functions of the
+        // side are left, and across it the limit is the gradient.
+        Tensor<2, dim> C;
+        for (const auto &[second_moment, e] :
+             eigenvectors(SymmetricTensor<2, dim>(symmetrize(D))))
+          C +=
+            outer_product(second_moment > 1e-10 * smallest_cell * smallest_cell
+                            ? Tensor<1, dim>(B * e / second_moment)
+                            : Tensor<1, dim>(gradient * e),
+                          e);
         points.c_xx[k] = C[0][0];
         points.c_xy[k] = C[0][1];
         points.c_yx[k] = C[1][0];
@@ -357,8 +365,9 @@ namespace geocone
     const Functions &at = functions[points.group];
     for (unsigned int k = 0; k < points.n; ++k)
       {
-        const double     *in    = scratch.given + 12 * k;
-        const std::size_t first = n * static_cast<std::size_t>(points.first + k);
+        const double     *in = scratch.given + 12 * k;
+        const std::size_t first =
+          n * static_cast<std::size_t>(points.first + k);
         for (unsigned int i = 0; i < n; ++i)
           {
             const unsigned int node = at.nodes[first + i];
@@ -398,15 +407,15 @@ namespace geocone
     const Functions &at = functions[points.group];
     for (unsigned int k = 0; k < points.n; ++k)
       {
-        const std::size_t first = n * static_cast<std::size_t>(points.first + k);
+        const std::size_t first =
+          n * static_cast<std::size_t>(points.first + k);
         for (unsigned int i = 0; i < n; ++i)
           {
             const unsigned int node = at.nodes[first + i];
             const double       mN   = points.mass[k] * at.N[first + i];
             const double rx = space.node_positions()[node][0] - points.x[k];
             const double ry = space.node_positions()[node][1] - points.y[k];
-            write[4 * node] +=
-              mN * (points.c_xx[k] * rx + points.c_xy[k] * ry);
+            write[4 * node] += mN * (points.c_xx[k] * rx + points.c_xy[k] * ry);
             write[4 * node + 1] +=
               mN * (points.c_yx[k] * rx + points.c_yy[k] * ry);
           }
@@ -448,9 +457,8 @@ namespace geocone
   std::size_t
   MeshTransfer::memory() const
   {
-    std::size_t bytes =
-      read.memory_consumption() + write.memory_consumption() +
-      mass.memory_consumption();
+    std::size_t bytes = read.memory_consumption() + write.memory_consumption() +
+                        mass.memory_consumption();
     for (const Functions &at : functions)
       bytes += at.nodes.capacity() * sizeof(unsigned int) +
                (at.N.capacity() + at.dN_dx.capacity() + at.dN_dy.capacity()) *

@@ -4,6 +4,8 @@
 #include <geocone/base/simd_level.h>
 #include <geocone/mechanics/transfer_kernels.templates.h>
 
+#include <algorithm>
+
 namespace geocone
 {
 #ifdef GEOCONE_HAS_AVX2_UNITS
@@ -11,15 +13,13 @@ namespace geocone
 #endif
 
   const TransferKernels &
-  transfer_kernels(const bool baseline)
+  transfer_kernels()
   {
     static const TransferKernels plain =
       make_transfer_kernels<BaselineArch>("baseline");
 #ifdef GEOCONE_HAS_AVX2_UNITS
-    if (!baseline && machine_has_avx2())
+    if (machine_has_avx2())
       return transfer_kernels_avx2;
-#else
-    (void)baseline;
 #endif
     return plain;
   }

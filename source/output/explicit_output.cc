@@ -173,6 +173,8 @@ namespace geocone
         std::vector<double> shown(place.size()), history(group.n_history);
         for (unsigned int p = 0; p < group.n_points(); ++p)
           {
+            if (!(group[Field::mass][p] > 0.))
+              continue; // it has left
             PatchOutput<0>::Patch patch;
             patch.patch_index = output.patches.size();
             patch.vertices[0] = group.position(p);
@@ -263,7 +265,8 @@ namespace geocone
           {"kinetic_J_per_m", s.kinetic},
           {"largest_kinetic_J_per_m", largest_kinetic},
           {"potential_J_per_m", s.potential},
-          {"released_potential_J_per_m", initial.potential - s.potential},
+          {"released_potential_J_per_m",
+           initial.potential - s.potential - b.removed_potential},
           {"stress_work_J_per_m", b.stress_work},
           {"gravity_work_J_per_m", b.gravity_work},
           {"support_work_J_per_m", b.support_work},

@@ -49,7 +49,7 @@ namespace geocone
       "Largest kinetic energy",
       largest_kinetic_energy,
       "Explicit MPM: the stage must end with a kinetic energy of at "
-      "most this part of the stress work done, e.g. 1e-6; 0: not "
+      "most this part of the stress work of the stage, e.g. 1e-6; 0: not "
       "tested.");
     add_parameter("Reset velocity",
                   reset_velocity,

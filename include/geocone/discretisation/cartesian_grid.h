@@ -36,9 +36,10 @@ namespace geocone
     struct Axis
     {
       double       begin = 0., end = 0.; ///< (m)
-      double       size        = 0.;     ///< of an interval (m)
-      unsigned int n_intervals = 0;
-      unsigned int n_functions = 0;
+      double       size         = 0.;    ///< of an interval (m)
+      double       inverse_size = 0.;    ///< (1/m)
+      unsigned int n_intervals  = 0;
+      unsigned int n_functions  = 0;
 
       /** Place of a function: its Greville abscissa (m). */
       std::vector<double> places;
@@ -54,10 +55,10 @@ namespace geocone
       int
       interval(const double x) const
       {
-        const int i = static_cast<int>((x - begin) / size);
-        return x < begin                           ? 0
-               : i < static_cast<int>(n_intervals) ? i
-                                                   : n_intervals - 1;
+        const double u = (x - begin) * inverse_size;
+        return u < 0.            ? 0
+               : u < n_intervals ? static_cast<int>(u)
+                                 : static_cast<int>(n_intervals) - 1;
       }
     };
 

@@ -158,9 +158,9 @@ namespace geocone
                             BlockScratch &);
   };
 
-  /** The best version that this machine has; @p baseline: the plainest. */
+  /** The best version that this machine has; see machine_has_avx2(). */
   const TransferKernels &
-  transfer_kernels(const bool baseline = false);
+  transfer_kernels();
 } // namespace geocone
 
 #endif

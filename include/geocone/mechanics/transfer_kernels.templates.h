@@ -355,7 +355,7 @@ namespace geocone
           const P vx = P::load(points.vx + k), vy = P::load(points.vy + k);
           const P v2 = vx * vx + vy * vy;
           speed2     = max(speed2, v2);
-          check += v2;
+          check += v2 + (x + y);
           x0 = min(x0, x), x1 = max(x1, x);
           y0 = min(y0, y), y1 = max(y1, y);
         }

@@ -120,6 +120,8 @@ namespace geocone
                        "' cannot be written: is the disk full?");
       };
 
+      if (!dealii::Utilities::MPI::logical_or(!patches.empty(), comm))
+        return; // nothing to write
       // The library fails on ranks without patches: only the others write.
       MPI_Comm writers;
       MPI_Comm_split(comm, patches.empty(), rank, &writers);

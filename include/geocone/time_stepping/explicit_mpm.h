@@ -32,9 +32,10 @@ namespace geocone
     dealii::Tensor<1, dim> impulse; ///< of gravity, supports, damping (N s/m)
 
     /** What was taken away (Stage::removed_polygon), or left the grid. */
-    double                 removed_mass = 0.;   ///< (kg/m)
-    dealii::Tensor<1, dim> removed_momentum;    ///< (N s/m)
-    double                 removed_energy = 0.; ///< kinetic (J/m)
+    double                 removed_mass = 0.;      ///< (kg/m)
+    dealii::Tensor<1, dim> removed_momentum;       ///< (N s/m)
+    double                 removed_energy    = 0.; ///< kinetic (J/m)
+    double                 removed_potential = 0.; ///< from the lower corner
 
     /** Of kinetic damping: kinetic energy set to zero (J/m). */
     double stopped_energy = 0.;
@@ -58,7 +59,8 @@ namespace geocone
     double largest_speed          = 0.;
     double largest_plastic_strain = 0.;
 
-    /** The point that limits the step: its number, place and wave speed. */
+    /** The point that limits the step, that with the fastest elastic wave: its
+     *  number, place and wave speed. */
     unsigned int       limiting_id = 0;
     dealii::Point<dim> limiting_place;
     double             limiting_wave_speed = 0.;
@@ -133,7 +135,7 @@ namespace geocone
     /** @name All ranks must ask together */
     /** @{ */
     ExplicitState
-    state(const double t) const;
+    state() const;
     Balance
     balance() const;
     LawCounts
@@ -376,6 +378,7 @@ namespace geocone
     std::vector<unsigned char> is_held; ///< per node and component
 
     Balance                             sum;
+    Balance                             stage_start; ///< of all ranks
     LawCounts                           counts;
     std::vector<dealii::Tensor<1, dim>> support_impulse; ///< per condition
     std::vector<double> constant_value; ///< per condition and component, or NaN
