@@ -69,7 +69,7 @@ def unit_for(size):
     """The unit that energies up to a size are told in: its name and value."""
     for name, value in (("MJ/m", 1e6), ("kJ/m", 1e3), ("J/m", 1.), ("mJ/m", 1e-3),
                         ("µJ/m", 1e-6)):
-        if size >= 3. * value:
+        if size >= value:
             return name, value
     return "nJ/m", 1e-9
 
