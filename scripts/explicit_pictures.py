@@ -48,6 +48,7 @@ def draw_energy(plot, run, folder):
                                          constrained_layout=True,
                                          gridspec_kw={"height_ratios": [3., 2.]})
     largest = max(np.max(np.abs(values)) for values, _, _ in lines)
+    lines = [line for line in lines if np.max(np.abs(line[0])) > 1e-4 * largest]
     name, factor = unit_for(largest)
     for values, label, color in lines:
         axes.plot(time, values / factor, color=color, label=label)
