@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/version.h>
+#include <geocone/command_line.h>
 #include <geocone/explicit_simulation.h>
 #include <geocone/replay.h>
 #include <geocone/simulation.h>
@@ -11,7 +12,6 @@
 
 #include <omp.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 
@@ -21,18 +21,6 @@
 namespace
 {
   using namespace geocone;
-
-  struct CommandLine
-  {
-    std::string              file;
-    std::string              folder;
-    std::vector<std::string> overrides;
-    std::string              defaults_file;
-    std::string              frozen_file;
-    bool                     quiet   = false;
-    bool                     help    = false;
-    bool                     version = false;
-  };
 
   const char *usage =
     "geocone FILE.prm [--output FOLDER] [--set 'Section/Parameter = value']... "
@@ -58,45 +46,6 @@ namespace
     "and\n"
     "1 otherwise.\n";
 
-  CommandLine
-  parse_command_line(const int argc, char **argv)
-  {
-    CommandLine call;
-    const auto  value = [&](int &i) {
-      if (i + 1 >= argc)
-        throw InputError(std::string("the option ") + argv[i] +
-                         " needs a value\n  remedy:  see geocone --help");
-      return std::string(argv[++i]);
-    };
-    for (int i = 1; i < argc; ++i)
-      {
-        const std::string argument = argv[i];
-        if (argument == "--output")
-          call.folder = value(i);
-        else if (argument == "--set")
-          call.overrides.push_back(value(i));
-        else if (argument == "--quiet")
-          call.quiet = true;
-        else if (argument == "--help" || argument == "-h")
-          call.help = true;
-        else if (argument == "--version")
-          call.version = true;
-        else if (argument == "--replay")
-          call.frozen_file = value(i);
-        else if (argument == "--defaults")
-          call.defaults_file = value(i);
-        else if (!argument.empty() && argument[0] == '-')
-          throw InputError("unknown option '" + argument +
-                           "'\n  remedy:  see geocone --help");
-        else if (call.file.empty())
-          call.file = argument;
-        else
-          throw InputError("a second parameter file '" + argument +
-                           "'\n  remedy:  give one; overrides go into --set");
-      }
-    return call;
-  }
-
   /** All parameters with an example of each kind of named section. */
   void
   print_defaults(std::ostream &out)
@@ -119,11 +68,12 @@ namespace
   }
 
   int
-  run(const int argc, char **argv, std::string &drawing_command)
+  run(const int argc, char **argv, std::string &drawing)
   {
     const bool first =
       dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-    const CommandLine call = parse_command_line(argc, argv);
+    const CommandLine call =
+      parse_command_line(argc, argv, "geocone", {"--replay"});
     if (call.version)
       {
         if (first)
@@ -146,7 +96,7 @@ namespace
           write_file(call.defaults_file, &print_defaults);
         return 0;
       }
-    if (!call.frozen_file.empty())
+    if (call.own.count("--replay") > 0)
       {
         if (!call.file.empty())
           throw InputError("--replay takes no parameter file, but '" +
@@ -157,8 +107,9 @@ namespace
           throw InputError("--replay works on one rank\n"
                            "  remedy:  call it without mpirun");
         Log log(MPI_COMM_WORLD, call.quiet);
-        return replay(call.frozen_file, call.overrides, call.folder, log) ? 0
-                                                                          : 1;
+        return replay(call.own.at("--replay"), call.overrides, call.folder, log)
+                 ? 0
+                 : 1;
       }
     if (call.file.empty())
       {
@@ -181,9 +132,7 @@ namespace
     const OutputBase &output =
       is_explicit ? explicit_simulation.output() : simulation.output();
     if (first && output.wants_pictures())
-      drawing_command = "'" GEOCONE_SOURCE_DIR "/scripts/plot' '" +
-                        output.folder() + "'" +
-                        (call.quiet ? " >/dev/null" : "");
+      drawing = drawing_command(output.folder(), call.quiet);
     return ok ? 0 : 1;
   }
 } // namespace
@@ -191,7 +140,7 @@ namespace
 int
 main(int argc, char **argv)
 {
-  std::string drawing_command;
+  std::string drawing;
   int         status = 1;
   {
     // One thread per rank: the parallelism is MPI's. Cholmod asks for a fixed
@@ -208,7 +157,7 @@ main(int argc, char **argv)
       dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     try
       {
-        status = run(argc, argv, drawing_command);
+        status = run(argc, argv, drawing);
       }
     // All ranks find these two together, and end without waiting for each other.
     catch (const InputError &error)
@@ -228,9 +177,6 @@ main(int argc, char **argv)
           MPI_Abort(MPI_COMM_WORLD, 1);
       }
   }
-  // After the end of MPI, which does not like its processes to be copied.
-  if (!drawing_command.empty() && std::system(drawing_command.c_str()) != 0)
-    std::cerr << "warning: no pictures: " << drawing_command << " failed"
-              << std::endl;
+  draw(drawing);
   return status;
 }

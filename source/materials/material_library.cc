@@ -5,6 +5,7 @@
 #include <geocone/materials/linear_elastic.h>
 #include <geocone/materials/material_library.h>
 #include <geocone/materials/mohr_coulomb.h>
+#include <geocone/materials/subloading.h>
 
 #include <algorithm>
 #include <functional>
@@ -26,7 +27,8 @@ namespace geocone
                 std::unique_ptr<ConstitutiveLaw> (*)(const std::string &)>>
       laws = {{"Mohr-Coulomb", &make<MohrCoulomb>},
               {"Tresca", &make<Tresca>},
-              {"linear elastic", &make<LinearElastic>}};
+              {"linear elastic", &make<LinearElastic>},
+              {"subloading", &make<Subloading>}};
   } // namespace
 
   std::vector<std::string>

@@ -240,9 +240,12 @@ namespace geocone
           : Range{0, 0};
     const std::size_t n =
       static_cast<std::size_t>(stored[0].size()) * stored[1].size();
-    read.assign(4 * n, 0.);
-    write.assign(4 * n, 0.);
-    mass.assign(n + mass_padding, 0.);
+    read.resize_fast(4 * n);
+    write.resize_fast(4 * n);
+    mass.resize_fast(n + mass_padding);
+    read.fill(0.);
+    write.fill(0.);
+    mass.fill(0.);
 
     // A column counts on the lowest rank that stores it.
     const auto all = Utilities::MPI::all_gather(
@@ -495,8 +498,8 @@ namespace geocone
   std::size_t
   CartesianTransfer::memory() const
   {
-    return (read.capacity() + write.capacity() + mass.capacity()) *
-             sizeof(double) +
+    return read.memory_consumption() + write.memory_consumption() +
+           mass.memory_consumption() +
            (count.capacity() + order.capacity()) * sizeof(unsigned int);
   }
 

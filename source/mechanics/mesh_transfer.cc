@@ -220,8 +220,8 @@ namespace geocone
           lost.push_back({{g, p}});
         evaluate(group, places, functions[g]);
       }
-    std::fill(write.begin(), write.end(), 0.);
-    std::fill(mass.begin(), mass.end(), 0.);
+    write.fill(0.);
+    mass.fill(0.);
   }
 
   bool
@@ -449,7 +449,8 @@ namespace geocone
   MeshTransfer::memory() const
   {
     std::size_t bytes =
-      (read.capacity() + write.capacity() + mass.capacity()) * sizeof(double);
+      read.memory_consumption() + write.memory_consumption() +
+      mass.memory_consumption();
     for (const Functions &at : functions)
       bytes += at.nodes.capacity() * sizeof(unsigned int) +
                (at.N.capacity() + at.dN_dx.capacity() + at.dN_dy.capacity()) *

@@ -30,9 +30,11 @@ namespace geocone
     void
     remove_old_run(const std::string &folder)
     {
-      static const std::array<const char *, 5> names   = {{"parameters.prm",
+      static const std::array<const char *, 7> names   = {{"parameters.prm",
                                                            "statistics.csv",
                                                            "newton.csv",
+                                                           "path.csv",
+                                                           "surfaces.csv",
                                                            "summary.json",
                                                            "log.txt"}};
       static const std::array<const char *, 6> endings = {

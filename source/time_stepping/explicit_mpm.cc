@@ -716,6 +716,9 @@ namespace geocone
     if (Utilities::MPI::logical_or(!obstacle.empty(), comm))
       throw StepFailure(text_of_any_rank(comm, obstacle));
     start_nodes();
+    is_held.assign(dim * static_cast<std::size_t>(transfer->n_nodes()), 0);
+    for (const PrescribedNode &node : transfer->prescribed)
+      is_held[dim * node.node + node.component] = 1;
     body_mass     = current_mass();
     must_refresh  = false;
     since_refresh = 0;
@@ -874,14 +877,10 @@ namespace geocone
   ExplicitMPM::measure_unbalanced_force()
   {
     // Of free components, before damping.
-    std::vector<bool> free(dim * static_cast<std::size_t>(transfer->n_nodes()),
-                           true);
-    for (const PrescribedNode &node : transfer->prescribed)
-      free[dim * node.node + node.component] = false;
     unbalanced = 0.;
     for (unsigned int i = 0; i < transfer->n_nodes(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
-        if (free[dim * i + d])
+        if (!is_held[dim * i + d])
           unbalanced =
             std::max(unbalanced, std::abs(transfer->write[4 * i + 2 + d]));
     unbalanced = Utilities::MPI::max(unbalanced, comm);
@@ -890,23 +889,29 @@ namespace geocone
   void
   ExplicitMPM::damp(const double damping, const double dt)
   {
+    // Not of held components, whose force is a reaction.
     const double *read  = transfer->read.data();
     double       *write = transfer->write.data();
+    const auto    force = [&](const unsigned int i, const unsigned int d) {
+      return is_held[dim * i + d] ? 0.
+                                     : -damping * std::abs(write[4 * i + 2 + d]) *
+                                      sign(read[4 * i + d]);
+    };
     for (const auto &range : transfer->mine)
       for (unsigned int i = range[0]; i < range[1]; ++i)
         if (transfer->mass[i] > least_mass)
           for (unsigned int d = 0; d < dim; ++d)
             {
-              const double v = read[4 * i + d], f = write[4 * i + 2 + d];
-              const double force = -damping * std::abs(f) * sign(v);
-              sum.impulse[d] += dt * force;
+              const double f = force(i, d);
+              sum.impulse[d] += dt * f;
               sum.damping_work -=
-                dt * force * (v + dt * (f + force) / transfer->mass[i] / 2.);
+                dt * f *
+                (read[4 * i + d] +
+                 dt * (write[4 * i + 2 + d] + f) / transfer->mass[i] / 2.);
             }
-    for (unsigned int i = 0; i < 4 * transfer->n_nodes(); i += 4)
+    for (unsigned int i = 0; i < transfer->n_nodes(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
-        write[i + 2 + d] -=
-          damping * std::abs(write[i + 2 + d]) * sign(read[i + d]);
+        write[4 * i + 2 + d] += force(i, d);
   }
 
   double

@@ -199,16 +199,28 @@ check_batches(const Material &material)
   print_below("  yield function/c", violation, "1e-12");
 }
 
+/** A law in closed form. */
+std::unique_ptr<Material>
+make(const std::string &type, const std::string &section)
+{
+  std::unique_ptr<ConstitutiveLaw> law = make_material(type, section);
+  auto *const material                 = dynamic_cast<Material *>(law.get());
+  if (material == nullptr)
+    throw InputError("'" + type + "' is not in closed form");
+  law.release();
+  return std::unique_ptr<Material>(material);
+}
+
 int
 main()
 {
   std::cout.precision(10);
-  const auto friction   = make_material("Mohr-Coulomb", "Materials/friction");
-  const auto associated = make_material("Mohr-Coulomb", "Materials/associated");
-  const auto cohesive   = make_material("Mohr-Coulomb", "Materials/cohesive");
-  const auto tresca     = make_material("Tresca", "Materials/tresca");
-  const auto elastic    = make_material("linear elastic", "Materials/elastic");
-  const auto wrong      = make_material("Mohr-Coulomb", "Materials/wrong");
+  const auto friction   = make("Mohr-Coulomb", "Materials/friction");
+  const auto associated = make("Mohr-Coulomb", "Materials/associated");
+  const auto cohesive   = make("Mohr-Coulomb", "Materials/cohesive");
+  const auto tresca     = make("Tresca", "Materials/tresca");
+  const auto elastic    = make("linear elastic", "Materials/elastic");
+  const auto wrong      = make("Mohr-Coulomb", "Materials/wrong");
   dealii::ParameterAcceptor::prm.parse_input_from_string(R"(
     subsection Materials
       subsection friction

@@ -60,7 +60,7 @@ namespace geocone
     unsigned long long updates  = 0; ///< points times steps
     unsigned long long substeps = 0; ///< of laws with error control
     unsigned long long forced   = 0; ///< substeps accepted against the control
-    unsigned long long limited  = 0; ///< stresses kept away from p = -pe
+    unsigned long long limited  = 0; ///< states kept from losing all stiffness
     unsigned int       most     = 0; ///< substeps of one point in one step
 
     void

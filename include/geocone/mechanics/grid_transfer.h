@@ -8,6 +8,7 @@
 #include <geocone/mechanics/transfer_kernels.h>
 #include <geocone/scene/boundary_conditions.h>
 
+#include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/point.h>
 
 #include <mpi.h>
@@ -120,7 +121,8 @@ namespace geocone
     virtual std::string
     description() const = 0;
 
-    std::vector<double> read, write, mass;
+    /** Aligned, so that no node lies across two lines of the cache. */
+    dealii::AlignedVector<double> read, write, mass;
 
     /** Ranges [begin, end) of the nodes that this rank counts in sums. */
     std::vector<std::array<unsigned int, 2>> mine;

@@ -51,10 +51,11 @@ namespace geocone
 
     template <int p>
     static void
-    gather(const GridView    &grid,
+    gather(const GridView    &view,
            const BlockPoints &points,
            BlockScratch      &scratch)
     {
+      const GridView grid = view; // a copy: stores cannot change it
       for (unsigned int k = 0; k < points.n; ++k)
         {
           const Functions<p> X(grid.x, points.x[k]), Y(grid.y, points.y[k]);
@@ -84,10 +85,11 @@ namespace geocone
 
     template <int p>
     static void
-    gather_values(const GridView    &grid,
+    gather_values(const GridView    &view,
                   const BlockPoints &points,
                   BlockScratch      &scratch)
     {
+      const GridView grid = view; // a copy: stores cannot change it
       for (unsigned int k = 0; k < points.n; ++k)
         {
           const Functions<p> X(grid.x, points.x[k]), Y(grid.y, points.y[k]);
@@ -108,10 +110,11 @@ namespace geocone
 
     template <int p>
     static void
-    gather_affine(const GridView    &grid,
+    gather_affine(const GridView    &view,
                   const BlockPoints &points,
                   BlockScratch &)
     {
+      const GridView grid = view; // a copy: stores cannot change it
       for (unsigned int k = 0; k < points.n; ++k)
         {
           const Functions<p> X(grid.x, points.x[k]), Y(grid.y, points.y[k]);
@@ -169,10 +172,11 @@ namespace geocone
 
     template <int p>
     static void
-    scatter(const GridView    &grid,
+    scatter(const GridView    &view,
             const BlockPoints &points,
             BlockScratch      &scratch)
     {
+      const GridView grid = view; // a copy: stores cannot change it
       for (unsigned int k = 0; k < points.n; ++k)
         {
           const Functions<p> X(grid.x, points.x[k]), Y(grid.y, points.y[k]);
@@ -199,10 +203,11 @@ namespace geocone
 
     template <int p>
     static void
-    scatter_values(const GridView    &grid,
+    scatter_values(const GridView    &view,
                    const BlockPoints &points,
                    BlockScratch      &scratch)
     {
+      const GridView grid = view; // a copy: stores cannot change it
       for (unsigned int k = 0; k < points.n; ++k)
         {
           const Functions<p> X(grid.x, points.x[k]), Y(grid.y, points.y[k]);
@@ -241,10 +246,11 @@ namespace geocone
 
     template <int p>
     static void
-    scatter_affine(const GridView    &grid,
+    scatter_affine(const GridView    &view,
                    const BlockPoints &points,
                    BlockScratch &)
     {
+      const GridView grid = view; // a copy: stores cannot change it
       for (unsigned int k = 0; k < points.n; ++k)
         {
           const Functions<p> X(grid.x, points.x[k]), Y(grid.y, points.y[k]);

@@ -372,7 +372,8 @@ namespace geocone
       unsigned int node, component;
       double       velocity, change;
     };
-    std::vector<Held> held;
+    std::vector<Held>          held;
+    std::vector<unsigned char> is_held; ///< per node and component
 
     Balance                             sum;
     LawCounts                           counts;

@@ -1,0 +1,95 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_element_element_path_h
+#define geocone_element_element_path_h
+
+#include <geocone/base/parameter_file.h>
+#include <geocone/element/element_point.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /** A condition on a column of the results, "NAME <= NUMBER" or ">=". */
+  struct StopCondition
+  {
+    std::string name; ///< of the column, without its unit
+    bool        at_most = true;
+    double      bound   = 0.;
+  };
+
+  /**
+   * What controls each component along a stage: its strain, by an increment, or
+   * its stress, by a target. f runs from 0 at the start of the stage to 1.
+   */
+  struct ElementControl
+  {
+    std::array<bool, 6> by_stress{};
+    Tensor6             strain{}; ///< increment for f from 0 to 1 (-)
+    Tensor6             stress{}; ///< value at f = 1 (Pa)
+  };
+
+  /** A stage of a path: parameters of the section "Path/NAME". */
+  class ElementStage : public dealii::ParameterAcceptor
+  {
+  public:
+    explicit ElementStage(const std::string &name);
+
+    /** Checks the parameters for a point with these components and columns. */
+    void
+    prepare(const ElementPoint &point, const std::vector<std::string> &columns);
+
+    /** The control of a stage that starts with this stress. */
+    ElementControl
+    control(const ElementPoint &point) const;
+
+    /** f at the ends of all increments. */
+    std::vector<double>
+    positions() const;
+
+    const std::string          name;
+    std::vector<StopCondition> stop; ///< none or one
+
+  private:
+    void
+    check_components(const ElementPoint &point) const;
+
+    std::string
+    parameter(const std::string &entry) const;
+    unsigned int
+    axis_index() const;
+
+    std::string                kind         = "components";
+    std::string                axis         = "yy";
+    double                     amount       = 0.;
+    unsigned int               n_increments = 100;
+    unsigned int               n_cycles     = 0;
+    std::string                cycle_form   = "two-way";
+    std::string                stop_text;
+    std::array<std::string, 6> strain_texts, stress_texts;
+  };
+
+  /** The stages of "Path/Names", one after the other. */
+  class ElementPath : public dealii::ParameterAcceptor
+  {
+  public:
+    explicit ElementPath(const ParameterFile &file);
+
+    void
+    prepare(const ElementPoint &point, const std::vector<std::string> &columns);
+
+    std::vector<std::unique_ptr<ElementStage>> stages;
+
+  private:
+    std::vector<std::string>                   names;
+    std::vector<std::unique_ptr<ElementStage>> unused;
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,114 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_materials_subloading_h
+#define geocone_materials_subloading_h
+
+#include <geocone/materials/constitutive_law.h>
+#include <geocone/materials/subloading_model.h>
+
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * The subloading soil model (SubloadingModel) as a law of explicit steps:
+   * anisotropy, cyclic behaviour, structure, non-associated flow; with its
+   * defaults it is Modified Cam Clay with a subloading surface. Its face turns
+   * the sign: tension is positive outside, compression in the model.
+   *
+   * History of a point, components without Mandel factors: stress_zz; the
+   * similarity centre a (xx, yy, zz, xy), tension positive; beta (xx, yy, zz,
+   * xy); the size pcb; the structure ratio Rb.
+   */
+  class Subloading : public ConstitutiveLaw
+  {
+  public:
+    /** @param section e.g. "Materials/soil" */
+    explicit Subloading(const std::string &section);
+
+    void
+    prepare() override;
+
+    void
+    advance(const PointBlock &block, LawCounts &counts) const override;
+
+    unsigned int
+    n_history() const override
+    {
+      return 11;
+    }
+
+    std::string
+    initialise(const Stress &stress, double *history) const override;
+
+    double
+    wave_modulus(const Stress &stress, const double *history) const override;
+
+    std::vector<std::string>
+    shown_names() const override;
+
+    void
+    show(const std::array<double, 3> &stress,
+         const double                *history,
+         double                      *values) const override;
+
+    /** @name One point with n = 4 or 6 components, compression positive */
+    /** @{ */
+    template <int n>
+    const SubloadingModel<n> &
+    model() const
+    {
+      if constexpr (n == 4)
+        return in_plane;
+      else
+        return in_space;
+    }
+
+    /**
+     * The state that the parameters give to a stress (Pa): a = chi sigma, beta,
+     * Rb, and pcb as given or by the overconsolidation ratio.
+     * @return what had to be changed for it, or nothing
+     * @throws InputError if there is no such state
+     */
+    template <int n>
+    std::string
+    initial_state(const typename SubloadingModel<n>::Vector &stress,
+                  SubloadingState<n>                        &state) const;
+
+    /** The state of a point. @param stress s_xx, s_yy, s_xy, tension positive */
+    SubloadingState<4>
+    state(const std::array<double, 3> &stress, const double *history) const;
+    /** @} */
+
+  private:
+    void
+    check_constants() const;
+    void
+    check_initial() const;
+
+    SubloadingConstants c;
+    std::string         reading = "p";
+
+    double              ocr        = 1.;
+    double              given_size = 0.;
+    double              chi        = 0.;
+    double              zeta       = 0.;
+    std::vector<double> given_beta = {0., 0., 0., 0.};
+    double              initial_Rb = 1.;
+    std::string         if_outside = "refuse";
+
+    SubloadingModel<4> in_plane;
+    SubloadingModel<6> in_space;
+  };
+
+  extern template std::string
+  Subloading::initial_state<4>(const SubloadingModel<4>::Vector &,
+                               SubloadingState<4> &) const;
+  extern template std::string
+  Subloading::initial_state<6>(const SubloadingModel<6>::Vector &,
+                               SubloadingState<6> &) const;
+} // namespace geocone
+
+#endif

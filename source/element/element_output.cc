@@ -1,0 +1,203 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/element/element_output.h>
+#include <geocone/output/run_folder.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace geocone
+{
+  namespace
+  {
+    /** "stress xx (Pa)" is "stress_xx_Pa" in the summary, "R (-)" is "R". */
+    std::string
+    key(const std::string &column)
+    {
+      std::string text;
+      for (const char c : column)
+        if (c == ' ')
+          text += '_';
+        else if (c != '(' && c != ')' && c != '-')
+          text += c;
+      while (!text.empty() && text.back() == '_')
+        text.pop_back();
+      return text;
+    }
+  } // namespace
+
+  ElementOutput::ElementOutput(const MPI_Comm comm, Log &log)
+    : dealii::ParameterAcceptor("/Output")
+    , comm(comm)
+    , log(log)
+  {
+    add_parameter("Folder",
+                  path,
+                  "Folder of the run; empty: results/NAME for NAME.prm. The "
+                  "option --output goes before it.");
+    add_parameter("If folder exists",
+                  if_exists,
+                  "number (take NAME-2, NAME-3, ...) | refuse | overwrite (the "
+                  "files of the run before are removed).");
+    add_parameter(
+      "Pictures",
+      pictures,
+      "Whether the pictures are drawn at the end, by scripts/plot.");
+    add_parameter("Verbosity",
+                  verbosity,
+                  "0: results only, 1: the end of each stage, 2: each "
+                  "increment.");
+    add_parameter("Expectations",
+                  expectation_texts,
+                  "Comma-separated statements about summary.json that must "
+                  "hold at the end, else the exit code is 1: TOPIC/NAME <= "
+                  "NUMBER or >= NUMBER, e.g. final/q_Pa >= 50e3, extremes/"
+                  "R_most <= 1.0001, stages/shear/p_Pa <= 20e3.");
+    add_parameter("Report for tests",
+                  report_for_tests,
+                  "none | states: writes a file 'output' into the folder of "
+                  "the call, with the state after each stage and the "
+                  "expectations.");
+  }
+
+  void
+  ElementOutput::prepare(const std::string              &default_name,
+                         const std::string              &folder_of_call,
+                         const std::vector<std::string> &all_columns)
+  {
+    name    = default_name;
+    columns = all_columns;
+    if (if_exists != "number" && if_exists != "refuse" &&
+        if_exists != "overwrite")
+      throw InputError("Output/If folder exists",
+                       if_exists,
+                       "number | refuse | overwrite",
+                       "choose one of them");
+    if (report_for_tests != "none" && report_for_tests != "states")
+      throw InputError("Output/Report for tests",
+                       report_for_tests,
+                       "none | states",
+                       "choose one of them");
+    for (const std::string &text : expectation_texts)
+      expectations.emplace_back(text, "Output/Expectations");
+    if (!folder_of_call.empty())
+      path = folder_of_call;
+    if (path.empty())
+      path = "results/" + default_name;
+    path = make_run_folder(comm, path, if_exists);
+    log.open(path + "/log.txt");
+    table.open(path + "/path.csv", columns);
+    surface_table.open(path + "/surfaces.csv",
+                       {"state", "surface", "p (Pa)", "q (Pa)"});
+  }
+
+  Json
+  ElementOutput::state(const std::vector<double> &values) const
+  {
+    Json all;
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      all[key(columns[i])] = values[i];
+    return all;
+  }
+
+  void
+  ElementOutput::add_line(const std::vector<double> &values)
+  {
+    table.add_line(values);
+    last = state(values);
+    if (n_lines++ == 0)
+      start = last;
+    for (const auto &[entry, value] : last.items())
+      for (const bool largest : {false, true})
+        {
+          Json &extreme  = extremes[entry + (largest ? "_most" : "_least")];
+          const double x = value.get<double>();
+          if (extreme.is_null() ||
+              (largest ? x > extreme.get<double>() : x < extreme.get<double>()))
+            extreme = x;
+        }
+  }
+
+  void
+  ElementOutput::add_stage(const std::string         &stage,
+                           const std::vector<double> &values)
+  {
+    stages[stage] = state(values);
+  }
+
+  void
+  ElementOutput::add_surfaces(const unsigned int          at,
+                              const std::vector<Surface> &surfaces)
+  {
+    // The surfaces by number: 0 yield, 1 subloading.
+    for (std::size_t i = 0; i < surfaces.size(); ++i)
+      for (const auto &[p, q] : surfaces[i].p_and_q)
+        surface_table.add_line(
+          {static_cast<double>(at), static_cast<double>(i), p, q});
+  }
+
+  void
+  ElementOutput::write_summary(const std::string &status, const Json &topics)
+  {
+    summary = {{"program", "element_test"}, {"name", name}, {"status", status}};
+    for (const auto &[entry, value] : topics.items())
+      summary[entry] = value;
+    summary["start"]    = start;
+    summary["stages"]   = stages;
+    summary["final"]    = last;
+    summary["extremes"] = extremes;
+    write_file(path + "/summary.json",
+               [&](std::ostream &out) { out << summary.dump(2) << "\n"; });
+  }
+
+  bool
+  ElementOutput::finish()
+  {
+    std::string report;
+    for (const auto &[stage, values] : stages.items())
+      {
+        report += "after " + stage + "\n";
+        for (const auto &[entry, value] : values.items())
+          {
+            // In units that make numbers of order one; substeps depend on last
+            // digits.
+            if (entry.find("substeps") != std::string::npos)
+              continue;
+            const bool is_stress =
+              entry.size() > 3 && entry.substr(entry.size() - 3) == "_Pa";
+            const bool is_strain = entry.find("eps_") == 0 ||
+                                   entry.find("strain") != std::string::npos;
+            const double shown = (is_stress   ? 1e-3
+                                  : is_strain ? 1e2
+                                              : 1.) *
+                                 value.get<double>();
+            report += format("  %s %.6f %s\n",
+                             entry.c_str(),
+                             std::abs(shown) < 1e-6 ? 0. : shown,
+                             is_stress   ? "k"
+                             : is_strain ? "%"
+                                         : "");
+          }
+      }
+    bool hold = true;
+    for (const Expectation &expectation : expectations)
+      {
+        const bool        holds = expectation.holds(summary);
+        const std::string answer =
+          "expected " + expectation.text + ": " + (holds ? "yes" : "NO");
+        const std::string line =
+          answer + " (" + expectation.found(summary) + ")";
+        hold = hold && holds;
+        if (holds)
+          log.print(line);
+        else
+          log.warn(line);
+        report += answer + "\n";
+      }
+    if (report_for_tests == "states")
+      write_file("output", [&](std::ostream &out) { out << report; });
+    return hold;
+  }
+} // namespace geocone

@@ -1,0 +1,289 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/element/element_path.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace geocone
+{
+  namespace
+  {
+    const std::array<const char *, 6> kinds = {{"components",
+                                                "isotropic",
+                                                "oedometric",
+                                                "drained",
+                                                "undrained",
+                                                "simple shear"}};
+
+    double
+    number(const std::string &text, const std::string &parameter)
+    {
+      std::istringstream in(text);
+      double             value;
+      std::string        rest;
+      if (!(in >> value) || in >> rest || !std::isfinite(value))
+        throw InputError(
+          parameter,
+          text,
+          "a number, or nothing",
+          "e.g. -0.01 for a strain of 1 % in compression, -100e3 "
+          "for 100 kPa");
+      return value;
+    }
+
+    StopCondition
+    stop_condition(const std::string              &text,
+                   const std::string              &parameter,
+                   const std::vector<std::string> &columns)
+    {
+      // The name may have blanks: "stress yy <= -200e3".
+      const std::size_t place = text.find("=");
+      StopCondition     condition;
+      std::string       known;
+      if (place != std::string::npos && place > 0 &&
+          (text[place - 1] == '<' || text[place - 1] == '>'))
+        {
+          condition.at_most = text[place - 1] == '<';
+          const auto parts  = split_names(text.substr(0, place - 1));
+          condition.name    = parts.empty() ? "" : parts[0];
+          condition.bound   = number(text.substr(place + 1), parameter);
+          for (const std::string &column : columns)
+            {
+              const std::string name = column.substr(0, column.find(" ("));
+              if (name == condition.name)
+                return condition;
+              known += (known.empty() ? "" : ", ") + name;
+            }
+        }
+      throw InputError(parameter,
+                       text,
+                       "NAME <= NUMBER or NAME >= NUMBER" +
+                         (known.empty() ? "" : ", NAME one of: " + known),
+                       "e.g. p <= 20e3");
+    }
+  } // namespace
+
+  ElementStage::ElementStage(const std::string &name)
+    : dealii::ParameterAcceptor("/Path/" + name)
+    , name(name)
+  {
+    add_parameter(
+      "Kind",
+      kind,
+      "components (each by its own strain or stress below) | "
+      "isotropic (equal strains, Amount: volumetric strain) | "
+      "oedometric (Amount: strain of the axis, no other) | drained "
+      "(Amount: strain of the axis, other normal stresses constant) "
+      "| undrained (Amount: strain of the axis, others equal, no "
+      "volume change) | simple shear (Amount: shear angle gamma = 2 "
+      "eps_xy, no other strain). Tension is positive: -0.1 is 10 % "
+      "in compression.");
+    add_parameter("Axis", axis, "xx | yy | zz: the axis of these kinds.");
+    add_parameter("Amount", amount, "See Kind (-).");
+    add_parameter("Increments",
+                  n_increments,
+                  "Number of increments (for each amplitude of cycles), > 0.");
+    add_parameter("Cycles",
+                  n_cycles,
+                  "Number of cycles; 0: once to the end. The amount, strains "
+                  "and stress targets are then amplitudes around the start.");
+    add_parameter("Cycle form",
+                  cycle_form,
+                  "two-way (to the amplitude, to its opposite, back) | one-way "
+                  "(to the amplitude and back).");
+    add_parameter(
+      "Stop when",
+      stop_text,
+      "Ends the stage early: NAME <= NUMBER or NAME >= NUMBER with a "
+      "column of path.csv, e.g. p <= 20e3, eps_q >= 0.05.");
+    for (unsigned int i = 0; i < 6; ++i)
+      {
+        add_parameter(std::string("Strain ") + component_names[i],
+                      strain_texts[i],
+                      "Strain increment of the stage (-); for 'components'. "
+                      "Without strain and stress: no strain.");
+        add_parameter(std::string("Stress ") + component_names[i],
+                      stress_texts[i],
+                      "Stress at the end of the stage (Pa), or 'constant'; for "
+                      "'components'.");
+      }
+  }
+
+  std::string
+  ElementStage::parameter(const std::string &entry) const
+  {
+    return "Path/" + name + "/" + entry;
+  }
+
+  unsigned int
+  ElementStage::axis_index() const
+  {
+    return std::find(component_names.begin(), component_names.end(), axis) -
+           component_names.begin();
+  }
+
+  void
+  ElementStage::check_components(const ElementPoint &point) const
+  {
+    bool any = false;
+    for (unsigned int i = 0; i < 6; ++i)
+      {
+        const std::string component = component_names[i];
+        const bool given = !strain_texts[i].empty() || !stress_texts[i].empty();
+        any              = any || given;
+        if (given && kind != "components")
+          throw InputError(parameter(!strain_texts[i].empty()
+                                       ? "Strain " + component
+                                       : "Stress " + component),
+                           strain_texts[i] + stress_texts[i],
+                           "nothing where Kind = " + kind,
+                           "set 'Kind = components' and give all components");
+        if (!strain_texts[i].empty() && !stress_texts[i].empty())
+          throw InputError(parameter("Stress " + component),
+                           stress_texts[i],
+                           "strain or stress of a component, not both",
+                           "take one of them out");
+        if (given && !point.has(i))
+          throw InputError(parameter(!strain_texts[i].empty()
+                                       ? "Strain " + component
+                                       : "Stress " + component),
+                           strain_texts[i] + stress_texts[i],
+                           "nothing: it has no strain in plane strain",
+                           "control xx, yy and xy, or set 'Element/Components "
+                           "= 3D' if the material has it");
+        if (!strain_texts[i].empty())
+          number(strain_texts[i], parameter("Strain " + component));
+        if (!stress_texts[i].empty() && stress_texts[i] != "constant")
+          number(stress_texts[i], parameter("Stress " + component));
+      }
+    if (kind == "components" && !any)
+      throw InputError(parameter("Strain yy"),
+                       "",
+                       "a strain or stress of at least one component",
+                       "e.g. -0.01, or choose another Kind");
+  }
+
+  void
+  ElementStage::prepare(const ElementPoint             &point,
+                        const std::vector<std::string> &columns)
+  {
+    if (std::count(kinds.begin(), kinds.end(), kind) == 0)
+      {
+        std::string all;
+        for (const char *known : kinds)
+          all += (all.empty() ? "" : " | ") + std::string(known);
+        throw InputError(parameter("Kind"), kind, all, "choose one of them");
+      }
+    if (axis_index() > 2 || !point.has(axis_index()))
+      throw InputError(parameter("Axis"),
+                       axis,
+                       point.has(2) ? "xx | yy | zz"
+                                    : "xx | yy in plane strain",
+                       "choose one of them");
+    if (kind != "components" && !(amount != 0. && std::isfinite(amount)))
+      throw InputError(parameter("Amount"),
+                       amount,
+                       "a strain, not 0",
+                       "-0.01 is 1 % in compression");
+    if (n_increments == 0)
+      throw InputError(
+        parameter("Increments"), n_increments, "> 0", "100 is usual");
+    if (cycle_form != "two-way" && cycle_form != "one-way")
+      throw InputError(parameter("Cycle form"),
+                       cycle_form,
+                       "two-way | one-way",
+                       "choose one of them");
+    check_components(point);
+    if (!stop_text.empty())
+      stop = {stop_condition(stop_text, parameter("Stop when"), columns)};
+  }
+
+  ElementControl
+  ElementStage::control(const ElementPoint &point) const
+  {
+    ElementControl     control;
+    const Tensor6      start = point.stress();
+    const unsigned int a     = axis_index();
+    control.stress           = start;
+    if (kind == "components")
+      for (unsigned int i = 0; i < 6; ++i)
+        {
+          control.by_stress[i] = !stress_texts[i].empty();
+          if (!strain_texts[i].empty())
+            control.strain[i] = std::stod(strain_texts[i]);
+          if (control.by_stress[i] && stress_texts[i] != "constant")
+            control.stress[i] = std::stod(stress_texts[i]);
+        }
+    else if (kind == "simple shear")
+      control.strain[3] = amount / 2.;
+    else
+      for (unsigned int i = 0; i < 3; ++i)
+        if (point.has(i))
+          {
+            const double n = point.has(2) ? 3. : 2.;
+            if (kind == "isotropic")
+              control.strain[i] = amount / n;
+            else if (i == a)
+              control.strain[i] = amount;
+            else if (kind == "undrained")
+              control.strain[i] = -amount / (n - 1.);
+            else if (kind == "drained")
+              control.by_stress[i] = true;
+          }
+    return control;
+  }
+
+  std::vector<double>
+  ElementStage::positions() const
+  {
+    std::vector<double> corners = {0.};
+    if (n_cycles == 0)
+      corners.push_back(1.);
+    for (unsigned int i = 0; i < n_cycles; ++i)
+      {
+        corners.push_back(1.);
+        if (cycle_form == "two-way")
+          corners.push_back(-1.);
+        corners.push_back(0.);
+      }
+    std::vector<double> f;
+    for (std::size_t i = 1; i < corners.size(); ++i)
+      {
+        const double       way = corners[i] - corners[i - 1];
+        const unsigned int n   = n_increments * std::lround(std::abs(way));
+        for (unsigned int j = 1; j <= n; ++j)
+          f.push_back(corners[i - 1] + way * j / n);
+      }
+    return f;
+  }
+
+  ElementPath::ElementPath(const ParameterFile &file)
+    : dealii::ParameterAcceptor("/Path")
+    , names(file.peek_list("Path/Names", "loading"))
+  {
+    add_parameter("Names",
+                  names,
+                  "Names of the stages, comma-separated, in their order; each "
+                  "has a subsection of that name.");
+    std::size_t n_listed;
+    const auto  all = file.named_sections("Path", "Names", "loading", n_listed);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      (i < n_listed ? stages : unused)
+        .push_back(std::make_unique<ElementStage>(all[i]));
+  }
+
+  void
+  ElementPath::prepare(const ElementPoint             &point,
+                       const std::vector<std::string> &columns)
+  {
+    if (stages.empty())
+      throw InputError(
+        "Path/Names", "", "at least one name", "set Names = shear");
+    for (const auto &stage : stages)
+      stage->prepare(point, columns);
+  }
+} // namespace geocone

@@ -1,0 +1,439 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/types.h>
+#include <geocone/element/element_point.h>
+#include <geocone/materials/material.h>
+#include <geocone/materials/subloading.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace geocone
+{
+  const std::array<const char *, 6> component_names = {
+    {"xx", "yy", "zz", "xy", "yz", "zx"}};
+
+  double
+  norm(const Tensor6 &x)
+  {
+    double sum = 0.;
+    for (unsigned int i = 0; i < 6; ++i)
+      sum += (i < 3 ? 1. : 2.) * x[i] * x[i];
+    return std::sqrt(sum);
+  }
+
+  namespace
+  {
+    double
+    pressure(const Tensor6 &stress)
+    {
+      return -(stress[0] + stress[1] + stress[2]) / 3.;
+    }
+
+    /** q = sqrt(3/2) ||s||. */
+    double
+    deviatoric_stress(Tensor6 stress)
+    {
+      const double p = pressure(stress);
+      for (unsigned int i = 0; i < 3; ++i)
+        stress[i] += p;
+      return std::sqrt(1.5) * norm(stress);
+    }
+
+    /** Mandel vector, compression positive, of a tensor, tension positive. */
+    template <int n>
+    typename SubloadingModel<n>::Vector
+    to_model(const Tensor6 &x)
+    {
+      typename SubloadingModel<n>::Vector y;
+      for (unsigned int i = 0; i < n; ++i)
+        y[i] = -(i < 3 ? 1. : sqrt2) * x[i];
+      return y;
+    }
+
+    /** @param sign -1 turns compression positive into tension positive. */
+    template <int n>
+    Tensor6
+    from_model(const Eigen::Matrix<double, n, 1> &x, const double sign)
+    {
+      Tensor6 y{};
+      for (unsigned int i = 0; i < n; ++i)
+        y[i] = sign * x[i] / (i < 3 ? 1. : sqrt2);
+      return y;
+    }
+
+    /**
+     * The curve fbar(a + (sigma - a)/R) = 0 with sigma = p I + q sqrt(2/3) d: a
+     * quadratic in q for each p.
+     */
+    template <int n>
+    Surface
+    section(const std::string                         &name,
+            const SubloadingModel<n>                  &model,
+            const SubloadingState<n>                  &y,
+            const double                               R,
+            const typename SubloadingModel<n>::Vector &d)
+    {
+      using Vector    = typename SubloadingModel<n>::Vector;
+      Vector identity = Vector::Zero();
+      identity.template head<3>().setOnes();
+      const double pa    = y.a.dot(identity) / 3.;
+      const double xi    = model.constants().xi;
+      const auto   value = [&](const double p, const double q) {
+        const Vector sigma = p * identity + q * std::sqrt(2. / 3.) * d;
+        return model.yield_function(y.a + (sigma - y.a) / R, y.beta, y.pcb);
+      };
+      std::vector<std::pair<double, double>> upper, lower;
+      const unsigned int                     n_points = 120;
+      for (unsigned int i = 0; i <= n_points; ++i)
+        {
+          const double part = (1. - std::cos(pi * i / n_points)) / 2.;
+          const double p    = pa + R * ((part - xi) * y.pcb - pa);
+          const double q = y.pcb, f = value(p, 0.);
+          const double plus = value(p, q), minus = value(p, -q);
+          const double A = (plus + minus - 2. * f) / (2. * q * q);
+          const double B = (plus - minus) / (2. * q);
+          // At both ends of p the roots meet, up to rounding.
+          const double D = B * B - 4. * A * f;
+          if (!(D >= -1e-9 * (B * B + std::abs(4. * A * f))))
+            continue;
+          const double root = std::sqrt(std::max(0., D));
+          upper.emplace_back(p, (-B + root) / (2. * A));
+          lower.emplace_back(p, (-B - root) / (2. * A));
+        }
+      Surface surface{name, upper};
+      surface.p_and_q.insert(
+        surface.p_and_q.end(), lower.rbegin(), lower.rend());
+      if (!upper.empty())
+        surface.p_and_q.push_back(upper.front());
+      return surface;
+    }
+
+    template <int n>
+    std::vector<Surface>
+    subloading_surfaces(const SubloadingModel<n> &model,
+                        const SubloadingState<n> &y,
+                        const Tensor6            &stress,
+                        const unsigned int        axis)
+    {
+      typename SubloadingModel<n>::Vector d = to_model<n>(stress);
+      const double                        p = (d[0] + d[1] + d[2]) / 3.;
+      d.template head<3>().array() -= p;
+      if (d.norm() < 1e-9 * std::abs(p))
+        {
+          d.setZero();
+          d.template head<3>().setConstant(-0.5);
+          d[axis < 3 ? axis : 1] = 1.;
+        }
+      d *= (axis < 3 && d[axis] < 0. ? -1. : 1.) / d.norm();
+      std::vector<Surface> surfaces = {section("yield", model, y, 1., d)};
+      const double         R        = model.ratio(y);
+      if (R > 1e-6)
+        surfaces.push_back(section("subloading", model, y, R, d));
+      return surfaces;
+    }
+
+    /** Any law in plane strain: xx, yy, xy; by its explicit step without spin. */
+    class InPlanePoint : public ElementPoint
+    {
+    public:
+      InPlanePoint(const ConstitutiveLaw &law,
+                   const Tensor6         &stress,
+                   std::string           &changed)
+        : law(law)
+        , subloading(dynamic_cast<const Subloading *>(&law))
+        , shown(law.shown_names())
+      {
+        now.stress = {{stress[0], stress[1], stress[3]}};
+        now.history.resize(law.n_history());
+        const ConstitutiveLaw::Stress s = {
+          {stress[0], stress[1], stress[2], stress[3]}};
+        changed  = law.initialise(s, now.history.data());
+        now.wave = law.wave_modulus(s, now.history.data());
+        trial    = now;
+      }
+
+      bool
+      has(const unsigned int component) const override
+      {
+        return component == 0 || component == 1 || component == 3;
+      }
+
+      Tensor6
+      try_strain(const Tensor6 &strain) override
+      {
+        trial = now;
+        std::vector<double *> history(trial.history.size());
+        for (std::size_t k = 0; k < history.size(); ++k)
+          history[k] = &trial.history[k];
+        double     work;
+        PointBlock block;
+        block.n_points       = 1;
+        block.l_xx           = &strain[0];
+        block.l_xy           = &strain[3];
+        block.l_yx           = &strain[3];
+        block.l_yy           = &strain[1];
+        block.s_xx           = &trial.stress[0];
+        block.s_yy           = &trial.stress[1];
+        block.s_xy           = &trial.stress[2];
+        block.history        = history.data();
+        block.plastic_strain = &trial.plastic_strain;
+        block.work           = &work;
+        block.wave_modulus   = &trial.wave;
+        trial_counts         = {};
+        law.advance(block, trial_counts);
+        return stress_of(trial);
+      }
+
+      void
+      accept() override
+      {
+        now = trial;
+        counts.add(trial_counts);
+      }
+
+      Tensor6
+      stress() const override
+      {
+        return stress_of(now);
+      }
+
+      double
+      modulus() const override
+      {
+        return now.wave;
+      }
+
+      std::vector<std::string>
+      names() const override
+      {
+        std::vector<std::string> all;
+        if (std::count(shown.begin(), shown.end(), "mean_pressure") == 0)
+          all = {"p (Pa)", "q (Pa)"};
+        for (const std::string &name : shown)
+          all.push_back(title(name));
+        all.push_back("plastic strain (-)");
+        return all;
+      }
+
+      std::vector<double>
+      values() const override
+      {
+        std::vector<double> all;
+        if (std::count(shown.begin(), shown.end(), "mean_pressure") == 0)
+          {
+            // The out-of-plane stress is not known: those of the plane.
+            const double half = (now.stress[0] - now.stress[1]) / 2.;
+            all               = {-(now.stress[0] + now.stress[1]) / 2.,
+                                 2. * std::hypot(half, now.stress[2])};
+          }
+        std::vector<double> values(shown.size());
+        law.show(now.stress, now.history.data(), values.data());
+        all.insert(all.end(), values.begin(), values.end());
+        all.push_back(now.plastic_strain);
+        return all;
+      }
+
+      std::vector<Surface>
+      surfaces(const Tensor6     &stress,
+               const unsigned int axis,
+               const double       largest_p) const override
+      {
+        if (subloading != nullptr)
+          return subloading_surfaces(
+            subloading->model<4>(),
+            subloading->state(now.stress, now.history.data()),
+            stress,
+            axis);
+        const auto *material = dynamic_cast<const Material *>(&law);
+        if (material == nullptr || !material->flow_cone())
+          return {};
+        // |s_t| <= a s_n + k with s_n = sqrt2 p, |s_t| = q/sqrt2.
+        const FlowCone cone = *material->flow_cone();
+        const double   tip =
+          cone.a > 0. ? -cone.k / (sqrt2 * cone.a) : std::min(0., -largest_p);
+        const double q      = 2. * cone.a * largest_p + sqrt2 * cone.k;
+        const double at_tip = cone.a > 0. ? 0. : sqrt2 * cone.k;
+        return {
+          {"yield",
+           {{largest_p, -q}, {tip, -at_tip}, {tip, at_tip}, {largest_p, q}}}};
+      }
+
+    private:
+      struct State
+      {
+        std::array<double, 3> stress{};
+        std::vector<double>   history;
+        double                plastic_strain = 0.;
+        double                wave           = 0.;
+      };
+
+      /** With zz if the law tells it. */
+      Tensor6
+      stress_of(const State &state) const
+      {
+        Tensor6 all = {{state.stress[0], state.stress[1], 0., state.stress[2]}};
+        const auto zz = std::find(shown.begin(), shown.end(), "stress_zz");
+        if (zz != shown.end())
+          {
+            std::vector<double> values(shown.size());
+            law.show(state.stress, state.history.data(), values.data());
+            all[2] = values[zz - shown.begin()];
+          }
+        return all;
+      }
+
+      /** The name of a column, with its unit. */
+      static std::string
+      title(const std::string &name)
+      {
+        static const std::map<std::string, std::string> known = {
+          {"stress_zz", "stress zz (Pa)"},
+          {"mean_pressure", "p (Pa)"},
+          {"deviatoric_stress", "q (Pa)"},
+          {"subloading_ratio", "R (-)"},
+          {"structure_ratio", "Rb (-)"},
+          {"yield_surface_size", "pcb (Pa)"},
+          {"anisotropy", "anisotropy (-)"}};
+        const auto found = known.find(name);
+        return found == known.end() ? name : found->second;
+      }
+
+      const ConstitutiveLaw         &law;
+      const Subloading *const        subloading; ///< or null
+      const std::vector<std::string> shown;
+      State                          now, trial;
+    };
+
+    /** The subloading model with all six components. */
+    class InSpacePoint : public ElementPoint
+    {
+    public:
+      InSpacePoint(const Subloading &law,
+                   const Tensor6    &stress,
+                   std::string      &changed)
+        : model(law.model<6>())
+      {
+        changed = law.initial_state<6>(to_model<6>(stress), now);
+        trial   = now;
+      }
+
+      bool
+      has(const unsigned int) const override
+      {
+        return true;
+      }
+
+      Tensor6
+      try_strain(const Tensor6 &strain) override
+      {
+        trial = now;
+        const SubloadingReport report =
+          model.integrate(trial, to_model<6>(strain));
+        trial_plastic_strain = plastic_strain + report.plastic_strain;
+        trial_counts         = {
+                  1, report.substeps, report.forced, report.limited, report.substeps};
+        return from_model<6>(trial.stress, -1.);
+      }
+
+      void
+      accept() override
+      {
+        now            = trial;
+        plastic_strain = trial_plastic_strain;
+        counts.add(trial_counts);
+      }
+
+      Tensor6
+      stress() const override
+      {
+        return from_model<6>(now.stress, -1.);
+      }
+
+      double
+      modulus() const override
+      {
+        return model.wave_modulus(pressure(stress()));
+      }
+
+      std::vector<std::string>
+      names() const override
+      {
+        std::vector<std::string> all = {
+          "p (Pa)", "q (Pa)", "R (-)", "Rb (-)", "pcb (Pa)", "anisotropy (-)"};
+        for (const char *component : component_names)
+          all.push_back(std::string("beta ") + component + " (-)");
+        for (const char *component : component_names)
+          all.push_back(std::string("a ") + component + " (Pa)");
+        all.push_back("plastic strain (-)");
+        return all;
+      }
+
+      std::vector<double>
+      values() const override
+      {
+        const Tensor6       sigma = stress();
+        std::vector<double> all   = {pressure(sigma),
+                                     deviatoric_stress(sigma),
+                                     model.ratio(now),
+                                     now.Rb,
+                                     now.pcb,
+                                     std::sqrt(1.5) * now.beta.norm()};
+        for (const double x : from_model<6>(now.beta, 1.))
+          all.push_back(x);
+        for (const double x : from_model<6>(now.a, -1.))
+          all.push_back(x);
+        all.push_back(plastic_strain);
+        return all;
+      }
+
+      std::vector<Surface>
+      surfaces(const Tensor6     &stress,
+               const unsigned int axis,
+               const double) const override
+      {
+        return subloading_surfaces(model, now, stress, axis);
+      }
+
+    private:
+      const SubloadingModel<6> &model;
+      SubloadingState<6>        now, trial;
+      double                    plastic_strain = 0., trial_plastic_strain = 0.;
+    };
+  } // namespace
+
+  std::unique_ptr<ElementPoint>
+  make_element_point(const ConstitutiveLaw &law,
+                     const std::string     &components,
+                     const Tensor6         &stress,
+                     std::string           &changed)
+  {
+    const auto *subloading = dynamic_cast<const Subloading *>(&law);
+    if (components != "automatic" && components != "plane strain" &&
+        components != "3D")
+      throw InputError("Element/Components",
+                       components,
+                       "automatic | plane strain | 3D",
+                       "choose one of them");
+    if (components == "3D" && subloading == nullptr)
+      throw InputError("Element/Components",
+                       components,
+                       "automatic | plane strain for this material",
+                       "its law knows the stresses of the plane only");
+    if (components == "plane strain" || subloading == nullptr)
+      {
+        if (stress[4] != 0. || stress[5] != 0.)
+          throw InputError("Element/Initial stress",
+                           stress[4] != 0. ? stress[4] : stress[5],
+                           "yz = zx = 0 in plane strain",
+                           "set 'Element/Components = 3D' if the material has "
+                           "it");
+        return std::make_unique<InPlanePoint>(law, stress, changed);
+      }
+    return std::make_unique<InSpacePoint>(*subloading, stress, changed);
+  }
+} // namespace geocone

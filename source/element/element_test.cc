@@ -1,0 +1,310 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/element/element_test.h>
+
+#include <deal.II/base/patterns.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace geocone
+{
+  ElementTest::ElementTest(const MPI_Comm       comm,
+                           const ParameterFile &file,
+                           Log                 &log)
+    : dealii::ParameterAcceptor("/Element")
+    , log(log)
+    , materials(file)
+    , path(file)
+    , element_output(comm, log)
+  {
+    add_parameter("Components",
+                  components,
+                  "automatic (3D if the law has it) | plane strain (as in "
+                  "scenes: xx, yy, xy) | 3D.");
+    add_parameter("Initial stress",
+                  initial_stress,
+                  "xx, yy, zz, xy, yz, zx (Pa), tension positive. In plane "
+                  "strain zz is used by laws that know it.");
+    add_parameter("Initial specific volume",
+                  initial_volume,
+                  "v = 1 + e at the start (-), > 1: for the column ln v.");
+  }
+
+  void
+  ElementTest::prepare(const std::string &name, const std::string &folder)
+  {
+    materials.prepare();
+    mixed_control.prepare();
+    if (initial_stress.size() != 6)
+      throw InputError("Element/Initial stress",
+                       dealii::Patterns::Tools::to_string(initial_stress),
+                       "six numbers xx, yy, zz, xy, yz, zx",
+                       "e.g. -60e3, -100e3, -60e3, 0, 0, 0");
+    if (!(initial_volume > 1.))
+      throw InputError("Element/Initial specific volume",
+                       initial_volume,
+                       "> 1",
+                       "1 + e with the void ratio e");
+    Tensor6 stress;
+    std::copy(initial_stress.begin(), initial_stress.end(), stress.begin());
+    point = make_element_point(materials.law(0), components, stress, changed);
+    path.prepare(*point, columns());
+    element_output.prepare(name, folder, columns());
+  }
+
+  std::vector<std::string>
+  ElementTest::columns() const
+  {
+    std::vector<std::string> all = {"increment (-)", "stage (-)"};
+    for (unsigned int i = 0; i < 6; ++i)
+      if (point->has(i))
+        all.push_back(std::string("eps ") + component_names[i] + " (-)");
+    for (const char *column :
+         {"eps_v (-)", "eps_q (-)", "ln v (-)", "strain path (-)"})
+      all.push_back(column);
+    for (unsigned int i = 0; i < 6; ++i)
+      if (point->has(i))
+        all.push_back(std::string("stress ") + component_names[i] + " (Pa)");
+    for (const std::string &name : point->names())
+      all.push_back(name);
+    all.push_back("substeps (-)");
+    all.push_back("forced substeps (-)");
+    return all;
+  }
+
+  std::vector<double>
+  ElementTest::line(const unsigned int stage) const
+  {
+    std::vector<double> all = {static_cast<double>(n_increments),
+                               static_cast<double>(stage)};
+    for (unsigned int i = 0; i < 6; ++i)
+      if (point->has(i))
+        all.push_back(strain[i]);
+    // eps_q = sqrt(2/3) ||dev eps||
+    const double eps_v = strain[0] + strain[1] + strain[2];
+    Tensor6      dev   = strain;
+    for (unsigned int i = 0; i < 3; ++i)
+      dev[i] -= eps_v / 3.;
+    all.push_back(eps_v);
+    all.push_back(std::sqrt(2. / 3.) * norm(dev));
+    all.push_back(std::log(initial_volume) + eps_v);
+    all.push_back(strain_path);
+    const Tensor6 stress = point->stress();
+    for (unsigned int i = 0; i < 6; ++i)
+      if (point->has(i))
+        all.push_back(stress[i]);
+    for (const double value : point->values())
+      all.push_back(value);
+    all.push_back(point->counts.substeps - before.substeps);
+    all.push_back(point->counts.forced - before.forced);
+    return all;
+  }
+
+  bool
+  ElementTest::stops(const ElementStage        &stage,
+                     const std::vector<double> &values) const
+  {
+    const std::vector<std::string> names = columns();
+    for (const StopCondition &condition : stage.stop)
+      for (std::size_t i = 0; i < names.size(); ++i)
+        if (names[i].substr(0, names[i].find(" (")) == condition.name &&
+            (condition.at_most ? values[i] <= condition.bound
+                               : values[i] >= condition.bound))
+          return true;
+    return false;
+  }
+
+  void
+  ElementTest::advance(const ElementStage   &stage,
+                       const ElementControl &control,
+                       const Tensor6        &start_stress,
+                       const double          from,
+                       const double          to)
+  {
+    before             = point->counts;
+    const double whole = to - from;
+    const double smallest =
+      std::abs(whole) * std::pow(0.5, mixed_control.max_halvings);
+    double at = from, size = whole;
+    while (at != to)
+      {
+        const bool   last = std::abs(to - at) <= std::abs(size) * (1. + 1e-6);
+        const double f    = last ? to : at + size;
+        Tensor6      target{}, increment{};
+        for (unsigned int i = 0; i < 6; ++i)
+          {
+            target[i] =
+              start_stress[i] + f * (control.stress[i] - start_stress[i]);
+            increment[i] =
+              (f - at) * (control.by_stress[i] ? guess[i] : control.strain[i]);
+          }
+        const ControlReport report =
+          mixed_control.solve(*point, control.by_stress, target, increment);
+        n_iterations += report.iterations;
+        if (!report.converged)
+          {
+            ++n_cuts;
+            size = (f - at) / 2.;
+            // The guess may be what leads astray.
+            guess = {};
+            if (std::abs(size) < smallest * (1. - 1e-6))
+              throw StepFailure(
+                format("the stage '%s' cannot be followed beyond f = %.6g of "
+                       "its path, also with increments cut to %.3g of it "
+                       "('Element/Maximum halvings' = %u):\n  ",
+                       stage.name.c_str(),
+                       at,
+                       std::abs(2. * size),
+                       mixed_control.max_halvings) +
+                report.reason +
+                "\n  remedy:  check whether the material can carry these "
+                "stresses; control the strain of a component where it yields, "
+                "or end the stage with 'Stop when'");
+            continue;
+          }
+        point->accept();
+        worst_residual = std::max(worst_residual, report.residual);
+        for (unsigned int i = 0; i < 6; ++i)
+          {
+            guess[i] = increment[i] / (f - at);
+            strain[i] += increment[i];
+            least_strain[i] = std::min(least_strain[i], strain[i]);
+            most_strain[i]  = std::max(most_strain[i], strain[i]);
+          }
+        strain_path += norm(increment);
+        at = f;
+      }
+    ++n_increments;
+  }
+
+  unsigned int
+  ElementTest::main_component() const
+  {
+    unsigned int main = 1;
+    for (unsigned int i = 0; i < 6; ++i)
+      // gamma = 2 eps_xy competes with the strains of the axes.
+      if ((i < 3 ? 1. : 2.) * (most_strain[i] - least_strain[i]) >
+          (main < 3 ? 1. : 2.) * (most_strain[main] - least_strain[main]) *
+            (1. + 1e-9))
+        main = i;
+    return main;
+  }
+
+  void
+  ElementTest::write_surfaces()
+  {
+    // The state of the start is made again, now that the axis is known.
+    const unsigned int axis = main_component();
+    Tensor6            stress;
+    std::copy(initial_stress.begin(), initial_stress.end(), stress.begin());
+    std::string ignored;
+    const auto  start =
+      make_element_point(materials.law(0), components, stress, ignored);
+    element_output.add_surfaces(
+      0, start->surfaces(start->stress(), axis, 1.1 * largest_p));
+    element_output.add_surfaces(
+      1, point->surfaces(point->stress(), axis, 1.1 * largest_p));
+  }
+
+  Json
+  ElementTest::topics() const
+  {
+    return {{"material", materials.name(0)},
+            {"changed_at_start", changed},
+            {"components", point->has(2) ? "3D" : "plane strain"},
+            {"axis", component_names[main_component()]},
+            {"counts",
+             {{"increments", n_increments},
+              {"halved_increments", n_cuts},
+              {"newton_iterations", n_iterations},
+              {"worst_residual", worst_residual},
+              {"substeps", point->counts.substeps},
+              {"most_substeps", point->counts.most},
+              {"forced_substeps", point->counts.forced},
+              {"limited_stresses", point->counts.limited}}}};
+  }
+
+  bool
+  ElementTest::run(const std::string &name, const std::string &folder)
+  {
+    prepare(name, folder);
+    log.print(format("%s: one point of '%s', %s, results in %s",
+                     name.c_str(),
+                     materials.name(0).c_str(),
+                     point->has(2) ? "3D" : "plane strain",
+                     element_output.folder().c_str()));
+    if (!changed.empty())
+      log.warn(changed);
+    const std::vector<std::string> names = columns();
+    const std::size_t              p_at =
+      std::find(names.begin(), names.end(), "p (Pa)") - names.begin();
+    std::vector<double> values = line(0);
+    element_output.add_line(values);
+    largest_p = values[p_at];
+    try
+      {
+        for (unsigned int s = 0; s < path.stages.size(); ++s)
+          {
+            const ElementStage  &stage   = *path.stages[s];
+            const ElementControl control = stage.control(*point);
+            const Tensor6        start   = point->stress();
+            guess                        = {};
+            double at                    = 0.;
+            bool   stopped               = false;
+            for (const double f : stage.positions())
+              {
+                advance(stage, control, start, at, f);
+                at     = f;
+                values = line(s + 1);
+                element_output.add_line(values);
+                largest_p = std::max(largest_p, values[p_at]);
+                if (element_output.verbosity >= 2)
+                  log.print(format("  %s: f = %.4g, p = %.6g Pa, q = %.6g Pa",
+                                   stage.name.c_str(),
+                                   f,
+                                   values[p_at],
+                                   values[p_at + 1]));
+                stopped = stops(stage, values);
+                if (stopped)
+                  break;
+              }
+            element_output.add_stage(stage.name, values);
+            if (element_output.verbosity >= 1)
+              log.print(
+                format("%s%s: p = %.6g Pa, q = %.6g Pa, eps_v = %.4g %%",
+                       stage.name.c_str(),
+                       stopped ? " (stopped)" : "",
+                       values[p_at],
+                       values[p_at + 1],
+                       100. * (strain[0] + strain[1] + strain[2])));
+          }
+      }
+    catch (const StepFailure &failure)
+      {
+        element_output.write_summary(std::string("failed: ") + failure.what(),
+                                     topics());
+        throw;
+      }
+    write_surfaces();
+    element_output.write_summary("finished", topics());
+    log.print(format("%u increments, %u halved, %llu substeps, %llu forced, "
+                     "%llu limited",
+                     n_increments,
+                     n_cuts,
+                     point->counts.substeps,
+                     point->counts.forced,
+                     point->counts.limited));
+    if (point->counts.forced > 0)
+      log.warn(format("%llu substeps were forced: their error is above the "
+                      "tolerance; lower 'Smallest substep' or take more "
+                      "increments",
+                      point->counts.forced));
+    if (point->counts.limited > 0)
+      log.warn(format("%llu stresses were kept at 'Lowest pressure'",
+                      point->counts.limited));
+    return element_output.finish();
+  }
+} // namespace geocone

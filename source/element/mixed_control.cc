@@ -1,0 +1,133 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/element/mixed_control.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace geocone
+{
+  MixedControl::MixedControl()
+    : dealii::ParameterAcceptor("/Element")
+  {
+    add_parameter("Tolerance",
+                  tolerance,
+                  "Largest difference of a stress from its target, over the "
+                  "norm of the stress (-).");
+    add_parameter("Maximum iterations",
+                  max_iterations,
+                  "Newton iterations before an increment is halved.");
+    add_parameter("Maximum halvings",
+                  max_halvings,
+                  "How often an increment may be halved before the run gives "
+                  "up, at most 30.");
+  }
+
+  void
+  MixedControl::prepare()
+  {
+    if (!(tolerance >= 1e-13 && tolerance < 1.))
+      throw InputError(
+        "Element/Tolerance", tolerance, "1e-13 to 1", "1e-10 is usual");
+    if (max_iterations == 0)
+      throw InputError(
+        "Element/Maximum iterations", max_iterations, "> 0", "25 is usual");
+    if (max_halvings > 30)
+      throw InputError(
+        "Element/Maximum halvings", max_halvings, "0 to 30", "12 is usual");
+  }
+
+  ControlReport
+  MixedControl::solve(ElementPoint              &point,
+                      const std::array<bool, 6> &by_stress,
+                      const Tensor6             &target,
+                      Tensor6                   &strain) const
+  {
+    ControlReport             report;
+    std::vector<unsigned int> unknown;
+    for (unsigned int i = 0; i < 6; ++i)
+      if (by_stress[i])
+        unknown.push_back(i);
+    const int     n       = unknown.size();
+    const Tensor6 start   = point.stress();
+    const double  modulus = point.modulus();
+    double        change  = 0.; // of the stresses that are asked for
+    for (const unsigned int i : unknown)
+      change = std::max(change, std::abs(target[i] - start[i]));
+
+    // The residual and its scale; not a number if the law fails.
+    double          scale = 0.;
+    Eigen::VectorXd r(n);
+    const auto      evaluate = [&](const Tensor6 &e) {
+      const Tensor6 s = point.try_strain(e);
+      scale           = std::max({norm(s), norm(start), norm(target)});
+      // From no stress to no stress: what the strain would give elastically.
+      if (scale == 0.)
+        scale = std::max(modulus * norm(e), 1e-300);
+      for (int i = 0; i < n; ++i)
+        r[i] = s[unknown[i]] - target[unknown[i]];
+      return r.size() > 0 ? r.cwiseAbs().maxCoeff() : 0. * norm(s);
+    };
+
+    double residual = evaluate(strain);
+    while (!(residual <= tolerance * scale))
+      {
+        report.residual = residual / scale;
+        if (report.iterations == max_iterations)
+          {
+            report.reason = format("%u iterations leave a relative residual of "
+                                   "%.3g",
+                                   max_iterations,
+                                   report.residual);
+            return report;
+          }
+        ++report.iterations;
+        const Eigen::VectorXd r0 = r;
+        Eigen::MatrixXd       J(n, n);
+        const double          small =
+          1e-4 * std::max({norm(strain), change / modulus, 1e-9});
+        for (int j = 0; j < n; ++j)
+          {
+            Tensor6 moved = strain;
+            moved[unknown[j]] += small;
+            evaluate(moved);
+            J.col(j) = (r - r0) / small;
+          }
+        const Eigen::VectorXd step = J.fullPivLu().solve(-r0);
+        if (!step.allFinite() || step.norm() > 1.)
+          {
+            report.reason = "the stresses do not determine the strains: the "
+                            "material cannot carry them, or has no stiffness "
+                            "there";
+            return report;
+          }
+        const Tensor6 from   = strain;
+        double        length = 1., now = 0.;
+        for (; length > 1e-3; length /= 2.)
+          {
+            for (int j = 0; j < n; ++j)
+              strain[unknown[j]] = from[unknown[j]] + length * step[j];
+            now = evaluate(strain);
+            if (now < residual || now <= tolerance * scale)
+              break;
+          }
+        if (!(length > 1e-3))
+          {
+            report.reason = format("no step lowers the relative residual of "
+                                   "%.3g",
+                                   report.residual);
+            return report;
+          }
+        residual = now;
+      }
+    report.residual  = residual / scale;
+    report.converged = true;
+    return report;
+  }
+} // namespace geocone

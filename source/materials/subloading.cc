@@ -1,0 +1,549 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/base/types.h>
+#include <geocone/materials/subloading.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace geocone
+{
+  namespace
+  {
+    using Vector4 = SubloadingModel<4>::Vector;
+
+    /** Places in the history of a point. */
+    enum
+    {
+      stress_zz,
+      centre,
+      inclination = centre + 4,
+      size        = inclination + 4,
+      structure
+    };
+
+    /** The history h_k of a point, k = 0, 1, ..., as its state. */
+    template <typename History>
+    SubloadingState<4>
+    state_of(const double   xx,
+             const double   yy,
+             const double   xy,
+             const History &h)
+    {
+      SubloadingState<4> state;
+      state.stress << -xx, -yy, -h(stress_zz), -sqrt2 * xy;
+      state.a << -h(centre), -h(centre + 1), -h(centre + 2),
+        -sqrt2 * h(centre + 3);
+      state.beta << h(inclination), h(inclination + 1), h(inclination + 2),
+        sqrt2 * h(inclination + 3);
+      state.pcb = h(size);
+      state.Rb  = h(structure);
+      return state;
+    }
+
+    template <typename History>
+    void
+    store(const SubloadingState<4> &state, const History &h)
+    {
+      h(stress_zz) = -state.stress[2];
+      for (unsigned int k = 0; k < 4; ++k)
+        {
+          const double factor = k < 3 ? 1. : 1. / sqrt2;
+          h(centre + k)       = -factor * state.a[k];
+          h(inclination + k)  = factor * state.beta[k];
+        }
+      h(size)      = state.pcb;
+      h(structure) = state.Rb;
+    }
+  } // namespace
+
+  Subloading::Subloading(const std::string &section)
+    : ConstitutiveLaw(section)
+  {
+    add_parameter("Swelling index kappa",
+                  c.kappa,
+                  "Slope of swelling lines in ln v over ln p (-), 0 < kappa < "
+                  "lambda. It is the textbooks' kappa over v.");
+    add_parameter("Compression index lambda",
+                  c.lambda,
+                  "Slope of compression lines in ln v over ln p (-).");
+    add_parameter(
+      "Poisson ratio", c.nu, "nu (-), between -1 and 0.5, both excluded.");
+    add_parameter("Elastic cohesion pe",
+                  c.pe,
+                  "pe (Pa), >= 0: the bulk modulus is (p + pe)/kappa.");
+    add_parameter("Apex ratio xi",
+                  c.xi,
+                  "xi (-), 0 <= xi < 0.5: the yield surface reaches to the "
+                  "tension p = -xi pcb.");
+    add_parameter(
+      "Yield slope M",
+      c.M,
+      "M (-), > 0: half axes of the yield ellipsoid, q over p. With "
+      "rotational hardening M <= k Mc.");
+    add_parameter(
+      "Critical state slope Mc",
+      c.Mc,
+      "Mc (-), > 0: q/p at the critical state in triaxial "
+      "compression, 6 sin(phi)/(3 - sin(phi)). It acts by rotational "
+      "hardening only; without, the critical state is at M.");
+    add_parameter("Strength ratio k",
+                  c.k,
+                  "k (-), 0.5 < k <= 1: critical state slope in triaxial "
+                  "extension over that in compression; 3/(3 + Mc) is "
+                  "Mohr-Coulomb's.");
+    add_parameter("Potential ratio alpha",
+                  c.alpha,
+                  "alpha (-), 0 < alpha < sqrt(2): slope of the plastic "
+                  "potential over M; 1 is associated flow.");
+    add_parameter("Subloading rate cR",
+                  c.cR,
+                  "cR (-), > 0: how fast the subloading surface grows to the "
+                  "yield surface with plastic strain.");
+    add_parameter("Rotational hardening rate cbeta",
+                  c.cbeta,
+                  "cbeta (-), >= 0; 0: the inclination beta does not change.");
+    add_parameter("Structure loss rate cb",
+                  c.cb,
+                  "cb (-), >= 0; 0: the structure ratio does not change.");
+    add_parameter("Final structure ratio Rbf",
+                  c.Rbf,
+                  "Rbf (-), >= 1: what remains of the structure.");
+    add_parameter("Similarity centre rate ca",
+                  c.ca,
+                  "ca (-), >= 0; 0: the centre moves with the surface only.");
+    add_parameter("Atmospheric pressure",
+                  c.patm,
+                  "Reference pressure of rotational hardening (Pa), > 0.");
+    add_parameter(
+      "Elastic ratio Rmin",
+      c.Rmin,
+      "Rmin (-), 0 < Rmin < 1, much less than 1: elastic below it.");
+    add_parameter("Centre margin delta",
+                  c.delta,
+                  "delta (-), 0 < delta < 1, much less than 1: how near the "
+                  "similarity centre comes to the yield surface.");
+    add_parameter(
+      "Pressure of rotation",
+      reading,
+      "p | ph: the reading of the report's equation (24), sh = s - p "
+      "beta or s - ph beta with ph = p + xi pcb.");
+    add_parameter(
+      "Error tolerance",
+      c.tolerance,
+      "Relative error of a substep of the integration (-), 0 < STOL "
+      "<= 0.1. Smaller increments need fewer substeps.");
+    add_parameter(
+      "Smallest substep",
+      c.smallest_substep,
+      "Smallest part of an increment (-), > 0 and <= 1; substeps of "
+      "this size are accepted with any error, and counted.");
+    add_parameter("Lowest pressure",
+                  c.lowest_pressure,
+                  "p + pe is kept at this value or above (Pa), > 0; counted.");
+
+    add_parameter("Overconsolidation ratio",
+                  ocr,
+                  "Size of the yield surface at the start over that of the "
+                  "surface through the stress (-); 1: normally consolidated.");
+    add_parameter("Initial size pcb",
+                  given_size,
+                  "Size of the structured yield surface at the start (Pa); 0: "
+                  "by the overconsolidation ratio.");
+    add_parameter("Smallest size pcb",
+                  c.smallest_size,
+                  "The yield surface starts at least this large, and does not "
+                  "shrink below it (Pa), > 0; counted.");
+    add_parameter("Initial centre ratio chi",
+                  chi,
+                  "chi (-), 0 <= chi < 1: the similarity centre starts at chi "
+                  "times the stress.");
+    add_parameter("Initial anisotropy",
+                  given_beta,
+                  "Inclination beta at the start: xx, yy, zz, xy (-), of trace "
+                  "zero; in 3D also yz, zx.");
+    add_parameter(
+      "Initial anisotropy by stress",
+      zeta,
+      "This times s/p of the initial stress is added to the initial "
+      "anisotropy (-).");
+    add_parameter(
+      "Initial structure ratio", initial_Rb, "Rb at the start (-), >= Rbf.");
+    add_parameter("Stress outside",
+                  if_outside,
+                  "refuse | raise size: what to do with an initial stress "
+                  "outside the yield surface.");
+  }
+
+  void
+  Subloading::check_constants() const
+  {
+    const auto require = [&](const bool         holds,
+                             const char        *name,
+                             const double       value,
+                             const std::string &allowed,
+                             const char        *remedy) {
+      if (!holds)
+        throw InputError(parameter(name), value, allowed, remedy);
+    };
+    require(c.kappa > 0.,
+            "Swelling index kappa",
+            c.kappa,
+            "kappa > 0",
+            "clays have 0.005 to 0.05");
+    require(c.lambda > c.kappa,
+            "Compression index lambda",
+            c.lambda,
+            "lambda > kappa = " + format("%g", c.kappa),
+            "clays have lambda of 4 to 10 times kappa");
+    require(c.nu > -1. && c.nu < 0.5,
+            "Poisson ratio",
+            c.nu,
+            "-1 < nu < 0.5",
+            "soils have 0.1 to 0.4");
+    require(c.pe >= 0.,
+            "Elastic cohesion pe",
+            c.pe,
+            "pe >= 0 Pa",
+            "0, or some kPa for stiffness without pressure");
+    require(c.xi >= 0. && c.xi < 0.5,
+            "Apex ratio xi",
+            c.xi,
+            "0 <= xi < 0.5",
+            "0 for soil without tensile strength");
+    require(c.M > 0., "Yield slope M", c.M, "M > 0", "soils have 0.7 to 1.5");
+    require(c.Mc > 0.,
+            "Critical state slope Mc",
+            c.Mc,
+            "Mc > 0",
+            "6 sin(phi)/(3 - sin(phi)), with the friction angle phi");
+    require(c.k > 0.5 && c.k <= 1.,
+            "Strength ratio k",
+            c.k,
+            "0.5 < k <= 1",
+            "3/(3 + Mc) is Mohr-Coulomb's");
+    require(c.cbeta >= 0.,
+            "Rotational hardening rate cbeta",
+            c.cbeta,
+            "cbeta >= 0",
+            "0 switches it off");
+    require(c.cbeta == 0. || c.M <= c.k * c.Mc * (1. + 1e-12),
+            "Yield slope M",
+            c.M,
+            "M <= k Mc = " + format("%g", c.k * c.Mc) + " where cbeta > 0",
+            "lower M, or there is no critical state in extension");
+    require(c.alpha > 0. && c.alpha < sqrt2,
+            "Potential ratio alpha",
+            c.alpha,
+            "0 < alpha < sqrt(2)",
+            "1 is associated flow");
+    require(c.cR > 0.,
+            "Subloading rate cR",
+            c.cR,
+            "cR > 0",
+            "20 to 1000; the larger, the more like a classical yield surface");
+    require(c.cb >= 0.,
+            "Structure loss rate cb",
+            c.cb,
+            "cb >= 0",
+            "0 switches it off");
+    require(c.Rbf >= 1.,
+            "Final structure ratio Rbf",
+            c.Rbf,
+            "Rbf >= 1",
+            "1: all structure can be lost");
+    require(c.ca >= 0.,
+            "Similarity centre rate ca",
+            c.ca,
+            "ca >= 0",
+            "0 switches it off");
+    require(
+      c.patm > 0., "Atmospheric pressure", c.patm, "> 0 Pa", "1e5 Pa is usual");
+    require(c.Rmin > 0. && c.Rmin < 1.,
+            "Elastic ratio Rmin",
+            c.Rmin,
+            "0 < Rmin < 1",
+            "0.01 is usual");
+    require(c.delta > 0. && c.delta < 1.,
+            "Centre margin delta",
+            c.delta,
+            "0 < delta < 1",
+            "0.01 is usual");
+    require(c.tolerance > 0. && c.tolerance <= 0.1,
+            "Error tolerance",
+            c.tolerance,
+            "0 < STOL <= 0.1",
+            "1e-4 is usual");
+    require(c.smallest_substep > 0. && c.smallest_substep <= 1.,
+            "Smallest substep",
+            c.smallest_substep,
+            "> 0 and <= 1",
+            "1e-4 is usual");
+    require(c.lowest_pressure > 0.,
+            "Lowest pressure",
+            c.lowest_pressure,
+            "> 0 Pa",
+            "1 Pa is usual: without pressure there is no stiffness");
+    if (reading != "p" && reading != "ph")
+      throw InputError(parameter("Pressure of rotation"),
+                       reading,
+                       "p | ph",
+                       "choose one of them");
+  }
+
+  void
+  Subloading::check_initial() const
+  {
+    if (!(ocr > 0.))
+      throw InputError(parameter("Overconsolidation ratio"),
+                       ocr,
+                       "> 0",
+                       "1 is normally consolidated");
+    if (!(given_size >= 0.))
+      throw InputError(parameter("Initial size pcb"),
+                       given_size,
+                       ">= 0 Pa",
+                       "0: by the overconsolidation ratio");
+    if (!(c.smallest_size > 0.))
+      throw InputError(parameter("Smallest size pcb"),
+                       c.smallest_size,
+                       "> 0 Pa",
+                       "some kPa: a surface without size has no strength");
+    if (!(chi >= 0. && chi < 1.))
+      throw InputError(parameter("Initial centre ratio chi"),
+                       chi,
+                       "0 <= chi < 1",
+                       "0: the centre starts at zero stress");
+    double trace = 0., largest = 0.;
+    for (std::size_t i = 0; i < given_beta.size(); ++i)
+      {
+        trace += i < 3 ? given_beta[i] : 0.;
+        largest = std::max(largest, std::abs(given_beta[i]));
+      }
+    if ((given_beta.size() != 4 && given_beta.size() != 6) ||
+        !(std::abs(trace) <= 1e-12 * largest))
+      throw InputError(parameter("Initial anisotropy"),
+                       dealii::Patterns::Tools::to_string(given_beta),
+                       "xx, yy, zz, xy or xx, yy, zz, xy, yz, zx, with xx + yy "
+                       "+ zz = 0",
+                       "0, 0, 0, 0 is isotropic");
+    if (!std::isfinite(zeta))
+      throw InputError(parameter("Initial anisotropy by stress"),
+                       zeta,
+                       "a number",
+                       "0 is isotropic");
+    if (!(initial_Rb >= c.Rbf))
+      throw InputError(parameter("Initial structure ratio"),
+                       initial_Rb,
+                       ">= Rbf = " + format("%g", c.Rbf),
+                       "take Rbf for a soil that has lost its structure");
+    if (if_outside != "refuse" && if_outside != "raise size")
+      throw InputError(parameter("Stress outside"),
+                       if_outside,
+                       "refuse | raise size",
+                       "choose one of them");
+  }
+
+  void
+  Subloading::prepare()
+  {
+    ConstitutiveLaw::prepare();
+    check_constants();
+    check_initial();
+    c.rotates_with_ph = reading == "ph";
+    in_plane          = SubloadingModel<4>(c);
+    in_space          = SubloadingModel<6>(c);
+  }
+
+  template <int n>
+  std::string
+  Subloading::initial_state(const typename SubloadingModel<n>::Vector &stress,
+                            SubloadingState<n>                        &y) const
+  {
+    const SubloadingModel<n> &law = model<n>();
+    const double              p   = (stress[0] + stress[1] + stress[2]) / 3.;
+    const std::string         at  = format(" (p = %g Pa)", p + 0.);
+    if (!(p + c.pe >= c.lowest_pressure))
+      throw InputError(parameter("Elastic cohesion pe"),
+                       c.pe,
+                       "p + pe >= " + format("%g", c.lowest_pressure) +
+                         " Pa at the start" + at,
+                       "raise pe or the initial pressure: there would be no "
+                       "stiffness");
+    y.stress = stress;
+    y.a      = chi * stress;
+    y.Rb     = initial_Rb;
+    y.beta.setZero();
+    for (unsigned int i = 0; i < std::min<std::size_t>(n, given_beta.size());
+         ++i)
+      y.beta[i] = (i < 3 ? 1. : sqrt2) * given_beta[i];
+    if (zeta != 0.)
+      {
+        if (!(p > 0.))
+          throw InputError(parameter("Initial anisotropy by stress"),
+                           zeta,
+                           "0 where the initial stress has no pressure" + at,
+                           "give 'Initial anisotropy' instead");
+        y.beta += (zeta / p) * stress;
+        y.beta.template head<3>().array() -= zeta;
+      }
+    const double through = law.size_through(y.stress, y.beta);
+    if (!(through >= 0.) || (through == 0. && y.stress.norm() > 0.))
+      throw InputError(parameter("Apex ratio xi"),
+                       c.xi,
+                       "a yield surface that can contain the initial stress" +
+                         at,
+                       "raise xi, or start from compression");
+    y.pcb =
+      given_size > 0. ? given_size : std::max(ocr * through, c.smallest_size);
+
+    std::string changed;
+    double      R = law.ratio(y);
+    if (!(R <= 1. + 1e-12))
+      {
+        const std::string where =
+          given_size > 0. ? "Initial size pcb" : "Overconsolidation ratio";
+        if (if_outside == "refuse")
+          throw InputError(parameter(where),
+                           given_size > 0. ? given_size : ocr,
+                           "an initial stress within the yield surface; R = " +
+                             format("%g", R) + at,
+                           "raise it, or set 'Stress outside = raise size'");
+        changed =
+          "the size pcb was raised from " + format("%g", y.pcb) + " to " +
+          format("%g", through) +
+          " Pa: the initial stress was outside the yield surface, R = " +
+          format("%g", R);
+        y.pcb = through;
+        R     = law.ratio(y);
+      }
+    // a = 0 with xi = 0 is the limit that is allowed.
+    const double inside = law.yield_function(y.a, y.beta, y.pcb);
+    if (!(R <= 1. + 1e-9) ||
+        !(inside < 0. || (inside == 0. && y.a.norm() == 0.)))
+      throw InputError(parameter("Initial centre ratio chi"),
+                       chi,
+                       "a similarity centre within the yield surface; fbar(a) "
+                       "= " +
+                         format("%g", inside) + " Pa^2" + at,
+                       "lower chi, or the initial anisotropy");
+    return changed;
+  }
+
+  template std::string
+  Subloading::initial_state<4>(const SubloadingModel<4>::Vector &,
+                               SubloadingState<4> &) const;
+  template std::string
+  Subloading::initial_state<6>(const SubloadingModel<6>::Vector &,
+                               SubloadingState<6> &) const;
+
+  std::string
+  Subloading::initialise(const Stress &stress, double *history) const
+  {
+    SubloadingState<4> state;
+    const std::string  changed = initial_state<4>(
+      Vector4(-stress[0], -stress[1], -stress[2], -sqrt2 * stress[3]), state);
+    store(state, [&](const unsigned int k) -> double & { return history[k]; });
+    return changed;
+  }
+
+  void
+  Subloading::advance(const PointBlock &block, LawCounts &counts) const
+  {
+    counts.updates += block.n_points;
+    for (unsigned int i = 0; i < block.n_points; ++i)
+      {
+        const auto history = [&](const unsigned int k) -> double & {
+          return block.history[k][i];
+        };
+        SubloadingState<4> y =
+          state_of(block.s_xx[i], block.s_yy[i], block.s_xy[i], history);
+
+        // Turned by the Cayley transform of the spin, orthogonal exactly.
+        const double tan_half = (block.l_yx[i] - block.l_xy[i]) / 4.;
+        const double t2       = tan_half * tan_half;
+        const double cosine   = (1. - t2) / (1. + t2);
+        const double sine     = 2. * tan_half / (1. + t2);
+        const double cos2     = cosine * cosine - sine * sine;
+        const double sin2     = 2. * sine * cosine;
+        const auto   turn     = [&](Vector4 &x) {
+          const double mean = (x[0] + x[1]) / 2., half = (x[0] - x[1]) / 2.;
+          const double xy = x[3] / sqrt2;
+          const double h  = cos2 * half - sin2 * xy;
+          x               = Vector4(
+            mean + h, mean - h, x[2], sqrt2 * (sin2 * half + cos2 * xy));
+        };
+        turn(y.stress);
+        turn(y.a);
+        turn(y.beta);
+
+        const Vector4          strain(-block.l_xx[i],
+                             -block.l_yy[i],
+                             0.,
+                             -(block.l_xy[i] + block.l_yx[i]) / sqrt2);
+        const Vector4          before = y.stress;
+        const SubloadingReport report = in_plane.integrate(y, strain);
+        counts.substeps += report.substeps;
+        counts.forced += report.forced;
+        counts.limited += report.limited;
+        counts.most = std::max(counts.most, report.substeps);
+
+        block.work[i] = 0.5 * strain.dot(before + y.stress);
+        block.plastic_strain[i] += report.plastic_strain;
+        block.wave_modulus[i] =
+          in_plane.wave_modulus((y.stress[0] + y.stress[1] + y.stress[2]) / 3.);
+        block.s_xx[i] = -y.stress[0];
+        block.s_yy[i] = -y.stress[1];
+        block.s_xy[i] = -y.stress[3] / sqrt2;
+        store(y, history);
+      }
+  }
+
+  double
+  Subloading::wave_modulus(const Stress &stress, const double *) const
+  {
+    return in_plane.wave_modulus(-(stress[0] + stress[1] + stress[2]) / 3.);
+  }
+
+  SubloadingState<4>
+  Subloading::state(const std::array<double, 3> &stress,
+                    const double                *history) const
+  {
+    return state_of(stress[0], stress[1], stress[2], [&](const unsigned int k) {
+      return history[k];
+    });
+  }
+
+  std::vector<std::string>
+  Subloading::shown_names() const
+  {
+    return {"stress_zz",
+            "mean_pressure",
+            "deviatoric_stress",
+            "subloading_ratio",
+            "structure_ratio",
+            "yield_surface_size",
+            "anisotropy"};
+  }
+
+  void
+  Subloading::show(const std::array<double, 3> &stress,
+                   const double                *history,
+                   double                      *values) const
+  {
+    const SubloadingState<4> y = state(stress, history);
+    const double             p = (y.stress[0] + y.stress[1] + y.stress[2]) / 3.;
+    values[0]                  = -y.stress[2];
+    values[1]                  = p;
+    // sqrt(3/2) ||s|| and the same of beta, a stress ratio q/p.
+    values[2] =
+      std::sqrt(1.5 * std::max(0., y.stress.squaredNorm() - 3. * p * p));
+    values[3] = in_plane.ratio(y);
+    values[4] = y.Rb;
+    values[5] = y.pcb;
+    values[6] = std::sqrt(1.5) * y.beta.norm();
+  }
+} // namespace geocone
