@@ -173,21 +173,20 @@ def draw_points(plot, run, folder, times=None):
                 "largest shear stress in the plane (Pa)", extend="max")
 
 
-def draw_ratio(plot, run, folder, names, file, label, times=None):
-    """Draws a ratio between 0 and 1 that some soils show."""
+def draw_ratio(plot, run, folder, names, file, label, least, times=None):
+    """Draws a ratio, between a least value and one or more, that some soils show."""
     snapshots, view = snapshots_of(plot, run, times)
     values = column(snapshots, *names)
     if values is None or not np.any(np.isfinite(np.concatenate(values))):
         raise plot.Skipped(f"its points have no {names[0]}")
-    everything = np.concatenate(values)
+    most = np.nanquantile(np.concatenate(values), 0.995)
     draw_panels(plot, run, folder / file, snapshots, view, values,
-                Normalize(min(0., np.nanmin(everything)),
-                          max(1., np.nanquantile(everything, 0.995))),
-                label, colors="cividis")
+                Normalize(least, max(1., most) if most > least + 1e-3 else least + 1.),
+                label, colors="cividis", extend="max" if most > 1. else "neither")
 
 
-RATIOS = {"structure.png": (("Rb", "structure_ratio"), "ratio of the structure Rb (-)"),
-          "loading.png": (("R", "loading_ratio"), "ratio of the subloading surface R (-)")}
+RATIOS = {"structure.png": (("structure_ratio", "Rb"), "structure ratio Rb (-)", 1.),
+          "loading.png": (("subloading_ratio", "R"), "subloading ratio R (-)", 0.)}
 
 
 def columns_of(run):
@@ -204,8 +203,8 @@ def pictures(plot, run, times=None):
     found = {"energy.png": functools.partial(draw_energy, plot),
              "runout.png": functools.partial(draw_runout, plot),
              "points.png": functools.partial(draw_points, plot, times=times)}
-    for file, (names, label) in RATIOS.items():
+    for file, (names, label, least) in RATIOS.items():
         if columns_of(run) & set(names):
             found[file] = functools.partial(draw_ratio, plot, names=names, file=file,
-                                            label=label, times=times)
+                                            label=label, least=least, times=times)
     return found
