@@ -14,6 +14,7 @@
 
 #include "cone_tests.h"
 
+using namespace cone_tests;
 using namespace geocone;
 
 /** The same law, which does not tell that it has a cone. */
