@@ -94,6 +94,7 @@ namespace geocone
     largest_impulse =
       std::max({largest_impulse,
                 b.impulse.norm(),
+                s.mass * scene->gravity.at(1e300).norm() * record.time,
                 std::sqrt(2. * s.mass * std::max(s.kinetic, initial.kinetic))});
     if (!writes)
       return;
@@ -283,12 +284,15 @@ namespace geocone
               initial.kinetic;
             summary["energy"]["drift_max_to_initial"] = drift / initial.kinetic;
           }
+        // What a turning body of this size and energy would have.
+        const double turning = std::sqrt(2. * initial.mass * initial.kinetic) *
+                               (initial.lower.norm() + initial.upper.norm());
         summary["momentum"] = {
           {"x_N_s_per_m", s.momentum[0]},
           {"y_N_s_per_m", s.momentum[1]},
           {"angular_N_m_s_per_m", s.angular_momentum},
           {"angular_change_relative",
-           initial.angular_momentum != 0.
+           std::abs(initial.angular_momentum) > 1e-9 * turning
              ? Json(s.angular_momentum / initial.angular_momentum - 1.)
              : Json()},
           {"residual_max_relative",

@@ -89,7 +89,7 @@ namespace geocone
           {"Largest kinetic energy", largest_kinetic_energy},
           {"Removal duration", removal_duration}})
       if (value != 0.)
-        refuse(entry, std::to_string(value), "0");
+        refuse(entry, dealii::Patterns::Tools::to_string(value), "0");
     for (const auto &[entry, value] :
          {std::pair<const char *, bool>("Kinetic damping", kinetic_damping),
           {"Reset velocity", reset_velocity},

@@ -1012,7 +1012,9 @@ namespace geocone
         for (unsigned int p = 0; p < group.n_points() && obstacle.empty(); ++p)
           if (!(group[Field::volume][p] > 0.) && group[Field::mass][p] > 0.)
             obstacle = format("the volume of point %u at (%g, %g) has become "
-                              "zero or negative",
+                              "zero or negative\n"
+                              "  remedy:  take a smaller 'Explicit/Courant "
+                              "number' or 'Explicit/Time step', or splines",
                               group.id[p],
                               group[Field::x][p],
                               group[Field::y][p]);
@@ -1094,11 +1096,12 @@ namespace geocone
             dt = fixed_step;
             if (dt > stability_limit() && !allow_unstable)
               throw StepFailure(
-                format("the step of %g s is longer than the %.3g s in which an "
-                       "elastic wave now crosses a cell, at t = %g s",
-                       dt,
-                       stability_limit(),
-                       now) +
+                format(
+                  "the step of %.6g s is longer than the %.6g s in which an "
+                  "elastic wave now crosses a cell, at t = %g s",
+                  dt,
+                  stability_limit(),
+                  now) +
                 "\n  remedy:  take a smaller 'Explicit/Time step', or 0 for "
                 "the largest stable one");
           }
@@ -1163,7 +1166,7 @@ namespace geocone
   ExplicitState
   ExplicitMPM::state() const
   {
-    ExplicitState        s;
+    ExplicitState s;
     // Of the whole gravity, also while it grows.
     const Tensor<1, dim> g         = scene->gravity.at(1e300);
     double               bounds[4] = {1e300, 1e300, 1e300, 1e300};
