@@ -158,6 +158,13 @@ namespace geocone
             const double        inverse_size,
             double             *weights)
     {
+      // Of hats the quotient is the derivative, without its rounding near nodes.
+      if (p == 1)
+        {
+          weights[0] = functions.dN[0];
+          weights[1] = functions.dN[1];
+          return;
+        }
       double second = 0.;
       for (int i = 0; i <= p; ++i)
         {
