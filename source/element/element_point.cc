@@ -166,26 +166,44 @@ namespace geocone
       Tensor6
       try_strain(const Tensor6 &strain) override
       {
-        trial = now;
-        std::vector<double *> history(trial.history.size());
-        for (std::size_t k = 0; k < history.size(); ++k)
-          history[k] = &trial.history[k];
-        double     work;
-        PointBlock block;
-        block.n_points       = 1;
-        block.l_xx           = &strain[0];
-        block.l_xy           = &strain[3];
-        block.l_yx           = &strain[3];
-        block.l_yy           = &strain[1];
-        block.s_xx           = &trial.stress[0];
-        block.s_yy           = &trial.stress[1];
-        block.s_xy           = &trial.stress[2];
-        block.history        = history.data();
-        block.plastic_strain = &trial.plastic_strain;
-        block.work           = &work;
-        block.wave_modulus   = &trial.wave;
-        trial_counts         = {};
-        law.advance(block, trial_counts);
+        // Kernels may take as many points as a vector has lanes.
+        using Lanes      = std::array<double, PointBlock::lanes>;
+        const auto lanes = [](const double value) {
+          Lanes all;
+          all.fill(value);
+          return all;
+        };
+        trial          = now;
+        const Lanes xx = lanes(strain[0]), yy = lanes(strain[1]),
+                    xy = lanes(strain[3]);
+        Lanes s_xx = lanes(now.stress[0]), s_yy = lanes(now.stress[1]),
+              s_xy    = lanes(now.stress[2]), work, wave,
+              plastic = lanes(now.plastic_strain);
+        std::vector<Lanes>    values;
+        std::vector<double *> history;
+        for (const double h : now.history)
+          values.push_back(lanes(h));
+        for (Lanes &h : values)
+          history.push_back(h.data());
+        trial_counts = {};
+        law.advance({1,
+                     xx.data(),
+                     xy.data(),
+                     xy.data(),
+                     yy.data(),
+                     s_xx.data(),
+                     s_yy.data(),
+                     s_xy.data(),
+                     history.data(),
+                     plastic.data(),
+                     work.data(),
+                     wave.data()},
+                    trial_counts);
+        trial.stress = {{s_xx[0], s_yy[0], s_xy[0]}};
+        for (std::size_t k = 0; k < values.size(); ++k)
+          trial.history[k] = values[k][0];
+        trial.plastic_strain = plastic[0];
+        trial.wave           = wave[0];
         return stress_of(trial);
       }
 

@@ -79,7 +79,7 @@ compare(const char *name, const double phi, const double theta, const double c)
   const auto   random = [&](const double size) {
     return size * (2. * (engine() + 0.5) / 4294967296. - 1.);
   };
-  double       difference = 0., work = 0., plastic = 0.;
+  Largest      difference, work, plastic;
   unsigned int n_elastic = 0, n_apex = 0;
   for (unsigned int round = 0; round < 50; ++round)
     {
@@ -97,16 +97,15 @@ compare(const char *name, const double phi, const double theta, const double c)
       veiled.advance(b.block(), counts);
       for (unsigned int p = 0; p < n; ++p)
         {
-          difference = std::max({difference,
-                                 std::abs(a.s_xx[p] - b.s_xx[p]) / 1e4,
-                                 std::abs(a.s_yy[p] - b.s_yy[p]) / 1e4,
-                                 std::abs(a.s_xy[p] - b.s_xy[p]) / 1e4});
-          work       = std::max(work, std::abs(a.work[p] - b.work[p]) / 1e3);
-          plastic = std::max(plastic, std::abs(a.plastic[p] - b.plastic[p]));
+          difference.add(std::abs(a.s_xx[p] - b.s_xx[p]) / 1e4);
+          difference.add(std::abs(a.s_yy[p] - b.s_yy[p]) / 1e4);
+          difference.add(std::abs(a.s_xy[p] - b.s_xy[p]) / 1e4);
+          work.add(std::abs(a.work[p] - b.work[p]) / 1e3);
+          plastic.add(std::abs(a.plastic[p] - b.plastic[p]));
           n_elastic += a.plastic[p] == 0.;
-          n_apex += a.plastic[p] > 0. && std::abs(a.s_xx[p] - a.s_yy[p]) +
-                                             std::abs(a.s_xy[p]) <
-                                           1e-8;
+          n_apex +=
+            a.plastic[p] > 0. &&
+            std::abs(a.s_xx[p] - a.s_yy[p]) + std::abs(a.s_xy[p]) < 1e-8;
         }
     }
   std::cout << name << std::endl;
