@@ -340,19 +340,15 @@ namespace geocone
                 }
           }
         // Direction by direction: at a side of the mesh only the functions of the
-        // side are left, and across it the limit is the gradient. Of hats it is
-        // the gradient anyhow, without its rounding near nodes.
+        // side are left, and across it the limit is the gradient.
         Tensor<2, dim> C;
-        if (space.degree() == 1)
-          C = gradient;
-        else
-          for (const auto &[second_moment, e] :
-               eigenvectors(SymmetricTensor<2, dim>(symmetrize(D))))
-            C += outer_product(second_moment >
-                                   1e-10 * smallest_cell * smallest_cell
-                                 ? Tensor<1, dim>(B * e / second_moment)
-                                 : Tensor<1, dim>(gradient * e),
-                               e);
+        for (const auto &[second_moment, e] :
+             eigenvectors(SymmetricTensor<2, dim>(symmetrize(D))))
+          C +=
+            outer_product(second_moment > 1e-10 * smallest_cell * smallest_cell
+                            ? Tensor<1, dim>(B * e / second_moment)
+                            : Tensor<1, dim>(gradient * e),
+                          e);
         points.c_xx[k] = C[0][0];
         points.c_xy[k] = C[0][1];
         points.c_yx[k] = C[1][0];

@@ -184,6 +184,13 @@ namespace geocone
         seed_points(seeding.make(*scene, mesh), remarks);
       }
 
+    if (affine && space.degree() == 1)
+      throw InputError("Explicit/Transfer",
+                       transfer_name,
+                       "FLIP where the element is Q1",
+                       "take splines for APIC: with Q1 the noise of nodes with "
+                       "little mass grows from step to step");
+
     support_impulse.resize(scene->dirichlet.list.size());
     for (const auto &condition : scene->dirichlet.list)
       for (unsigned int d = 0; d < dim; ++d)

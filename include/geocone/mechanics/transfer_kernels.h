@@ -109,7 +109,8 @@ namespace geocone
      * The affine velocity of APIC: per direction d the column
      *   C_d = sum_i v_i N_i (x_i - x)_d / sum_i N_i (x_i - x)_d^2,
      * for a tensor product the usual B D^{-1}; the gradient where the sum
-     * vanishes, as it does at the ends of the grid.
+     * vanishes, as it does at the ends of the grid. Not for degree 1, where C is
+     * the gradient and noise of nodes with little mass grows from step to step.
      */
     void (*gather_affine[4])(const GridView &,
                              const BlockPoints &,

@@ -158,13 +158,6 @@ namespace geocone
             const double        inverse_size,
             double             *weights)
     {
-      // Of hats the quotient is the derivative, without its rounding near nodes.
-      if (p == 1)
-        {
-          weights[0] = functions.dN[0];
-          weights[1] = functions.dN[1];
-          return;
-        }
       double second = 0.;
       for (int i = 0; i <= p; ++i)
         {
@@ -421,7 +414,7 @@ namespace geocone
              &Loops::template gather_values<2>,
              &Loops::template gather_values<3>},
             {nullptr,
-             &Loops::template gather_affine<1>,
+             nullptr,
              &Loops::template gather_affine<2>,
              &Loops::template gather_affine<3>},
             {nullptr,
@@ -433,7 +426,7 @@ namespace geocone
              &Loops::template scatter_values<2>,
              &Loops::template scatter_values<3>},
             {nullptr,
-             &Loops::template scatter_affine<1>,
+             nullptr,
              &Loops::template scatter_affine<2>,
              &Loops::template scatter_affine<3>},
             &Loops::update_points,
