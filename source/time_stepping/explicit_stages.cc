@@ -1,0 +1,302 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// What stages of the explicit material point method do beyond stepping: resets,
+// cuts, kinetic damping, and the equilibrium that they must end in.
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/time_stepping/explicit_mpm.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Field = PointArrays::Field;
+  }
+
+  std::vector<std::string>
+  ExplicitMPM::begin_stage(const Stage &stage, const double t)
+  {
+    std::vector<std::string> remarks;
+    if (stage.reset_displacement)
+      for (PointArrays &group : groups)
+        {
+          std::copy_n(group[Field::x], group.n_padded(), group[Field::x_start]);
+          std::copy_n(group[Field::y], group.n_padded(), group[Field::y_start]);
+          std::fill_n(group[Field::plastic_strain], group.n_padded(), 0.);
+        }
+    if (stage.reset_velocity)
+      {
+        for (PointArrays &group : groups)
+          {
+            for (unsigned int p = 0; p < group.n_points(); ++p)
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  const double v = group[Field::vx + d][p];
+                  sum.stopped_energy += group[Field::mass][p] * v * v / 2.;
+                  sum.impulse[d] -= group[Field::mass][p] * v;
+                }
+            std::fill_n(group[Field::vx], group.n_padded(), 0.);
+            std::fill_n(group[Field::vy], group.n_padded(), 0.);
+            if (affine)
+              for (unsigned int i = 0; i < dim * dim; ++i)
+                std::fill_n(
+                  group[group.first_affine() + i], group.n_padded(), 0.);
+          }
+        sums.speed2  = 0.;
+        must_refresh = true;
+      }
+    if (stage.reset_history)
+      {
+        unsigned long n_changed = 0;
+        std::string   change, refusal;
+        for (PointArrays &group : groups)
+          {
+            const ConstitutiveLaw &law = scene->materials.law(group.material);
+            const unsigned int     n   = group.n_history;
+            std::vector<double>    values(n);
+            for (unsigned int p = 0; p < group.n_points() && n > 0; ++p)
+              {
+                for (unsigned int k = 0; k < n; ++k)
+                  values[k] = group[group.first_history() + k][p];
+                try
+                  {
+                    const std::string remark =
+                      law.initialise(stress_of(group, p), values.data());
+                    if (!remark.empty() && n_changed++ == 0)
+                      change = remark;
+                  }
+                catch (const InputError &error)
+                  {
+                    if (refusal.empty())
+                      refusal = std::string(error.what()) +
+                                format("\n  at:      the point (%g, %g)",
+                                       group[Field::x][p],
+                                       group[Field::y][p]);
+                  }
+                for (unsigned int k = 0; k < n; ++k)
+                  group[group.first_history() + k][p] = values[k];
+              }
+            group.pad();
+          }
+        refusal = text_of_any_rank(comm, refusal);
+        if (!refusal.empty())
+          throw StepFailure(refusal);
+        change    = text_of_any_rank(comm, change);
+        n_changed = Utilities::MPI::sum(n_changed, comm);
+        if (n_changed > 0)
+          remarks.push_back(format("%lu points: ", n_changed) + change);
+      }
+    if (!stage.removed_polygon.empty())
+      remarks.push_back(remove_polygon(stage, t));
+    energy_n    = 0.;
+    rising      = false;
+    stage_start = balance();
+    return remarks;
+  }
+
+  std::string
+  ExplicitMPM::remove_polygon(const Stage &stage, const double t)
+  {
+    if (fade_end > 0.)
+      end_removal(); // of an earlier stage, up to rounding
+    unsigned long n_removed = 0, n_all = 0;
+    for (const PointArrays &group : groups)
+      for (unsigned int p = 0; p < group.n_points(); ++p)
+        {
+          ++n_all;
+          n_removed += contains(stage.removed_polygon, group.position(p));
+        }
+    n_removed = Utilities::MPI::sum(n_removed, comm);
+    n_all     = Utilities::MPI::sum(n_all, comm);
+    if (n_removed == 0 || n_removed == n_all)
+      throw StepFailure("'Loading/" + stage.name + "/Removed polygon' holds " +
+                        (n_removed == 0 ? "no point" : "all points") +
+                        " of the body\n  allowed: a part of it\n"
+                        "  remedy:  compare its vertices with where the points "
+                        "are now");
+
+    double                   removed_mass = 0.;
+    Tensor<1, dim>           momentum;
+    const bool               at_once = stage.removal_duration == 0.;
+    std::vector<PointArrays> fading;
+    for (PointArrays &group : groups)
+      {
+        std::vector<unsigned int> staying;
+        fading.emplace_back(group.material, group.n_history, affine);
+        fading.back().fading = true;
+        std::vector<double> values(group.n_fields());
+        for (unsigned int p = 0; p < group.n_points(); ++p)
+          {
+            if (!contains(stage.removed_polygon, group.position(p)))
+              {
+                staying.push_back(p);
+                continue;
+              }
+            removed_mass += group[Field::mass][p];
+            for (unsigned int d = 0; d < dim; ++d)
+              momentum[d] += group[Field::mass][p] * group[Field::vx + d][p];
+            if (at_once)
+              take_away(group, p);
+            else
+              {
+                for (unsigned int field = 0; field < values.size(); ++field)
+                  values[field] = group[field][p];
+                fading.back().append(values.data(), group.id[p]);
+              }
+          }
+        if (staying.size() < group.n_points())
+          group.reorder(staying);
+      }
+    removed_mass = Utilities::MPI::sum(removed_mass, comm);
+    momentum     = Utilities::MPI::sum(momentum, comm);
+    if (!at_once)
+      {
+        for (PointArrays &group : fading)
+          {
+            group.pad();
+            groups.push_back(group);
+          }
+        fade_end = t + stage.removal_duration;
+      }
+    must_refresh = true;
+    return format(
+      "removed %lu of %lu points%s: %.6g kg/m, momentum (%.3g, "
+      "%.3g) N s/m",
+      n_removed,
+      n_all,
+      at_once ? "" : format(" within %g s", stage.removal_duration).c_str(),
+      removed_mass,
+      momentum[0],
+      momentum[1]);
+  }
+
+  void
+  ExplicitMPM::take_away(PointArrays &group, const unsigned int p)
+  {
+    const double m = group[Field::mass][p];
+    sum.removed_mass += m;
+    for (unsigned int d = 0; d < dim; ++d)
+      sum.removed_momentum[d] += m * group[Field::vx + d][p];
+    sum.removed_energy += kinetic_energy(group, p);
+    sum.removed_potential -=
+      m * (scene->gravity.at(1e300) * (group.position(p) - datum));
+    group[Field::mass][p]   = 0.;
+    group[Field::volume][p] = 0.;
+  }
+
+  void
+  ExplicitMPM::fade_points(const BlockPoints &points)
+  {
+    PointArrays &group = groups[points.group];
+    for (unsigned int k = 0; k < points.n; ++k)
+      {
+        // The cross-section that is left shrinks; what goes is counted.
+        const unsigned int p = points.first + k;
+        const double       m = group[Field::mass][p];
+        sum.removed_energy += (1. - fade) * kinetic_energy(group, p);
+        sum.removed_potential -=
+          (1. - fade) * m *
+          (scene->gravity.at(1e300) * (group.position(p) - datum));
+        sum.removed_mass += (1. - fade) * m;
+        for (unsigned int d = 0; d < dim; ++d)
+          sum.removed_momentum[d] += (1. - fade) * m * group[Field::vx + d][p];
+        group[Field::mass][p] *= fade;
+        group[Field::volume][p] *= fade;
+      }
+  }
+
+  void
+  ExplicitMPM::stop_at_peak()
+  {
+    double energy = 0.;
+    for (const PointArrays &group : groups)
+      for (unsigned int p = 0; p < group.n_points(); ++p)
+        {
+          const double vx = group[Field::vx][p], vy = group[Field::vy][p];
+          energy += group[Field::mass][p] * (vx * vx + vy * vy) / 2.;
+        }
+    energy = Utilities::MPI::sum(energy, comm);
+    if (rising && energy < energy_n)
+      {
+        for (PointArrays &group : groups)
+          {
+            for (unsigned int p = 0; p < group.n_points(); ++p)
+              for (unsigned int d = 0; d < dim; ++d)
+                sum.impulse[d] -=
+                  group[Field::mass][p] * group[Field::vx + d][p];
+            std::fill_n(group[Field::vx], group.n_padded(), 0.);
+            std::fill_n(group[Field::vy], group.n_padded(), 0.);
+            if (affine)
+              for (unsigned int i = 0; i < dim * dim; ++i)
+                std::fill_n(
+                  group[group.first_affine() + i], group.n_padded(), 0.);
+          }
+        if (Utilities::MPI::this_mpi_process(comm) == 0)
+          sum.stopped_energy += energy;
+        must_refresh = true;
+        energy       = 0.;
+      }
+    rising   = energy > energy_n;
+    energy_n = energy;
+  }
+
+  void
+  ExplicitMPM::end_removal()
+  {
+    // What rounding has left of the points goes with them.
+    for (PointArrays &group : groups)
+      if (group.fading)
+        for (unsigned int p = 0; p < group.n_points(); ++p)
+          take_away(group, p);
+    std::vector<PointArrays> staying;
+    for (PointArrays &group : groups)
+      if (!group.fading)
+        staying.push_back(std::move(group));
+    groups.swap(staying);
+    fade_end     = 0.;
+    must_refresh = true;
+  }
+
+  void
+  ExplicitMPM::check_equilibrium(const Stage          &stage,
+                                 const ExplicitState  &state,
+                                 const ExplicitReport &report) const
+  {
+    const std::string section = "'Loading/" + stage.name + "/";
+    const double      weight  = state.mass * gravity.norm();
+    // Of this stage; not less than a thousandth of what the weight would do over
+    // a cell, for a stage that starts at rest does next to nothing.
+    const double work =
+      std::max(std::abs(balance().stress_work - stage_start.stress_work),
+               1e-3 * weight * transfer->cell_size());
+    if (stage.largest_unbalanced_force > 0. &&
+        !(report.unbalanced_force <= stage.largest_unbalanced_force * weight))
+      throw StepFailure(
+        format("the stage '%s' has not ended in equilibrium: the largest "
+               "unbalanced force is %.3g of the weight, not %.3g",
+               stage.name.c_str(),
+               report.unbalanced_force / weight,
+               stage.largest_unbalanced_force) +
+        "\n  remedy:  give it more time or damping, or check whether the "
+        "body can stand; the limit is " +
+        section + "Largest unbalanced force'");
+    if (stage.largest_kinetic_energy > 0. &&
+        !(state.kinetic <= stage.largest_kinetic_energy * work))
+      throw StepFailure(
+        format("the stage '%s' has not ended in equilibrium: the kinetic "
+               "energy is %.3g of the stress work, not %.3g",
+               stage.name.c_str(),
+               work > 0. ? state.kinetic / work : 0.,
+               stage.largest_kinetic_energy) +
+        "\n  remedy:  give it more time or damping, or check whether the "
+        "body can stand; the limit is " +
+        section + "Largest kinetic energy'");
+  }
+} // namespace geocone

@@ -1,0 +1,200 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// What the explicit material point method tells of its points: sums and extremes
+// of all ranks.
+#include <geocone/time_stepping/explicit_mpm.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Field = PointArrays::Field;
+  }
+
+  ConstitutiveLaw::Stress
+  ExplicitMPM::stress_of(const PointArrays &group, const unsigned int p) const
+  {
+    // The first history variable of a law that has some is s_zz.
+    return {{group[Field::s_xx][p],
+             group[Field::s_yy][p],
+             group.n_history > 0 ? group[group.first_history()][p] : 0.,
+             group[Field::s_xy][p]}};
+  }
+
+  double
+  ExplicitMPM::kinetic_energy(const PointArrays &group,
+                              const unsigned int p) const
+  {
+    const double vx = group[Field::vx][p], vy = group[Field::vy][p];
+    return group[Field::mass][p] * (vx * vx + vy * vy) / 2.;
+  }
+
+  double
+  ExplicitMPM::current_mass() const
+  {
+    double mass = 0.;
+    for (const PointArrays &group : groups)
+      for (unsigned int p = 0; p < group.n_points(); ++p)
+        mass += group[Field::mass][p];
+    return mass;
+  }
+
+  ExplicitState
+  ExplicitMPM::state() const
+  {
+    ExplicitState s;
+    // Of the whole gravity, also while it grows.
+    const Tensor<1, dim> g         = scene->gravity.at(1e300);
+    double               bounds[4] = {1e300, 1e300, 1e300, 1e300};
+    double               fastest   = -1.;
+    for (const PointArrays &group : groups)
+      {
+        const ConstitutiveLaw &law = scene->materials.law(group.material);
+        std::vector<double>    values(group.n_history);
+        for (unsigned int p = 0; p < group.n_points(); ++p)
+          {
+            const double     m = group[Field::mass][p];
+            const Point<dim> x = group.position(p);
+            if (!(m > 0.))
+              continue; // it has left
+            ++s.n_points;
+            Tensor<1, dim> v;
+            v[0] = group[Field::vx][p];
+            v[1] = group[Field::vy][p];
+            s.mass += m;
+            s.volume += group[Field::volume][p];
+            s.kinetic += m * v.norm_square() / 2.;
+            s.potential -= m * (g * (x - datum));
+            s.momentum += m * v;
+            s.angular_momentum += m * (x[0] * v[1] - x[1] * v[0]);
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                bounds[d]       = std::min(bounds[d], x[d]);
+                bounds[dim + d] = std::min(bounds[dim + d], -x[d]);
+              }
+            s.largest_speed          = std::max(s.largest_speed, v.norm());
+            s.largest_plastic_strain = std::max(
+              s.largest_plastic_strain, group[Field::plastic_strain][p]);
+            for (unsigned int k = 0; k < group.n_history; ++k)
+              values[k] = group[group.first_history() + k][p];
+            const double c2 =
+              law.wave_modulus(stress_of(group, p), values.data()) *
+              group[Field::volume][p] / m;
+            if (c2 > fastest)
+              {
+                fastest          = c2;
+                s.limiting_id    = group.id[p];
+                s.limiting_place = x;
+              }
+          }
+      }
+    s.n_points         = Utilities::MPI::sum(s.n_points, comm);
+    s.mass             = Utilities::MPI::sum(s.mass, comm);
+    s.volume           = Utilities::MPI::sum(s.volume, comm);
+    s.kinetic          = Utilities::MPI::sum(s.kinetic, comm);
+    s.potential        = Utilities::MPI::sum(s.potential, comm);
+    s.momentum         = Utilities::MPI::sum(s.momentum, comm);
+    s.angular_momentum = Utilities::MPI::sum(s.angular_momentum, comm);
+    s.largest_speed    = Utilities::MPI::max(s.largest_speed, comm);
+    s.largest_plastic_strain =
+      Utilities::MPI::max(s.largest_plastic_strain, comm);
+    Utilities::MPI::min(bounds, comm, bounds);
+    s.lower = {bounds[0], bounds[1]};
+    s.upper = {-bounds[2], -bounds[3]};
+
+    const auto where =
+      Utilities::MPI::all_gather(comm,
+                                 std::array<double, 4>{{fastest,
+                                                        double(s.limiting_id),
+                                                        s.limiting_place[0],
+                                                        s.limiting_place[1]}});
+    for (const auto &w : where)
+      if (w[0] >= fastest)
+        {
+          fastest          = w[0];
+          s.limiting_id    = static_cast<unsigned int>(w[1]);
+          s.limiting_place = {w[2], w[3]};
+        }
+    s.limiting_wave_speed = std::sqrt(std::max(fastest, 0.));
+
+    s.left_front  = mass_quantile(0.01 * s.mass, s.lower[0], s.upper[0]);
+    s.right_front = mass_quantile(0.99 * s.mass, s.lower[0], s.upper[0]);
+    return s;
+  }
+
+  double
+  ExplicitMPM::mass_quantile(const double wanted,
+                             double       left,
+                             double       right) const
+  {
+    // The mass in equal parts of the range, and again in the part that matters.
+    double before = 0.;
+    for (unsigned int round = 0; round < 2 && right > left; ++round)
+      {
+        std::vector<double> part(1000, 0.);
+        const double        per_width = part.size() / (right - left);
+        for (const PointArrays &group : groups)
+          for (unsigned int p = 0; p < group.n_points(); ++p)
+            {
+              const double place = (group[Field::x][p] - left) * per_width;
+              if (place >= 0. && place <= part.size())
+                part[std::min<std::size_t>(place, part.size() - 1)] +=
+                  group[Field::mass][p];
+            }
+        Utilities::MPI::sum(part, comm, part);
+        std::size_t i = 0;
+        while (i + 1 < part.size() && before + part[i] < wanted)
+          before += part[i++];
+        left += i / per_width;
+        right = left + 1. / per_width;
+      }
+    return right;
+  }
+
+  Balance
+  ExplicitMPM::balance() const
+  {
+    Balance all           = sum;
+    all.stress_work       = Utilities::MPI::sum(sum.stress_work, comm);
+    all.gravity_work      = Utilities::MPI::sum(sum.gravity_work, comm);
+    all.damping_work      = Utilities::MPI::sum(sum.damping_work, comm);
+    all.support_work      = Utilities::MPI::sum(sum.support_work, comm);
+    all.impulse           = Utilities::MPI::sum(sum.impulse, comm);
+    all.removed_mass      = Utilities::MPI::sum(sum.removed_mass, comm);
+    all.removed_momentum  = Utilities::MPI::sum(sum.removed_momentum, comm);
+    all.removed_energy    = Utilities::MPI::sum(sum.removed_energy, comm);
+    all.removed_potential = Utilities::MPI::sum(sum.removed_potential, comm);
+    all.stopped_energy    = Utilities::MPI::sum(sum.stopped_energy, comm);
+    all.small_masses      = Utilities::MPI::sum(sum.small_masses, comm);
+    return all;
+  }
+
+  LawCounts
+  ExplicitMPM::law_counts() const
+  {
+    LawCounts all = counts;
+    all.updates   = Utilities::MPI::sum(counts.updates, comm);
+    all.substeps  = Utilities::MPI::sum(counts.substeps, comm);
+    all.forced    = Utilities::MPI::sum(counts.forced, comm);
+    all.limited   = Utilities::MPI::sum(counts.limited, comm);
+    all.most      = Utilities::MPI::max(counts.most, comm);
+    return all;
+  }
+
+  std::size_t
+  ExplicitMPM::memory() const
+  {
+    std::size_t bytes = transfer->memory();
+    for (const PointArrays &group : groups)
+      bytes += group.memory();
+    return bytes;
+  }
+} // namespace geocone
