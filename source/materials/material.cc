@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/materials/cone_kernel.h>
 #include <geocone/materials/material.h>
+#include <geocone/materials/spin.h>
 
 #include <array>
 
@@ -53,17 +54,9 @@ namespace geocone
     const unsigned int       n = block.n_points;
     for (unsigned int p = 0; p < n; ++p)
       {
-        // Turned by the Cayley transform of the spin, orthogonal exactly.
-        const double tan_half = (block.l_yx[p] - block.l_xy[p]) / 4.;
-        const double t2       = tan_half * tan_half;
-        const double c        = (1. - t2) / (1. + t2);
-        const double s        = 2. * tan_half / (1. + t2);
-        const double cos2 = c * c - s * s, sin2 = 2. * s * c;
-        const double mean = (block.s_xx[p] + block.s_yy[p]) / 2.;
-        const double half = (block.s_xx[p] - block.s_yy[p]) / 2.;
-        const double xy   = block.s_xy[p];
-        const double h    = cos2 * half - sin2 * xy;
-        stress_n[p] = {mean + h, mean - h, sqrt2 * (sin2 * half + cos2 * xy)};
+        double xx = block.s_xx[p], yy = block.s_yy[p], xy = block.s_xy[p];
+        Spin(block.l_xy[p], block.l_yx[p]).turn(xx, yy, xy);
+        stress_n[p] = {xx, yy, sqrt2 * xy};
         strain[p]   = {block.l_xx[p],
                        block.l_yy[p],
                        (block.l_xy[p] + block.l_yx[p]) / sqrt2};

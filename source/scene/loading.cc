@@ -250,6 +250,22 @@ namespace geocone
     return v;
   }
 
+  dealii::Tensor<2, dim>
+  InitialVelocity::gradient(const dealii::Point<dim> &x,
+                            const double              size) const
+  {
+    dealii::Tensor<2, dim> gradient;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        dealii::Tensor<1, dim> r;
+        r[d]                                = 1e-4 * size;
+        const dealii::Tensor<1, dim> change = at(x + r) - at(x - r);
+        for (unsigned int c = 0; c < dim; ++c)
+          gradient[c][d] = change[c] / (2. * r[d]);
+      }
+    return gradient;
+  }
+
   bool
   InitialVelocity::is_given() const
   {
@@ -316,11 +332,8 @@ namespace geocone
                            "region polygons");
         check_level_ground(geometry);
       }
-    else if (type != "zero")
-      throw InputError("Initial stress/Type",
-                       type,
-                       "zero | given | geostatic",
-                       "choose one of them");
+    else
+      check_choice("Initial stress/Type", type, {"zero", "given", "geostatic"});
   }
 
   void

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
 namespace geocone
 {
@@ -97,17 +96,8 @@ namespace geocone
   ExplicitMPM::check_parameters() const
   {
     const std::string section = "Explicit/";
-    const auto        choose  = [&](const std::string              &entry,
-                            const std::string              &value,
-                            const std::vector<std::string> &choices) {
-      std::string allowed;
-      for (const std::string &choice : choices)
-        allowed += (allowed.empty() ? "" : " | ") + choice;
-      if (std::find(choices.begin(), choices.end(), value) == choices.end())
-        throw InputError(section + entry, value, allowed, "choose one of them");
-    };
-    choose("Order", order_name, {"MUSL", "USL", "USF"});
-    choose("Transfer", transfer_name, {"FLIP", "APIC"});
+    check_choice(section + "Order", order_name, {"MUSL", "USL", "USF"});
+    check_choice(section + "Transfer", transfer_name, {"FLIP", "APIC"});
     if (transfer_name == "APIC" && flip_part != 1.)
       throw InputError(section + "FLIP part",
                        flip_part,
@@ -178,9 +168,8 @@ namespace geocone
       {
         mesh.prepare(*scene, method);
         space.prepare(mesh, method);
-        transfer =
-          std::make_unique<MeshTransfer>(mesh, space, scene->dirichlet);
-        datum = mesh.lower_corner();
+        transfer = std::make_unique<MeshTransfer>(*scene, mesh, space);
+        datum    = mesh.lower_corner();
         seed_points(seeding.make(*scene, mesh), remarks);
       }
 
@@ -191,22 +180,8 @@ namespace geocone
                        "take splines for APIC: with Q1 the noise of nodes with "
                        "little mass grows from step to step");
 
-    support_impulse.resize(scene->dirichlet.list.size());
-    for (const auto &condition : scene->dirichlet.list)
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          // Formulas are slow: numbers are read once.
-          double value = std::numeric_limits<double>::quiet_NaN();
-          if (condition->components[d])
-            try
-              {
-                value = Utilities::string_to_double(condition->formula(d));
-              }
-            catch (const ExceptionBase &)
-              {}
-          constant_value.push_back(value);
-        }
-
+    nodes = std::make_unique<NodalUpdate>(
+      *transfer, scene->dirichlet, flip_part, least_mass, sum);
     refresh();
     if (fixed_step > stability_limit() && !allow_unstable)
       throw InputError("Explicit/Time step",
@@ -216,99 +191,6 @@ namespace geocone
                        "take a smaller step, or 0 for the largest stable one; "
                        "'Explicit/Allow unstable step' = true forces it");
     return remarks;
-  }
-
-  void
-  ExplicitMPM::seed_points(const std::vector<Seed>  &seeds,
-                           std::vector<std::string> &remarks)
-  {
-    for (unsigned int m = 0; m < scene->materials.size(); ++m)
-      groups.emplace_back(m, scene->materials.law(m).n_history(), affine);
-    unsigned int       first = 0;
-    const unsigned int n     = seeds.size();
-    MPI_Exscan(&n, &first, 1, MPI_UNSIGNED, MPI_SUM, comm);
-    unsigned long n_changed = 0;
-    std::string   change, refusal;
-    double        largest_mass = 0.;
-    for (unsigned int i = 0; i < n; ++i)
-      {
-        const Seed            &seed  = seeds[i];
-        PointArrays           &group = groups[seed.material];
-        const ConstitutiveLaw &law   = scene->materials.law(seed.material);
-        std::vector<double>    values(group.n_fields(), 0.);
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            values[Field::x + d]       = seed.position[d];
-            values[Field::x_start + d] = seed.position[d];
-            values[Field::vx + d]      = seed.velocity[d];
-          }
-        values[Field::s_xx]   = seed.stress[0];
-        values[Field::s_yy]   = seed.stress[1];
-        values[Field::s_xy]   = seed.stress[2] / sqrt2;
-        values[Field::volume] = seed.volume;
-        values[Field::mass]   = seed.volume * law.density();
-        largest_mass          = std::max(largest_mass, values[Field::mass]);
-        const ConstitutiveLaw::Stress stress = {{seed.stress[0],
-                                                 seed.stress[1],
-                                                 seed.stress_zz,
-                                                 seed.stress[2] / sqrt2}};
-        for (unsigned int k = 0; k < group.first_history(); ++k)
-          if (!std::isfinite(values[k]) && refusal.empty())
-            refusal = format("the initial stress or velocity at (%g, %g) is "
-                             "not a finite number\n  remedy:  check the "
-                             "formulas in 'Initial stress' and 'Initial "
-                             "velocity'",
-                             seed.position[0],
-                             seed.position[1]);
-        if (!refusal.empty())
-          break;
-        try
-          {
-            const std::string remark =
-              law.initialise(stress, &values[group.first_history()]);
-            if (!remark.empty() && n_changed++ == 0)
-              change = remark;
-          }
-        catch (const InputError &error)
-          {
-            if (refusal.empty())
-              refusal = std::string(error.what()) +
-                        format("\n  at:      the point (%g, %g)",
-                               seed.position[0],
-                               seed.position[1]);
-          }
-        sums.wave_speed2 =
-          std::max(sums.wave_speed2,
-                   law.wave_modulus(stress, &values[group.first_history()]) /
-                     law.density());
-        sums.speed2 = std::max(sums.speed2, seed.velocity.norm_square());
-        if (affine)
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              // The gradient of the initial velocity, exact for linear ones.
-              Tensor<1, dim> r;
-              r[d] = 1e-4 * std::sqrt(seed.volume);
-              const Tensor<1, dim> difference =
-                scene->initial_velocity.at(seed.position + r) -
-                scene->initial_velocity.at(seed.position - r);
-              for (unsigned int c = 0; c < dim; ++c)
-                values[group.first_affine() + dim * c + d] =
-                  difference[c] / (2. * r[d]);
-            }
-        group.append(values.data(), first + i);
-      }
-    refusal = text_of_any_rank(comm, refusal);
-    if (!refusal.empty())
-      throw InputError(refusal);
-    change    = text_of_any_rank(comm, change);
-    n_changed = Utilities::MPI::sum(n_changed, comm);
-    if (n_changed > 0)
-      remarks.push_back(format("%lu points: ", n_changed) + change);
-    for (PointArrays &group : groups)
-      group.pad();
-    least_mass       = 1e-14 * Utilities::MPI::max(largest_mass, comm);
-    sums.wave_speed2 = Utilities::MPI::max(sums.wave_speed2, comm);
-    sums.speed2      = Utilities::MPI::max(sums.speed2, comm);
   }
 
   void
@@ -538,206 +420,10 @@ namespace geocone
     if (Utilities::MPI::logical_or(!obstacle.empty(), comm))
       throw StepFailure(text_of_any_rank(comm, obstacle));
     start_nodes();
-    is_held.assign(dim * static_cast<std::size_t>(transfer->n_nodes()), 0);
-    for (const PrescribedNode &node : transfer->prescribed)
-      is_held[dim * node.node + node.component] = 1;
+    nodes->refresh();
     body_mass     = current_mass();
     must_refresh  = false;
     since_refresh = 0;
-  }
-
-  double
-  ExplicitMPM::prescribed_velocity(const PrescribedNode &node, const double t)
-  {
-    const double constant =
-      constant_value[dim * node.condition + node.component];
-    return std::isnan(constant) ? scene->dirichlet.list[node.condition]
-                                    ->components[node.component]
-                                    ->value(node.place, t)
-                                : constant;
-  }
-
-  void
-  ExplicitMPM::take_velocity(const double t,
-                             const double moves,
-                             const bool   keep_mass)
-  {
-    const Stopwatch    watch(clock.grid);
-    const unsigned int n     = transfer->n_nodes();
-    double            *read  = transfer->read.data();
-    double            *write = transfer->write.data();
-    double            *mass  = transfer->mass.data();
-    for (unsigned int i = 0; i < n; ++i)
-      {
-        const double per_mass = mass[i] > least_mass ? 1. / mass[i] : 0.;
-        read[4 * i]           = write[4 * i] * per_mass;
-        read[4 * i + 1]       = write[4 * i + 1] * per_mass;
-        read[4 * i + 2] = read[4 * i + 3] = 0.;
-      }
-    for (const PrescribedNode &node : transfer->prescribed)
-      if (mass[node.node] > least_mass)
-        {
-          double      &v      = read[4 * node.node + node.component];
-          const double before = v;
-          v                   = prescribed_velocity(node, t);
-          // USF: PIC gives the points what the condition has changed.
-          if (kind == Order::usf && node.mine)
-            {
-              const double impulse =
-                (1. - flip_part) * mass[node.node] * (v - before);
-              support_impulse[node.condition][node.component] += impulse;
-              sum.impulse[node.component] += impulse;
-              sum.support_work += impulse * v;
-            }
-        }
-    if (moves > 0.)
-      count_gravity_work(moves);
-    std::fill_n(write, 4 * static_cast<std::size_t>(n), 0.);
-    if (!keep_mass)
-      std::fill_n(mass, n, 0.);
-  }
-
-  void
-  ExplicitMPM::accelerate(const Stage &stage,
-                          const double t,
-                          const double dt,
-                          const bool   velocity_is_read,
-                          const bool   keep_mass)
-  {
-    const Stopwatch    watch(clock.grid);
-    const unsigned int n     = transfer->n_nodes();
-    double            *read  = transfer->read.data();
-    double            *write = transfer->write.data();
-    double            *mass  = transfer->mass.data();
-    const double       gx = gravity[0], gy = gravity[1];
-    const double       damping = stage.damping;
-
-    // Velocities before the step, and the force with gravity and damping.
-    for (unsigned int i = 0; i < n; ++i)
-      {
-        double      *v = read + 4 * i;
-        double      *f = write + 4 * i;
-        const double m = mass[i];
-        if (!velocity_is_read)
-          {
-            const double per_mass = m > least_mass ? 1. / m : 0.;
-            v[0]                  = f[0] * per_mass;
-            v[1]                  = f[1] * per_mass;
-          }
-        f[2] += m * gx;
-        f[3] += m * gy;
-      }
-    if (wants_unbalanced)
-      measure_unbalanced_force();
-    if (damping > 0.)
-      damp(damping, dt);
-
-    // What conditions hold has its velocity from them; the reaction is what the
-    // points get of momentum beyond the forces.
-    held.clear();
-    for (const PrescribedNode &node : transfer->prescribed)
-      {
-        const unsigned int i = node.node, d = node.component;
-        const double       m = mass[i];
-        if (!(m > least_mass))
-          continue;
-        const double before = prescribed_velocity(node, t);
-        const double after =
-          std::isnan(constant_value[dim * node.condition + d])
-            ? prescribed_velocity(node, t + dt)
-            : before;
-        held.push_back({i, d, after, after - before});
-        if (!node.mine)
-          continue;
-        const double impulse =
-          m * (after - before) - dt * write[4 * i + 2 + d] +
-          (1. - flip_part) * m * (before - read[4 * i + d]);
-        support_impulse[node.condition][d] += impulse;
-        sum.impulse[d] += impulse;
-        sum.support_work += impulse * (before + after) / 2.;
-      }
-    for (const auto &range : transfer->mine)
-      for (unsigned int i = range[0]; i < range[1]; ++i)
-        if (mass[i] > 0. && !(mass[i] > least_mass))
-          ++sum.small_masses;
-
-    for (unsigned int i = 0; i < n; ++i)
-      {
-        double      *v        = read + 4 * i;
-        double      *f        = write + 4 * i;
-        const double per_mass = mass[i] > least_mass ? dt / mass[i] : 0.;
-        v[2]                  = f[2] * per_mass;
-        v[3]                  = f[3] * per_mass;
-        v[0] += v[2];
-        v[1] += v[3];
-        f[0] = f[1] = f[2] = f[3] = 0.;
-      }
-    for (const Held &node : held)
-      {
-        read[4 * node.node + node.component]     = node.velocity;
-        read[4 * node.node + 2 + node.component] = node.change;
-      }
-    if (kind != Order::musl)
-      count_gravity_work(dt);
-    if (!keep_mass)
-      std::fill_n(mass, n, 0.);
-  }
-
-  void
-  ExplicitMPM::count_gravity_work(const double dt)
-  {
-    // sum m_p dx_p = dt sum m_i v_i
-    Tensor<1, dim> momentum;
-    for (const auto &range : transfer->mine)
-      for (unsigned int i = range[0]; i < range[1]; ++i)
-        for (unsigned int d = 0; d < dim; ++d)
-          momentum[d] += transfer->mass[i] * transfer->read[4 * i + d];
-    sum.gravity_work += dt * (gravity * momentum);
-  }
-
-  void
-  ExplicitMPM::measure_unbalanced_force()
-  {
-    // Of free components, before damping.
-    unbalanced = 0.;
-    for (unsigned int i = 0; i < transfer->n_nodes(); ++i)
-      for (unsigned int d = 0; d < dim; ++d)
-        if (!is_held[dim * i + d])
-          unbalanced =
-            std::max(unbalanced, std::abs(transfer->write[4 * i + 2 + d]));
-    unbalanced = Utilities::MPI::max(unbalanced, comm);
-  }
-
-  void
-  ExplicitMPM::damp(const double damping, const double dt)
-  {
-    // Not of held components, whose force is a reaction.
-    const double *read  = transfer->read.data();
-    double       *write = transfer->write.data();
-    const auto    force = [&](const unsigned int i, const unsigned int d) {
-      const double F = std::abs(write[4 * i + 2 + d]);
-      if (is_held[dim * i + d] || !(transfer->mass[i] > least_mass) || F == 0.)
-        return 0.;
-      // The sign of the velocity, continuous where it is small against its
-      // change in the step: rounding must not decide on a force.
-      const double v = read[4 * i + d] * transfer->mass[i] / (dt * F);
-      return -damping * F * std::max(-1., std::min(1., v));
-    };
-    for (const auto &range : transfer->mine)
-      for (unsigned int i = range[0]; i < range[1]; ++i)
-        if (transfer->mass[i] > least_mass)
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              const double f = force(i, d);
-              sum.impulse[d] += dt * f;
-              sum.damping_work -=
-                dt * f *
-                (read[4 * i + d] +
-                 dt * (write[4 * i + 2 + d] + f) / transfer->mass[i] / 2.);
-            }
-    for (unsigned int i = 0; i < transfer->n_nodes(); ++i)
-      for (unsigned int d = 0; d < dim; ++d)
-        write[4 * i + 2 + d] += force(i, d);
   }
 
   double
@@ -748,40 +434,55 @@ namespace geocone
   }
 
   void
-  ExplicitMPM::step(const Stage &stage, const double t, const double dt)
+  ExplicitMPM::step(const Stage &stage,
+                    const double t,
+                    const double dt,
+                    const bool   measures_force)
   {
     gravity = scene->gravity.at(t + dt / 2.);
     sums    = PassSums();
     fade    = fade_end > t ? std::max(0., 1. - dt / (fade_end - t)) : 0.;
+    const NodalUpdate::Step at_nodes = {
+      t, dt, gravity, stage.damping, measures_force};
     const auto exchange = [&](const bool with_mass) {
       const Stopwatch watch(clock.exchange);
       transfer->exchange(with_mass);
     };
-    // What the next step needs of a transfer that must be refreshed before it
-    // would be given in vain.
-    const auto gives = [&](const Gives what) {
-      return transfer->moves_each_step() ? Gives::nothing : what;
+    const auto accelerate = [&](const bool velocity_is_read, const bool moves) {
+      const Stopwatch watch(clock.grid);
+      nodes->accelerate(at_nodes, velocity_is_read, moves);
     };
+    // A transfer that must be refreshed before the next step would be given what
+    // that needs in vain.
     const bool gives_next = !transfer->moves_each_step();
+    const auto gives      = [&](const Gives what) {
+      return gives_next ? what : Gives::nothing;
+    };
     if (kind == Order::usl)
       {
-        accelerate(stage, t, dt, false, false);
+        accelerate(false, true);
         pass({true, true, {true, true, true}, gives(Gives::all), true}, dt);
       }
     else if (kind == Order::musl)
       {
-        accelerate(stage, t, dt, false, true);
+        accelerate(false, false);
         pass({true, false, {false, true, false}, Gives::momentum, false}, dt);
         exchange(false);
-        take_velocity(t + dt, dt, false);
+        {
+          const Stopwatch watch(clock.grid);
+          nodes->velocity_after(at_nodes);
+        }
         pass({true, true, {true, false, true}, gives(Gives::all), true}, dt);
       }
     else
       {
-        take_velocity(t, 0., true);
+        {
+          const Stopwatch watch(clock.grid);
+          nodes->velocity_before(t);
+        }
         pass({true, true, {true, false, false}, Gives::force, false}, dt);
         exchange(false);
-        accelerate(stage, t, dt, true, false);
+        accelerate(true, true);
         pass({true,
               false,
               {false, true, true},
@@ -834,10 +535,8 @@ namespace geocone
   ExplicitMPM::advance(const Stage &stage, const double t, const double h)
   {
     ExplicitReport report;
-    for (Tensor<1, dim> &impulse : support_impulse)
-      impulse = Tensor<1, dim>();
-    const double end = t + h;
-    double       now = t;
+    const double   end = t + h;
+    double         now = t;
     while (now < end)
       {
         if (must_refresh || since_refresh >= sort_every)
@@ -874,8 +573,7 @@ namespace geocone
           dt = left;
         else if (left < 2. * dt && fixed_step == 0.)
           dt = left / 2.;
-        wants_unbalanced = last;
-        step(stage, now, dt);
+        step(stage, now, dt, last);
         last_step = dt;
         now       = last ? end : now + dt;
         gather_sums();
@@ -892,8 +590,9 @@ namespace geocone
     // Those that have left are found before anybody looks.
     if (must_refresh)
       refresh();
-    report.unbalanced_force = unbalanced;
-    for (const Tensor<1, dim> &impulse : support_impulse)
+    report.unbalanced_force =
+      Utilities::MPI::max(nodes->unbalanced_force(), comm);
+    for (const Tensor<1, dim> &impulse : nodes->take_support_impulses())
       report.reactions.push_back(Utilities::MPI::sum(impulse, comm) / h);
     return report;
   }

@@ -1,8 +1,9 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// What stages of the explicit material point method do beyond stepping: resets,
-// cuts, kinetic damping, and the equilibrium that they must end in.
+// What the explicit material point method starts from, and what its stages do
+// beyond stepping: resets, cuts, kinetic damping, and the equilibrium that they must
+// end in.
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/time_stepping/explicit_mpm.h>
@@ -10,6 +11,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace geocone
 {
@@ -18,6 +20,132 @@ namespace geocone
   namespace
   {
     using Field = PointArrays::Field;
+
+    /** Sets the histories of points from their stresses, and gathers what the
+     *  laws say of that. */
+    class HistoryStart
+    {
+    public:
+      void
+      set(const ConstitutiveLaw         &law,
+          const ConstitutiveLaw::Stress &stress,
+          const Point<dim>              &place,
+          double                        *history)
+      {
+        try
+          {
+            const std::string remark = law.initialise(stress, history);
+            if (!remark.empty() && n_changed++ == 0)
+              change = remark;
+          }
+        catch (const InputError &error)
+          {
+            refuse(error.what() + format("\n  at:      the point (%g, %g)",
+                                         place[0],
+                                         place[1]));
+          }
+      }
+
+      /** The first refusal counts. */
+      void
+      refuse(const std::string &why)
+      {
+        if (refusal.empty())
+          refusal = why;
+      }
+
+      bool
+      is_refused() const
+      {
+        return !refusal.empty();
+      }
+
+      /** Adds what had to be changed to the remarks. Collective.
+       *  @throws Error if a point of any rank was refused */
+      template <typename Error>
+      void
+      finish(const MPI_Comm comm, std::vector<std::string> &remarks) const
+      {
+        const std::string why = text_of_any_rank(comm, refusal);
+        if (!why.empty())
+          throw Error(why);
+        const std::string   first = text_of_any_rank(comm, change);
+        const unsigned long n     = Utilities::MPI::sum(n_changed, comm);
+        if (n > 0)
+          remarks.push_back(format("%lu points: ", n) + first);
+      }
+
+    private:
+      unsigned long n_changed = 0;
+      std::string   change, refusal;
+    };
+  } // namespace
+
+  void
+  ExplicitMPM::seed_points(const std::vector<Seed>  &seeds,
+                           std::vector<std::string> &remarks)
+  {
+    for (unsigned int m = 0; m < scene->materials.size(); ++m)
+      groups.emplace_back(m, scene->materials.law(m).n_history(), affine);
+    unsigned int       first = 0;
+    const unsigned int n     = seeds.size();
+    MPI_Exscan(&n, &first, 1, MPI_UNSIGNED, MPI_SUM, comm);
+    HistoryStart start;
+    double       largest_mass = 0.;
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        const Seed            &seed  = seeds[i];
+        PointArrays           &group = groups[seed.material];
+        const ConstitutiveLaw &law   = scene->materials.law(seed.material);
+        std::vector<double>    values(group.n_fields(), 0.);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            values[Field::x + d]       = seed.position[d];
+            values[Field::x_start + d] = seed.position[d];
+            values[Field::vx + d]      = seed.velocity[d];
+          }
+        values[Field::s_xx]   = seed.stress[0];
+        values[Field::s_yy]   = seed.stress[1];
+        values[Field::s_xy]   = seed.stress[2] / sqrt2;
+        values[Field::volume] = seed.volume;
+        values[Field::mass]   = seed.volume * law.density();
+        largest_mass          = std::max(largest_mass, values[Field::mass]);
+        const ConstitutiveLaw::Stress stress = {{seed.stress[0],
+                                                 seed.stress[1],
+                                                 seed.stress_zz,
+                                                 seed.stress[2] / sqrt2}};
+        for (unsigned int k = 0; k < group.first_history(); ++k)
+          if (!std::isfinite(values[k]))
+            start.refuse(format("the initial stress or velocity at (%g, %g) is "
+                                "not a finite number\n  remedy:  check the "
+                                "formulas in 'Initial stress' and 'Initial "
+                                "velocity'",
+                                seed.position[0],
+                                seed.position[1]));
+        if (start.is_refused())
+          break;
+        start.set(law, stress, seed.position, &values[group.first_history()]);
+        sums.wave_speed2 =
+          std::max(sums.wave_speed2,
+                   law.wave_modulus(stress, &values[group.first_history()]) /
+                     law.density());
+        sums.speed2 = std::max(sums.speed2, seed.velocity.norm_square());
+        if (affine)
+          {
+            const Tensor<2, dim> gradient = scene->initial_velocity.gradient(
+              seed.position, std::sqrt(seed.volume));
+            for (unsigned int c = 0; c < dim; ++c)
+              for (unsigned int d = 0; d < dim; ++d)
+                values[group.first_affine() + dim * c + d] = gradient[c][d];
+          }
+        group.append(values.data(), first + i);
+      }
+    start.finish<InputError>(comm, remarks);
+    for (PointArrays &group : groups)
+      group.pad();
+    least_mass       = 1e-14 * Utilities::MPI::max(largest_mass, comm);
+    sums.wave_speed2 = Utilities::MPI::max(sums.wave_speed2, comm);
+    sums.speed2      = Utilities::MPI::max(sums.speed2, comm);
   }
 
   std::vector<std::string>
@@ -33,29 +161,12 @@ namespace geocone
         }
     if (stage.reset_velocity)
       {
-        for (PointArrays &group : groups)
-          {
-            for (unsigned int p = 0; p < group.n_points(); ++p)
-              for (unsigned int d = 0; d < dim; ++d)
-                {
-                  const double v = group[Field::vx + d][p];
-                  sum.stopped_energy += group[Field::mass][p] * v * v / 2.;
-                  sum.impulse[d] -= group[Field::mass][p] * v;
-                }
-            std::fill_n(group[Field::vx], group.n_padded(), 0.);
-            std::fill_n(group[Field::vy], group.n_padded(), 0.);
-            if (affine)
-              for (unsigned int i = 0; i < dim * dim; ++i)
-                std::fill_n(
-                  group[group.first_affine() + i], group.n_padded(), 0.);
-          }
-        sums.speed2  = 0.;
-        must_refresh = true;
+        stop_points();
+        sums.speed2 = 0.;
       }
     if (stage.reset_history)
       {
-        unsigned long n_changed = 0;
-        std::string   change, refusal;
+        HistoryStart start;
         for (PointArrays &group : groups)
           {
             const ConstitutiveLaw &law = scene->materials.law(group.material);
@@ -65,33 +176,14 @@ namespace geocone
               {
                 for (unsigned int k = 0; k < n; ++k)
                   values[k] = group[group.first_history() + k][p];
-                try
-                  {
-                    const std::string remark =
-                      law.initialise(stress_of(group, p), values.data());
-                    if (!remark.empty() && n_changed++ == 0)
-                      change = remark;
-                  }
-                catch (const InputError &error)
-                  {
-                    if (refusal.empty())
-                      refusal = std::string(error.what()) +
-                                format("\n  at:      the point (%g, %g)",
-                                       group[Field::x][p],
-                                       group[Field::y][p]);
-                  }
+                start.set(
+                  law, stress_of(group, p), group.position(p), values.data());
                 for (unsigned int k = 0; k < n; ++k)
                   group[group.first_history() + k][p] = values[k];
               }
             group.pad();
           }
-        refusal = text_of_any_rank(comm, refusal);
-        if (!refusal.empty())
-          throw StepFailure(refusal);
-        change    = text_of_any_rank(comm, change);
-        n_changed = Utilities::MPI::sum(n_changed, comm);
-        if (n_changed > 0)
-          remarks.push_back(format("%lu points: ", n_changed) + change);
+        start.finish<StepFailure>(comm, remarks);
       }
     if (!stage.removed_polygon.empty())
       remarks.push_back(remove_polygon(stage, t));
@@ -213,35 +305,37 @@ namespace geocone
   }
 
   void
+  ExplicitMPM::stop_points()
+  {
+    for (PointArrays &group : groups)
+      {
+        for (unsigned int p = 0; p < group.n_points(); ++p)
+          {
+            sum.stopped_energy += kinetic_energy(group, p);
+            for (unsigned int d = 0; d < dim; ++d)
+              sum.impulse[d] -= group[Field::mass][p] * group[Field::vx + d][p];
+          }
+        std::fill_n(group[Field::vx], group.n_padded(), 0.);
+        std::fill_n(group[Field::vy], group.n_padded(), 0.);
+        if (affine)
+          for (unsigned int i = 0; i < dim * dim; ++i)
+            std::fill_n(group[group.first_affine() + i], group.n_padded(), 0.);
+      }
+    must_refresh = true;
+  }
+
+  void
   ExplicitMPM::stop_at_peak()
   {
     double energy = 0.;
     for (const PointArrays &group : groups)
       for (unsigned int p = 0; p < group.n_points(); ++p)
-        {
-          const double vx = group[Field::vx][p], vy = group[Field::vy][p];
-          energy += group[Field::mass][p] * (vx * vx + vy * vy) / 2.;
-        }
+        energy += kinetic_energy(group, p);
     energy = Utilities::MPI::sum(energy, comm);
     if (rising && energy < energy_n)
       {
-        for (PointArrays &group : groups)
-          {
-            for (unsigned int p = 0; p < group.n_points(); ++p)
-              for (unsigned int d = 0; d < dim; ++d)
-                sum.impulse[d] -=
-                  group[Field::mass][p] * group[Field::vx + d][p];
-            std::fill_n(group[Field::vx], group.n_padded(), 0.);
-            std::fill_n(group[Field::vy], group.n_padded(), 0.);
-            if (affine)
-              for (unsigned int i = 0; i < dim * dim; ++i)
-                std::fill_n(
-                  group[group.first_affine() + i], group.n_padded(), 0.);
-          }
-        if (Utilities::MPI::this_mpi_process(comm) == 0)
-          sum.stopped_energy += energy;
-        must_refresh = true;
-        energy       = 0.;
+        stop_points();
+        energy = 0.;
       }
     rising   = energy > energy_n;
     energy_n = energy;

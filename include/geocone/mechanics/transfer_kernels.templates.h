@@ -49,7 +49,21 @@ namespace geocone
       }
     };
 
+    /** The functions at a point, and the first of its (p + 1)^2 nodes. */
     template <int p>
+    struct Nodes
+    {
+      const Functions<p> X, Y;
+      const long         first;
+
+      Nodes(const GridView &grid, const double x, const double y)
+        : X(grid.x, x)
+        , Y(grid.y, y)
+        , first(static_cast<long>(X.first) * grid.stride + Y.first)
+      {}
+    };
+
+    template <int p, bool with_gradients>
     static void
     gather(const GridView    &view,
            const BlockPoints &points,
@@ -58,53 +72,33 @@ namespace geocone
       const GridView grid = view; // a copy: stores cannot change it
       for (unsigned int k = 0; k < points.n; ++k)
         {
-          const Functions<p> X(grid.x, points.x[k]), Y(grid.y, points.y[k]);
-          const double      *node =
-            grid.read +
-            4 * (static_cast<long>(X.first) * grid.stride + Y.first);
-          P v(0.), v_x(0.), v_y(0.);
+          const Nodes<p> at(grid, points.x[k], points.y[k]);
+          const double  *node = grid.read + 4 * at.first;
+          P              v(0.), v_x(0.), v_y(0.);
           for (int j = 0; j <= p; ++j)
             {
               P row(0.), slope(0.);
               for (int i = 0; i <= p; ++i)
                 {
                   const P q = P::load(node + 4 * (i * grid.stride + j));
-                  row += q * P(X.N[i]);
-                  slope += q * P(X.dN[i]);
+                  row += q * P(at.X.N[i]);
+                  if constexpr (with_gradients)
+                    slope += q * P(at.X.dN[i]);
                 }
-              v += row * P(Y.N[j]);
-              v_x += slope * P(Y.N[j]);
-              v_y += row * P(Y.dN[j]);
+              v += row * P(at.Y.N[j]);
+              if constexpr (with_gradients)
+                {
+                  v_x += slope * P(at.Y.N[j]);
+                  v_y += row * P(at.Y.dN[j]);
+                }
             }
           double *out = scratch.gathered + 12 * k;
           v.store(out);
-          v_x.store(out + 4);
-          v_y.store(out + 8);
-        }
-    }
-
-    template <int p>
-    static void
-    gather_values(const GridView    &view,
-                  const BlockPoints &points,
-                  BlockScratch      &scratch)
-    {
-      const GridView grid = view; // a copy: stores cannot change it
-      for (unsigned int k = 0; k < points.n; ++k)
-        {
-          const Functions<p> X(grid.x, points.x[k]), Y(grid.y, points.y[k]);
-          const double      *node =
-            grid.read +
-            4 * (static_cast<long>(X.first) * grid.stride + Y.first);
-          P v(0.);
-          for (int j = 0; j <= p; ++j)
+          if constexpr (with_gradients)
             {
-              P row(0.);
-              for (int i = 0; i <= p; ++i)
-                row += P::load(node + 4 * (i * grid.stride + j)) * P(X.N[i]);
-              v += row * P(Y.N[j]);
+              v_x.store(out + 4);
+              v_y.store(out + 8);
             }
-          v.store(scratch.gathered + 12 * k);
         }
     }
 
@@ -117,15 +111,11 @@ namespace geocone
       const GridView grid = view; // a copy: stores cannot change it
       for (unsigned int k = 0; k < points.n; ++k)
         {
-          const Functions<p> X(grid.x, points.x[k]), Y(grid.y, points.y[k]);
-          const double      *node =
-            grid.read +
-            4 * (static_cast<long>(X.first) * grid.stride + Y.first);
-          double        wx[p + 1], wy[p + 1];
-          const double *places_x = grid.x.places + grid.x.first + X.first;
-          const double *places_y = grid.y.places + grid.y.first + Y.first;
-          moments<p>(X, places_x, points.x[k], grid.x.inverse_size, wx);
-          moments<p>(Y, places_y, points.y[k], grid.y.inverse_size, wy);
+          const Nodes<p> at(grid, points.x[k], points.y[k]);
+          const double  *node = grid.read + 4 * at.first;
+          double         wx[p + 1], wy[p + 1];
+          moments(grid.x, at.X, points.x[k], wx);
+          moments(grid.y, at.Y, points.y[k], wy);
           P c_x(0.), c_y(0.);
           for (int j = 0; j <= p; ++j)
             {
@@ -133,10 +123,10 @@ namespace geocone
               for (int i = 0; i <= p; ++i)
                 {
                   const P q = P::load(node + 4 * (i * grid.stride + j));
-                  row += q * P(X.N[i]);
+                  row += q * P(at.X.N[i]);
                   slope += q * P(wx[i]);
                 }
-              c_x += slope * P(Y.N[j]);
+              c_x += slope * P(at.Y.N[j]);
               c_y += row * P(wy[j]);
             }
           double column[4];
@@ -152,25 +142,26 @@ namespace geocone
     /** N_i (x_i - x)/sum_i N_i (x_i - x)^2, or dN_i/dx where that is 0/0. */
     template <int p>
     static void
-    moments(const Functions<p> &functions,
-            const double       *places,
+    moments(const GridAxis     &axis,
+            const Functions<p> &functions,
             const double        x,
-            const double        inverse_size,
             double             *weights)
     {
-      double second = 0.;
+      const double *places = axis.places + axis.first + functions.first;
+      double        second = 0.;
       for (int i = 0; i <= p; ++i)
         {
           const double r = places[i] - x;
           weights[i]     = functions.N[i] * r;
           second += weights[i] * r;
         }
-      const bool vanishes = second * inverse_size * inverse_size < 1e-10;
+      const bool vanishes =
+        second * axis.inverse_size * axis.inverse_size < 1e-10;
       for (int i = 0; i <= p; ++i)
         weights[i] = vanishes ? functions.dN[i] : weights[i] / second;
     }
 
-    template <int p>
+    template <int p, bool with_gradients>
     static void
     scatter(const GridView    &view,
             const BlockPoints &points,
@@ -179,68 +170,44 @@ namespace geocone
       const GridView grid = view; // a copy: stores cannot change it
       for (unsigned int k = 0; k < points.n; ++k)
         {
-          const Functions<p> X(grid.x, points.x[k]), Y(grid.y, points.y[k]);
-          const long place = static_cast<long>(X.first) * grid.stride + Y.first;
-          const double *in = scratch.given + 12 * k;
+          const Nodes<p> at(grid, points.x[k], points.y[k]);
+          const double  *in = scratch.given + 12 * k;
           const P a = P::load(in), b = P::load(in + 4), c = P::load(in + 8);
           P       row[p + 1], slope[p + 1];
           for (int j = 0; j <= p; ++j)
             {
-              row[j]   = a * P(Y.N[j]) + c * P(Y.dN[j]);
-              slope[j] = b * P(Y.N[j]);
+              row[j] = a * P(at.Y.N[j]);
+              if constexpr (with_gradients)
+                {
+                  row[j] += c * P(at.Y.dN[j]);
+                  slope[j] = b * P(at.Y.N[j]);
+                }
             }
           for (int i = 0; i <= p; ++i)
             for (int j = 0; j <= p; ++j)
               {
-                double *node = grid.write + 4 * (place + i * grid.stride + j);
-                (P::load(node) + row[j] * P(X.N[i]) + slope[j] * P(X.dN[i]))
-                  .store(node);
+                double *node =
+                  grid.write + 4 * (at.first + i * grid.stride + j);
+                P sum = P::load(node) + row[j] * P(at.X.N[i]);
+                if constexpr (with_gradients)
+                  sum += slope[j] * P(at.X.dN[i]);
+                sum.store(node);
               }
           if (grid.mass != nullptr)
-            scatter_mass<p>(grid, X, Y, place, points.mass[k]);
-        }
-    }
-
-    template <int p>
-    static void
-    scatter_values(const GridView    &view,
-                   const BlockPoints &points,
-                   BlockScratch      &scratch)
-    {
-      const GridView grid = view; // a copy: stores cannot change it
-      for (unsigned int k = 0; k < points.n; ++k)
-        {
-          const Functions<p> X(grid.x, points.x[k]), Y(grid.y, points.y[k]);
-          const long place = static_cast<long>(X.first) * grid.stride + Y.first;
-          const P    a     = P::load(scratch.given + 12 * k);
-          P          row[p + 1];
-          for (int j = 0; j <= p; ++j)
-            row[j] = a * P(Y.N[j]);
-          for (int i = 0; i <= p; ++i)
-            for (int j = 0; j <= p; ++j)
-              {
-                double *node = grid.write + 4 * (place + i * grid.stride + j);
-                (P::load(node) + row[j] * P(X.N[i])).store(node);
-              }
-          if (grid.mass != nullptr)
-            scatter_mass<p>(grid, X, Y, place, points.mass[k]);
+            scatter_mass(grid, at, points.mass[k]);
         }
     }
 
     /** Columns of four functions: beyond the p + 1st, zeros are added. */
     template <int p>
     static void
-    scatter_mass(const GridView     &grid,
-                 const Functions<p> &X,
-                 const Functions<p> &Y,
-                 const long          place,
-                 const double        m)
+    scatter_mass(const GridView &grid, const Nodes<p> &at, const double m)
     {
-      const P column = Y.value * P(m);
+      const P column = at.Y.value * P(m);
       for (int i = 0; i <= p; ++i)
         {
-          double *mass = grid.mass + place + i * grid.stride;
-          (P::load(mass) + column * P(X.N[i])).store(mass);
+          double *mass = grid.mass + at.first + i * grid.stride;
+          (P::load(mass) + column * P(at.X.N[i])).store(mass);
         }
     }
 
@@ -253,18 +220,18 @@ namespace geocone
       const GridView grid = view; // a copy: stores cannot change it
       for (unsigned int k = 0; k < points.n; ++k)
         {
-          const Functions<p> X(grid.x, points.x[k]), Y(grid.y, points.y[k]);
-          const long place = static_cast<long>(X.first) * grid.stride + Y.first;
-          const double *places_x = grid.x.places + grid.x.first + X.first;
-          const double *places_y = grid.y.places + grid.y.first + Y.first;
-          const double  m        = points.mass[k];
+          const Nodes<p> at(grid, points.x[k], points.y[k]);
+          const double  *places_x = grid.x.places + grid.x.first + at.X.first;
+          const double  *places_y = grid.y.places + grid.y.first + at.Y.first;
+          const double   m        = points.mass[k];
           for (int i = 0; i <= p; ++i)
             for (int j = 0; j <= p; ++j)
               {
-                const double mN = m * X.N[i] * Y.N[j];
+                const double mN = m * at.X.N[i] * at.Y.N[j];
                 const double rx = places_x[i] - points.x[k];
                 const double ry = places_y[j] - points.y[k];
-                double *node = grid.write + 4 * (place + i * grid.stride + j);
+                double      *node =
+                  grid.write + 4 * (at.first + i * grid.stride + j);
                 node[0] += mN * (points.c_xx[k] * rx + points.c_xy[k] * ry);
                 node[1] += mN * (points.c_yx[k] * rx + points.c_yy[k] * ry);
               }
@@ -406,25 +373,25 @@ namespace geocone
     using Loops = TransferLoops<Arch>;
     return {name,
             {nullptr,
-             &Loops::template gather<1>,
-             &Loops::template gather<2>,
-             &Loops::template gather<3>},
+             &Loops::template gather<1, true>,
+             &Loops::template gather<2, true>,
+             &Loops::template gather<3, true>},
             {nullptr,
-             &Loops::template gather_values<1>,
-             &Loops::template gather_values<2>,
-             &Loops::template gather_values<3>},
+             &Loops::template gather<1, false>,
+             &Loops::template gather<2, false>,
+             &Loops::template gather<3, false>},
             {nullptr,
              nullptr,
              &Loops::template gather_affine<2>,
              &Loops::template gather_affine<3>},
             {nullptr,
-             &Loops::template scatter<1>,
-             &Loops::template scatter<2>,
-             &Loops::template scatter<3>},
+             &Loops::template scatter<1, true>,
+             &Loops::template scatter<2, true>,
+             &Loops::template scatter<3, true>},
             {nullptr,
-             &Loops::template scatter_values<1>,
-             &Loops::template scatter_values<2>,
-             &Loops::template scatter_values<3>},
+             &Loops::template scatter<1, false>,
+             &Loops::template scatter<2, false>,
+             &Loops::template scatter<3, false>},
             {nullptr,
              nullptr,
              &Loops::template scatter_affine<2>,

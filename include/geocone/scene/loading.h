@@ -120,6 +120,11 @@ namespace geocone
     dealii::Tensor<1, dim>
     at(const dealii::Point<dim> &x) const;
 
+    /** Its gradient dv_i/dx_j at a point that stands for a square of this size
+     *  (m): central differences, exact for linear velocities (1/s). */
+    dealii::Tensor<2, dim>
+    gradient(const dealii::Point<dim> &x, const double size) const;
+
     /** Whether it is not simply zero. */
     bool
     is_given() const;

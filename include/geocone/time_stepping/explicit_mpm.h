@@ -11,6 +11,7 @@
 #include <geocone/discretisation/space.h>
 #include <geocone/mechanics/grid_transfer.h>
 #include <geocone/scene/scene.h>
+#include <geocone/time_stepping/nodal_update.h>
 
 #include <memory>
 #include <optional>
@@ -19,30 +20,6 @@
 
 namespace geocone
 {
-  /**
-   * What has come into and gone out of the body since the start: sums over all
-   * explicit steps, of all ranks once ExplicitMPM::balance() has gathered them.
-   */
-  struct Balance
-  {
-    double stress_work  = 0.;       ///< sum of s : de V (J/m)
-    double gravity_work = 0.;       ///< sum of m g dx (J/m)
-    double damping_work = 0.;       ///< taken by local damping (J/m)
-    double support_work = 0.;       ///< of prescribed velocities (J/m)
-    dealii::Tensor<1, dim> impulse; ///< of gravity, supports, damping (N s/m)
-
-    /** What was taken away (Stage::removed_polygon), or left the grid. */
-    double                 removed_mass = 0.;      ///< (kg/m)
-    dealii::Tensor<1, dim> removed_momentum;       ///< (N s/m)
-    double                 removed_energy    = 0.; ///< kinetic (J/m)
-    double                 removed_potential = 0.; ///< from the lower corner
-
-    /** Of kinetic damping: kinetic energy set to zero (J/m). */
-    double stopped_energy = 0.;
-
-    unsigned long small_masses = 0; ///< nodes passed over as massless
-  };
-
   /** The state of the points at one time, of all ranks. */
   struct ExplicitState
   {
@@ -254,42 +231,16 @@ namespace geocone
     void
     start_nodes();
 
+    /** @param measures_force whether the unbalanced force is wanted */
     void
-    step(const Stage &stage, const double t, const double dt);
+    step(const Stage &stage,
+         const double t,
+         const double dt,
+         const bool   measures_force);
 
     /** Refresh of the transfer, and what the nodes hold at the start of a step. */
     void
     refresh();
-
-    /**
-     * From momentum (or velocity) and force of the nodes: velocity after and
-     * change in the step, with conditions and damping.
-     * @param velocity_is_read USF: the velocity before is in `read`
-     */
-    void
-    accelerate(const Stage &stage,
-               const double t,
-               const double dt,
-               const bool   velocity_is_read,
-               const bool   keep_mass);
-
-    /**
-     * Velocity from momentum at time t, with conditions.
-     * @param moves the time over which it will move the points (s), or 0
-     */
-    void
-    take_velocity(const double t, const double moves, const bool keep_mass);
-
-    void
-    count_gravity_work(const double dt);
-
-    /** The largest force in write on a free component of a node. */
-    void
-    measure_unbalanced_force();
-
-    /** Adds local damping to the forces in write. */
-    void
-    damp(const double damping, const double dt);
 
     /** Of this rank (kg/m). */
     double
@@ -299,15 +250,16 @@ namespace geocone
     double
     mass_quantile(const double wanted, double left, double right) const;
 
-    double
-    prescribed_velocity(const PrescribedNode &node, const double t);
-
     /** The greatest step that is stable with Courant number 1 (s). */
     double
     stability_limit() const;
 
     void
     stop_at_peak();
+
+    /** Takes the velocity of all points, which counts as stopped. */
+    void
+    stop_points();
 
     /** Sums of the last pass over all ranks, and whether to refresh. */
     void
@@ -345,44 +297,32 @@ namespace geocone
     bool                          affine  = false;
     const TransferKernels        *kernels = nullptr;
     std::unique_ptr<GridTransfer> transfer;
+    std::unique_ptr<NodalUpdate>  nodes;
     std::vector<PointArrays>      groups;
     BlockScratch                  scratch = {};
     std::vector<double *>         history; ///< pointers for the law
 
     dealii::Point<dim>     datum;
-    dealii::Tensor<1, dim> gravity; ///< now
+    dealii::Tensor<1, dim> gravity; ///< in the last step
     double                 least_mass = 0.;
     double                 body_mass  = 0.; ///< of this rank's points (kg/m)
     double                 fade       = 1.; ///< of the last pass of this step
     double                 fade_end   = 0.;
     double                 last_step  = 0.;
     PassSums     sums; ///< of the last pass; after gather_sums() of all
-    bool         must_refresh     = true;
-    unsigned int since_refresh    = 0;
-    bool         some_left        = false; ///< some points have no mass
-    double       unbalanced       = 0.;
-    bool         wants_unbalanced = false;
-    std::string  obstacle; ///< why this rank cannot go on
+    bool         must_refresh  = true;
+    unsigned int since_refresh = 0;
+    bool         some_left     = false; ///< some points have no mass
+    std::string  obstacle;              ///< why this rank cannot go on
 
     /** Kinetic damping: the kinetic energy of the steps before. */
     double energy_n = 0.;
     bool   rising   = false;
 
-    /** A component of a node whose velocity is given in this step. */
-    struct Held
-    {
-      unsigned int node, component;
-      double       velocity, change;
-    };
-    std::vector<Held>          held;
-    std::vector<unsigned char> is_held; ///< per node and component
-
-    Balance                             sum;
-    Balance                             stage_start; ///< of all ranks
-    LawCounts                           counts;
-    std::vector<dealii::Tensor<1, dim>> support_impulse; ///< per condition
-    std::vector<double> constant_value; ///< per condition and component, or NaN
-    Seconds             clock;
+    Balance   sum;
+    Balance   stage_start; ///< of all ranks
+    LawCounts counts;
+    Seconds   clock;
   };
 } // namespace geocone
 
