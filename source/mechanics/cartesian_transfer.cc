@@ -76,12 +76,7 @@ namespace geocone
                       }
                 }
             }
-        if (n_found == 0)
-          throw InputError(condition.parameter("Box"),
-                           condition.part(),
-                           "a part of the boundary with at least one node",
-                           "this condition selects no node: check its sides, "
-                           "its box, and the size of the cells there");
+        condition.check_selection(n_found);
       }
     for (const auto &entry : of_component)
       prescribed_functions.push_back(entry.second);

@@ -39,15 +39,10 @@ namespace geocone
                 owned_nodes[c].push_back(node);
               for (unsigned int i = 0; i < dim; ++i)
                 if (list[c]->components[i])
-                  of_dof[dim * node + i] = {dim * node + i, c, i};
+                  of_dof[dim * node + i] = {node, i, c};
             }
         n_nodes[c] = Utilities::MPI::sum(owned_nodes[c].size(), comm);
-        if (n_nodes[c] == 0)
-          throw InputError(list[c]->parameter("Box"),
-                           list[c]->part(),
-                           "a part of the boundary with at least one node",
-                           "this condition selects no node: check its sides, "
-                           "its box, and the size of the cells there");
+        list[c]->check_selection(n_nodes[c]);
       }
     for (const auto &entry : of_dof)
       prescribed.push_back(entry.second);
@@ -69,7 +64,7 @@ namespace geocone
             with_mass[dof] = false;
           }
     for (const Prescribed &p : prescribed)
-      free_row[p.local_dof] = prescribed_row;
+      free_row[dim * p.node + p.component] = prescribed_row;
 
     // Owned dofs first, numbered through the ranks; a ghost's number comes from
     // its owner.
@@ -147,7 +142,7 @@ namespace geocone
       }
     for (const Prescribed &dof : prescribed)
       {
-        const unsigned int node = dof.local_dof / dim;
+        const unsigned int node = dof.node;
         if (node >= space.n_owned_nodes())
           continue;
         const int         p      = part_of_node[node];
@@ -204,9 +199,9 @@ namespace geocone
   Constraints::set_values(Vector &v, const double t) const
   {
     for (const Prescribed &p : prescribed)
-      v.local_element(p.local_dof) =
+      v.local_element(dim * p.node + p.component) =
         scene.dirichlet.list[p.condition]->components[p.component]->value(
-          space.node_positions()[p.local_dof / dim], t);
+          space.node_positions()[p.node], t);
   }
 
   double

@@ -1,7 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/base/exceptions.h>
+#include <geocone/mechanics/constraints.h>
 #include <geocone/mechanics/mesh_transfer.h>
 
 #include <deal.II/base/mpi.h>
@@ -25,9 +25,9 @@ namespace geocone
     constexpr double tolerance = 1e-8;
   } // namespace
 
-  MeshTransfer::MeshTransfer(const BackgroundMesh     &mesh,
-                             const Space              &space,
-                             const BoundaryConditions &conditions)
+  MeshTransfer::MeshTransfer(const Scene          &scene,
+                             const BackgroundMesh &mesh,
+                             const Space          &space)
     : mesh(mesh)
     , space(space)
     , comm(mesh.triangulation().get_communicator())
@@ -70,34 +70,13 @@ namespace geocone
     mass.resize(n_nodes);
     mine = {{{0, space.n_owned_nodes()}}};
 
-    // The last condition in the list that prescribes a component holds it.
-    std::map<std::array<unsigned int, 2>, unsigned int> condition_of;
-    for (unsigned int c = 0; c < conditions.list.size(); ++c)
-      {
-        const BoundaryCondition &condition = *conditions.list[c];
-        unsigned int             n_found   = 0;
-        for (const unsigned int node :
-             space.nodes_on_sides(mesh.side_ids(condition)))
-          if (condition.in_box(space.node_positions()[node]))
-            {
-              ++n_found;
-              for (unsigned int d = 0; d < dim; ++d)
-                if (condition.components[d])
-                  condition_of[{{node, d}}] = c;
-            }
-        if (Utilities::MPI::max(n_found, comm) == 0)
-          throw InputError(condition.parameter("Box"),
-                           condition.part(),
-                           "a part of the boundary with at least one node",
-                           "this condition selects no node: check its sides, "
-                           "its box, and the size of the cells there");
-      }
-    for (const auto &[component, condition] : condition_of)
-      prescribed.push_back({component[0],
-                            component[1],
-                            condition,
-                            space.node_positions()[component[0]],
-                            component[0] < space.n_owned_nodes()});
+    const Constraints constraints(scene, mesh, space);
+    for (const auto &p : constraints.prescribed_components())
+      prescribed.push_back({p.node,
+                            p.component,
+                            p.condition,
+                            space.node_positions()[p.node],
+                            p.node < space.n_owned_nodes()});
   }
 
   bool

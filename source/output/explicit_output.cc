@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/output/explicit_output.h>
-#include <geocone/output/patch_output.h>
 
 #include <limits>
 
@@ -16,13 +15,8 @@ namespace geocone
                           const Scene       &scene_)
   {
     scene = &scene_;
-    if (fields_format != "vtu" && fields_format != "hdf5" &&
-        fields_format != "both")
-      throw InputError("Output/Fields format",
-                       fields_format,
-                       "vtu | hdf5 | both",
-                       "choose one of them");
     make_folder(default_name, folder_of_call);
+    point_files = std::make_unique<FieldFiles>("points", fields_format);
     if (!writes)
       return;
     std::vector<std::string> columns = {"step",
@@ -207,11 +201,7 @@ namespace geocone
             output.patches.push_back(patch);
           }
       }
-    if (fields_format != "hdf5")
-      output.write_as_vtu(path, "points", n_fields, time, comm, vtu_series);
-    if (fields_format != "vtu")
-      output.write_as_hdf5(path, "points", n_fields, time, comm, hdf5_series);
-    ++n_fields;
+    point_files->write(output, path, time, comm);
   }
 
   void

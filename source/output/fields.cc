@@ -1,9 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/base/exceptions.h>
 #include <geocone/output/fields.h>
-#include <geocone/output/patch_output.h>
 
 namespace geocone
 {
@@ -38,20 +36,7 @@ namespace geocone
   } // namespace
 
   void
-  Fields::set_format(const std::string &name)
-  {
-    if (name != "vtu" && name != "hdf5" && name != "both")
-      throw InputError("Output/Fields format",
-                       name,
-                       "vtu | hdf5 | both",
-                       "choose one of them");
-    vtu  = name != "hdf5";
-    hdf5 = name != "vtu";
-  }
-
-  void
   Fields::write(const std::string    &folder,
-                const unsigned int    number,
                 const double          time,
                 const BackgroundMesh &mesh,
                 const Space          &space,
@@ -62,14 +47,6 @@ namespace geocone
     // Also on a rank that has no points, to write the same data as the others.
     const bool moving =
       Utilities::MPI::logical_or(!points.values.empty(), comm);
-    const auto write =
-      [&](auto &output, const std::string &base, Series &series) {
-        if (vtu)
-          output.write_as_vtu(folder, base, number, time, comm, series.vtu);
-        if (hdf5)
-          output.write_as_hdf5(folder, base, number, time, comm, series.hdf5);
-      };
-
     PatchOutput<dim>    on_cells;
     std::vector<Vector> on_nodes;
     if (!moving)
@@ -132,7 +109,7 @@ namespace geocone
             on_cells.patches.push_back(patch);
           }
       }
-    write(on_cells, "cells", cells);
+    cells.write(on_cells, folder, time, comm);
 
     PatchOutput<0> on_points;
     for (const char *name : {"material",
@@ -147,8 +124,12 @@ namespace geocone
                              "cumulative_plastic_strain"})
       on_points.add_scalar(name);
     if (moving)
-      for (const char *name : {"velocity", "displacement"})
-        on_points.add_vector(name);
+      {
+        // Their order changes from time to time.
+        on_points.add_scalar("id");
+        for (const char *name : {"velocity", "displacement"})
+          on_points.add_vector(name);
+      }
     for (unsigned int p = 0; p < points.n_points(); ++p)
       {
         PatchOutput<0>::Patch patch;
@@ -167,13 +148,16 @@ namespace geocone
                                       points.plastic_strain_rate[p],
                                       points.cumulative_plastic_strain[p]};
         if (moving)
-          for (const auto *vectors : {&points.velocity, &points.displacement})
-            for (unsigned int d = 0; d < dim; ++d)
-              values.push_back((*vectors)[p][d]);
+          {
+            values.push_back(points.id[p]);
+            for (const auto *vectors : {&points.velocity, &points.displacement})
+              for (unsigned int d = 0; d < dim; ++d)
+                values.push_back((*vectors)[p][d]);
+          }
         for (unsigned int i = 0; i < values.size(); ++i)
           patch.data(i, 0) = values[i];
         on_points.patches.push_back(patch);
       }
-    write(on_points, "points", point_clouds);
+    point_clouds.write(on_points, folder, time, comm);
   }
 } // namespace geocone

@@ -56,18 +56,13 @@ namespace geocone
                           const std::string &folder_of_call)
   {
     name = default_name;
-    if (if_exists != "number" && if_exists != "refuse" &&
-        if_exists != "overwrite")
-      throw InputError("Output/If folder exists",
-                       if_exists,
-                       "number | refuse | overwrite",
-                       "choose one of them");
-    if (report_for_tests != "none" && report_for_tests != "loads" &&
-        report_for_tests != "expectations")
-      throw InputError("Output/Report for tests",
-                       report_for_tests,
-                       "none | loads | expectations",
-                       "choose one of them");
+    check_choice(
+      "Output/If folder exists", if_exists, {"number", "refuse", "overwrite"});
+    check_choice(
+      "Output/Fields format", fields_format, {"vtu", "hdf5", "both"});
+    check_choice("Output/Report for tests",
+                 report_for_tests,
+                 {"none", "loads", "expectations"});
     for (const std::string &text : expectation_texts)
       expectations.emplace_back(text, "Output/Expectations");
     if (!folder_of_call.empty())

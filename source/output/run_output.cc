@@ -18,8 +18,8 @@ namespace geocone
                      const Scene       &scene_)
   {
     scene = &scene_;
-    fields.set_format(fields_format);
     make_folder(default_name, folder_of_call);
+    fields = std::make_unique<Fields>(fields_format);
 
     if (!writes)
       return;
@@ -170,7 +170,7 @@ namespace geocone
                           const Kinematics     &kinematics)
   {
     if (with_fields)
-      fields.write(path, n_fields++, time, mesh, space, points, kinematics);
+      fields->write(path, time, mesh, space, points, kinematics);
   }
 
   Json

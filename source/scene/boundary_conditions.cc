@@ -54,6 +54,17 @@ namespace geocone
       }
   }
 
+  void
+  BoundaryCondition::check_selection(const unsigned int n_nodes) const
+  {
+    if (n_nodes == 0)
+      throw InputError(parameter("Box"),
+                       part(),
+                       "a part of the boundary with at least one node",
+                       "this condition selects no node: check its sides, "
+                       "its box, and the size of the cells there");
+  }
+
   std::string
   BoundaryCondition::parameter(const std::string &entry) const
   {

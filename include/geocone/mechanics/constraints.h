@@ -62,14 +62,22 @@ namespace geocone
          const unsigned int condition,
          const unsigned int component) const;
 
-  private:
+    /** A component of a node, which one of the conditions prescribes. */
     struct Prescribed
     {
-      unsigned int local_dof;
-      unsigned int condition;
+      unsigned int node; ///< local
       unsigned int component;
+      unsigned int condition;
     };
 
+    /** All that this rank knows, with ghosts. */
+    const std::vector<Prescribed> &
+    prescribed_components() const
+    {
+      return prescribed;
+    }
+
+  private:
     const Scene                           &scene;
     const Space                           &space;
     const MPI_Comm                         comm;

@@ -22,9 +22,9 @@ namespace geocone
   {
   public:
     /** @throws InputError for sides that the mesh has not */
-    MeshTransfer(const BackgroundMesh     &mesh,
-                 const Space              &space,
-                 const BoundaryConditions &conditions);
+    MeshTransfer(const Scene          &scene,
+                 const BackgroundMesh &mesh,
+                 const Space          &space);
 
     void
     refresh(std::vector<PointArrays> &groups) override;
@@ -131,9 +131,9 @@ namespace geocone
 
     /** Evaluates the functions of all points of a group, and its padding. */
     void
-    evaluate(const PointArrays         &group,
+    evaluate(const PointArrays        &group,
              const std::vector<Place> &places,
-             Functions                 &functions) const;
+             Functions                &functions) const;
 
     template <bool with_gradients>
     void
@@ -150,7 +150,7 @@ namespace geocone
     const unsigned int    n; ///< nodes per cell
     double                smallest_cell = 0.;
 
-    dealii::GridTools::Cache<dim> cache;
+    dealii::GridTools::Cache<dim>  cache;
     std::vector<std::vector<Cell>> neighbours; ///< by active cell index
     std::vector<Cell>              cells;      ///< by active cell index
     std::vector<unsigned int>      cell_nodes; ///< n per active cell index

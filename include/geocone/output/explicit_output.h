@@ -5,11 +5,12 @@
 #define geocone_output_explicit_output_h
 
 #include <geocone/output/output_base.h>
+#include <geocone/output/patch_output.h>
 #include <geocone/scene/scene.h>
 #include <geocone/time_stepping/explicit_mpm.h>
 
+#include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace geocone
@@ -82,12 +83,10 @@ namespace geocone
     /** @} */
 
   private:
-    const Scene                                *scene = nullptr;
-    ExplicitState                               initial;
-    std::vector<ExplicitRecord>                 records;
-    unsigned int                                n_fields = 0;
-    std::vector<std::pair<double, std::string>> vtu_series;
-    std::vector<std::string>                    hdf5_series;
+    const Scene                *scene = nullptr;
+    ExplicitState               initial;
+    std::vector<ExplicitRecord> records;
+    std::unique_ptr<FieldFiles> point_files;
 
     /** Largest of all records, for scales. */
     double largest_kinetic = 0., largest_impulse = 0.;

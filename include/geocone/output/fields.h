@@ -6,11 +6,10 @@
 
 #include <geocone/discretisation/material_points.h>
 #include <geocone/discretisation/space.h>
+#include <geocone/output/patch_output.h>
 #include <geocone/time_stepping/time_stepper.h>
 
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace geocone
 {
@@ -32,14 +31,14 @@ namespace geocone
   class Fields
   {
   public:
-    /** Chooses the files: vtu (what is written without choice), hdf5 or both.
-     *  @throws InputError for anything else */
-    void
-    set_format(const std::string &name);
+    /** @param format of the files: vtu | hdf5 | both */
+    explicit Fields(const std::string &format)
+      : cells("cells", format)
+      , point_clouds("points", format)
+    {}
 
     void
     write(const std::string    &folder,
-          const unsigned int    number,
           const double          time,
           const BackgroundMesh &mesh,
           const Space          &space,
@@ -47,14 +46,7 @@ namespace geocone
           const Kinematics     &kinematics);
 
   private:
-    /** What cells.pvd and cells.xdmf, or those of the points, list. */
-    struct Series
-    {
-      std::vector<std::pair<double, std::string>> vtu;
-      std::vector<std::string>                    hdf5;
-    };
-    Series cells, point_clouds;
-    bool   vtu = true, hdf5 = false;
+    FieldFiles cells, point_clouds;
   };
 } // namespace geocone
 

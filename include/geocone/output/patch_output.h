@@ -189,6 +189,38 @@ namespace geocone
       return vectors;
     }
   };
+
+  /** The files of one kind of patches at all times, in the formats wanted. */
+  class FieldFiles
+  {
+  public:
+    /** @param base e.g. "points" @param format vtu | hdf5 | both */
+    FieldFiles(const std::string &base, const std::string &format)
+      : base(base)
+      , format(format)
+    {}
+
+    /** Writes base-NNNN and adds it to the series. Collective. */
+    template <int patch_dim>
+    void
+    write(PatchOutput<patch_dim> &output,
+          const std::string      &folder,
+          const double            time,
+          const MPI_Comm          comm)
+    {
+      if (format != "hdf5")
+        output.write_as_vtu(folder, base, number, time, comm, vtu);
+      if (format != "vtu")
+        output.write_as_hdf5(folder, base, number, time, comm, hdf5);
+      ++number;
+    }
+
+  private:
+    const std::string                           base, format;
+    unsigned int                                number = 0;
+    std::vector<std::pair<double, std::string>> vtu;
+    std::vector<std::string>                    hdf5;
+  };
 } // namespace geocone
 
 #endif

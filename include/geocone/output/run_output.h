@@ -11,6 +11,7 @@
 #include <geocone/output/output_base.h>
 #include <geocone/time_stepping/time_stepper.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -103,8 +104,7 @@ namespace geocone
 
     const Scene               *scene = nullptr;
     CsvFile                    newton;
-    Fields                     fields;
-    unsigned int               n_fields = 0;
+    std::unique_ptr<Fields>    fields;
     std::vector<StepRecord>    records;
     std::optional<FieldErrors> field_errors;
 

@@ -52,6 +52,10 @@ namespace geocone
     std::optional<std::array<dealii::Point<dim>, 2>>
     box_corners() const;
 
+    /** @throws InputError if no node is held. @param n_nodes of all ranks */
+    void
+    check_selection(const unsigned int n_nodes) const;
+
     /** The formula of a component as text, for messages. */
     const std::string &
     formula(const unsigned int component) const
