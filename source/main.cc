@@ -78,7 +78,17 @@ namespace
       {
         if (first)
           std::cout << "geocone " << version << " (deal.II "
-                    << DEAL_II_PACKAGE_VERSION << ")" << std::endl;
+                    << DEAL_II_PACKAGE_VERSION << ", "
+#ifdef __clang__
+                    << "clang " << __clang_version__
+#else
+                    << "g++ " << __VERSION__
+#endif
+#ifdef DEBUG
+                    << ", with assertions)" << std::endl;
+#else
+                    << ", optimised)" << std::endl;
+#endif
         return 0;
       }
     if (call.help)

@@ -135,24 +135,16 @@ namespace geocone
   void
   MeshParameters::prepare(const Geometry &geometry, const Method &method)
   {
-    const auto choose = [](const std::string              &entry,
-                           const std::string              &value,
-                           const std::vector<std::string> &choices) {
-      std::string allowed;
-      for (const std::string &choice : choices)
-        allowed += (allowed.empty() ? "" : " | ") + choice;
-      if (std::find(choices.begin(), choices.end(), value) == choices.end())
-        throw InputError("Mesh/" + entry, value, allowed, "choose one of them");
-    };
     const auto positive = [](const std::string &entry, const double value) {
       if (!(value > 0.))
         throw InputError("Mesh/" + entry, value, "> 0", "give it in m");
     };
-    choose("Type", type, {"uniform", "graded", "unstructured"});
+    check_choice("Mesh/Type", type, {"uniform", "graded", "unstructured"});
     if (cells == "automatic")
       cells = method.is_mpm() ? "quadrilaterals" : "triangles";
-    choose("Cells", cells, {"triangles", "quadrilaterals"});
-    choose("Diagonals", diagonals, {"alternating", "parallel", "crossed"});
+    check_choice("Mesh/Cells", cells, {"triangles", "quadrilaterals"});
+    check_choice(
+      "Mesh/Diagonals", diagonals, {"alternating", "parallel", "crossed"});
     positive("Cell size", cell_size);
     positive("Smallest size", smallest);
     positive("Largest size", largest);

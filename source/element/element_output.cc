@@ -69,17 +69,10 @@ namespace geocone
   {
     name    = default_name;
     columns = all_columns;
-    if (if_exists != "number" && if_exists != "refuse" &&
-        if_exists != "overwrite")
-      throw InputError("Output/If folder exists",
-                       if_exists,
-                       "number | refuse | overwrite",
-                       "choose one of them");
-    if (report_for_tests != "none" && report_for_tests != "states")
-      throw InputError("Output/Report for tests",
-                       report_for_tests,
-                       "none | states",
-                       "choose one of them");
+    check_choice(
+      "Output/If folder exists", if_exists, {"number", "refuse", "overwrite"});
+    check_choice(
+      "Output/Report for tests", report_for_tests, {"none", "states"});
     for (const std::string &text : expectation_texts)
       expectations.emplace_back(text, "Output/Expectations");
     if (!folder_of_call.empty())

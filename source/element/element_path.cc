@@ -171,13 +171,7 @@ namespace geocone
   ElementStage::prepare(const ElementPoint             &point,
                         const std::vector<std::string> &columns)
   {
-    if (std::count(kinds.begin(), kinds.end(), kind) == 0)
-      {
-        std::string all;
-        for (const char *known : kinds)
-          all += (all.empty() ? "" : " | ") + std::string(known);
-        throw InputError(parameter("Kind"), kind, all, "choose one of them");
-      }
+    check_choice(parameter("Kind"), kind, {kinds.begin(), kinds.end()});
     if (axis_index() > 2 || !point.has(axis_index()))
       throw InputError(parameter("Axis"),
                        axis,
@@ -192,11 +186,7 @@ namespace geocone
     if (n_increments == 0)
       throw InputError(
         parameter("Increments"), n_increments, "> 0", "100 is usual");
-    if (cycle_form != "two-way" && cycle_form != "one-way")
-      throw InputError(parameter("Cycle form"),
-                       cycle_form,
-                       "two-way | one-way",
-                       "choose one of them");
+    check_choice(parameter("Cycle form"), cycle_form, {"two-way", "one-way"});
     check_components(point);
     if (!stop_text.empty())
       stop = {stop_condition(stop_text, parameter("Stop when"), columns)};

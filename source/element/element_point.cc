@@ -431,12 +431,8 @@ namespace geocone
                      std::string           &changed)
   {
     const auto *subloading = dynamic_cast<const Subloading *>(&law);
-    if (components != "automatic" && components != "plane strain" &&
-        components != "3D")
-      throw InputError("Element/Components",
-                       components,
-                       "automatic | plane strain | 3D",
-                       "choose one of them");
+    check_choice(
+      "Element/Components", components, {"automatic", "plane strain", "3D"});
     if (components == "3D" && subloading == nullptr)
       throw InputError("Element/Components",
                        components,

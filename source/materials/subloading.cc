@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/base/types.h>
+#include <geocone/materials/spin.h>
 #include <geocone/materials/subloading.h>
 
 #include <algorithm>
@@ -287,11 +288,7 @@ namespace geocone
             c.lowest_pressure,
             "> 0 Pa",
             "1 Pa is usual: without pressure there is no stiffness");
-    if (reading != "p" && reading != "ph")
-      throw InputError(parameter("Pressure of rotation"),
-                       reading,
-                       "p | ph",
-                       "choose one of them");
+    check_choice(parameter("Pressure of rotation"), reading, {"p", "ph"});
   }
 
   void
@@ -340,11 +337,8 @@ namespace geocone
                        initial_Rb,
                        ">= Rbf = " + format("%g", c.Rbf),
                        "take Rbf for a soil that has lost its structure");
-    if (if_outside != "refuse" && if_outside != "raise size")
-      throw InputError(parameter("Stress outside"),
-                       if_outside,
-                       "refuse | raise size",
-                       "choose one of them");
+    check_choice(
+      parameter("Stress outside"), if_outside, {"refuse", "raise size"});
   }
 
   void
@@ -462,19 +456,11 @@ namespace geocone
         SubloadingState<4> y =
           state_of(block.s_xx[i], block.s_yy[i], block.s_xy[i], history);
 
-        // Turned by the Cayley transform of the spin, orthogonal exactly.
-        const double tan_half = (block.l_yx[i] - block.l_xy[i]) / 4.;
-        const double t2       = tan_half * tan_half;
-        const double cosine   = (1. - t2) / (1. + t2);
-        const double sine     = 2. * tan_half / (1. + t2);
-        const double cos2     = cosine * cosine - sine * sine;
-        const double sin2     = 2. * sine * cosine;
-        const auto   turn     = [&](Vector4 &x) {
-          const double mean = (x[0] + x[1]) / 2., half = (x[0] - x[1]) / 2.;
-          const double xy = x[3] / sqrt2;
-          const double h  = cos2 * half - sin2 * xy;
-          x               = Vector4(
-            mean + h, mean - h, x[2], sqrt2 * (sin2 * half + cos2 * xy));
+        const Spin spin(block.l_xy[i], block.l_yx[i]);
+        const auto turn = [&](Vector4 &x) {
+          double xy = x[3] / sqrt2;
+          spin.turn(x[0], x[1], xy);
+          x[3] = sqrt2 * xy;
         };
         turn(y.stress);
         turn(y.a);

@@ -76,9 +76,7 @@ namespace geocone
                            "names of the list 'Boundary conditions/Names'",
                            "check the spelling");
       }
-    if (component_name != "x" && component_name != "y")
-      throw InputError(
-        "Observation/Component", component_name, "x | y", "choose one of them");
+    check_choice("Observation/Component", component_name, {"x", "y"});
     component = component_name == "x" ? 0 : 1;
     if (!(plateau_tolerance > 0.))
       throw InputError("Observation/Plateau tolerance",

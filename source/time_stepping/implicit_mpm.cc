@@ -74,29 +74,21 @@ namespace geocone
   ImplicitMPM::check_parameters()
   {
     const std::string section = "Material point method/";
-    const auto        choose  = [&](const std::string &entry,
-                            const std::string &value,
-                            const std::string &a,
-                            const std::string &b,
-                            const std::string &c = "") {
-      if (value != a && value != b && (c.empty() || value != c))
-        throw InputError(section + entry,
-                         value,
-                         a + " | " + b + (c.empty() ? "" : " | " + c),
-                         "choose one of them");
-    };
-    const auto part = [&](const std::string &entry,
+    const auto        part    = [&](const std::string &entry,
                           const double       value,
                           const std::string &remedy) {
       if (!(value >= 0. && value <= 1.))
         throw InputError(section + entry, value, "0 to 1", remedy);
     };
-    choose("Transfer", transfer_name, "FLIP", "APIC");
-    choose(
-      "Advection", advection, "grid velocity", "particle velocity", "none");
-    choose("Integration", integration, "backward Euler", "midpoint");
-    choose(
-      "Start", start_name, "automatic", "grid velocity", "particle velocity");
+    check_choice(section + "Transfer", transfer_name, {"FLIP", "APIC"});
+    check_choice(section + "Advection",
+                 advection,
+                 {"grid velocity", "particle velocity", "none"});
+    check_choice(
+      section + "Integration", integration, {"backward Euler", "midpoint"});
+    check_choice(section + "Start",
+                 start_name,
+                 {"automatic", "grid velocity", "particle velocity"});
     part("FLIP part", flip_part, "1 is FLIP, 0 is PIC");
     part("Consistent mass part",
          consistent_mass,
@@ -147,17 +139,8 @@ namespace geocone
     force.reinit(space->partitioner());
     if (kind == Transfer::apic)
       for (unsigned int p = 0; p < points.n_points(); ++p)
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            // Its gradient, exact for linear ones.
-            Tensor<1, dim> r;
-            r[d] = 1e-4 * std::sqrt(points.weight[p]);
-            const Tensor<1, dim> change =
-              scene->initial_velocity.at(points.position[p] + r) -
-              scene->initial_velocity.at(points.position[p] - r);
-            for (unsigned int c = 0; c < dim; ++c)
-              points.affine[p][c][d] = change[c] / (2. * r[d]);
-          }
+        points.affine[p] = scene->initial_velocity.gradient(
+          points.position[p], std::sqrt(points.weight[p]));
     begin(points, timer);
     moving->check_held_particles(points);
     Vector v = problem->make_vector();
