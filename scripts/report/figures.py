@@ -1,0 +1,105 @@
+# Copyright (C) 2026 by the geocone authors
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Figures and tables that any study may show.
+
+Each function takes the rows of the runs (runs.Computer.row) and the options of the
+study file, and returns a figure of matplotlib, or the head and lines of a table.
+"""
+
+import importlib.machinery
+import importlib.util
+import math
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.ticker import FuncFormatter, NullFormatter
+
+from report.runs import ROOT, flat
+
+
+def load_plot():
+    """scripts/plot, whose name is no module's."""
+    loader = importlib.machinery.SourceFileLoader("plot", str(ROOT / "scripts" / "plot"))
+    module = importlib.util.module_from_spec(
+        importlib.util.spec_from_loader("plot", loader))
+    loader.exec_module(module)
+    return module
+
+
+plot = load_plot()
+COLORS = [*plot.COLORS, "#8B5A2B", "#6A3D9A", "#000000"]
+MARKERS = "osD^vP*Xh<"
+
+
+def value_of(row, key):
+    """What a row has for a key: an axis, or a path in the summary; or None."""
+    return row["axes"].get(key, flat(row["summary"]).get(key))
+
+
+def number(value, digits=4):
+    """A number of a table."""
+    if value is None or value == "":
+        return "-"
+    if not isinstance(value, (int, float)):
+        return str(value)
+    return (f"{value:.0f}" if 10**digits <= abs(value) < 1e8 else f"{value:.{digits}g}")
+
+
+def percent(value, digits=2):
+    """A relative error of a table."""
+    return "-" if value is None else f"{100. * value:+.{digits}f} %"
+
+
+def plain_ticks(axis, values, n=5):
+    """Plain numbers 1, 2, 5 at the ticks of a logarithmic axis."""
+    low, high = min(values), max(values)
+    ticks = [m * 10.**e for e in range(math.floor(math.log10(low)) - 1,
+                                       math.ceil(math.log10(high)) + 1)
+             for m in (1, 2, 5) if 0.8 * low <= m * 10.**e <= 1.25 * high]
+    if len(ticks) > 2 * n:
+        ticks = [tick for tick in ticks if f"{tick:e}"[0] == "1"]
+    axis.set_ticks(ticks)
+    axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:.6g}"))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def columns(rows, options):
+    """The table of some keys: options 'columns' = [[title, key], ...], where the key
+    may end with ' %' for relative numbers. Failed runs tell their reason."""
+    wanted = options["columns"]
+    lines = []
+    for row in rows:
+        line = [row["group"], row["label"]]
+        for _, key in wanted:
+            value = value_of(row, key.removesuffix(" %"))
+            line.append(percent(value) if key.endswith(" %") and value is not None
+                        else number(value))
+        lines.append([*line, row["reason"] or "-"])
+    if not any(row["reason"] for row in rows):
+        return (["runs", "", *(title for title, _ in wanted)],
+                [line[:-1] for line in lines])
+    return ["runs", "", *(title for title, _ in wanted), "failed"], lines
+
+
+def load_displacement(rows, options):
+    """Load-displacement curves of all rows, with their references."""
+    curves, names = [], []
+    for row in rows:
+        try:
+            run = plot.read_run(row["folder"])
+            curves.append(plot.read_curve(run))
+            names.append(", ".join(word for word in (
+                row["group"] if options.get("with_group", True) else "", row["label"])
+                if word))
+        except (plot.PlotError, plot.Skipped):
+            continue
+    figure, axes = plt.subplots(figsize=(9.5, 4.6), constrained_layout=True)
+    if not curves:
+        axes.text(0.5, 0.5, "no run has a curve", ha="center")
+        return figure
+    size = np.max(np.abs(np.concatenate([curve.load for curve in curves])))
+    unit = plot.unit_for(size, "N/m")
+    plot.draw_lines(axes, names, curves, unit)
+    axes.set(xlabel="displacement (mm)", ylabel=f"load ({unit[0]})")
+    axes.legend(loc="upper left", bbox_to_anchor=(1., 1.02), title="limit load")
+    return figure

@@ -1,0 +1,158 @@
+# Copyright (C) 2026 by the geocone authors
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The report of studies: one HTML page that holds its pictures."""
+
+import base64
+import datetime
+import importlib
+import io
+import os
+import platform
+import re
+import subprocess
+import sys
+import traceback
+from pathlib import Path
+
+import jinja2
+import matplotlib.pyplot as plt
+from markupsafe import Markup, escape
+
+from report.runs import ROOT, format_time, write_whole
+from report.study_file import StudyError
+
+TEMPLATE = Path(__file__).with_name("page.html")
+
+
+def paragraphs(text):
+    """Paragraphs are separated by empty lines; `words` are parameters or files."""
+    parts = [re.sub(r"`([^`]+)`", r"<code>\1</code>", str(escape(part)))
+             for part in re.split(r"\n\s*\n", text.strip()) if part]
+    return Markup("".join(f"<p>{part}</p>" for part in parts))
+
+
+def machine(program):
+    """What the times depend on, as (name, value)."""
+    def first(pattern, path):
+        try:
+            found = re.search(pattern, Path(path).read_text(), re.MULTILINE)
+        except OSError:
+            found = None
+        return found[1].strip() if found else "unknown"
+
+    def said(*command):
+        try:
+            return subprocess.run(command, capture_output=True, text=True, check=True,
+                                  cwd=ROOT).stdout.strip()
+        except (OSError, subprocess.CalledProcessError):
+            return ""
+    memory = first(r"^MemTotal:\s*(\d+)", "/proc/meminfo")
+    return [
+        ("processor", f"{first(r'^model name.*: (.*)$', '/proc/cpuinfo')}, "
+         f"{len(os.sched_getaffinity(0))} cores, one thread for each rank"),
+        ("memory", f"{int(memory) / 2**20:.0f} GB" if memory.isdigit() else memory),
+        ("system", f"{first('^PRETTY_NAME=.(.*).$', '/etc/os-release')}, "
+         f"Linux {platform.release()}"),
+        ("program", said(str(program), "--version") or "unknown"),
+        ("source", said("git", "describe", "--always", "--dirty") or "unknown"),
+        ("date", datetime.date.today().isoformat())]
+
+
+def find(kind):
+    """The function that draws a figure or makes a table."""
+    module, _, name = kind.rpartition(".")
+    return getattr(importlib.import_module(f"report.{module}"), name)
+
+
+def check_kinds(study):
+    """Refuses figures and tables that nobody can make, before runs take hours."""
+    for section in study.sections:
+        for shown in (*section.get("figure", []), *section.get("table", [])):
+            try:
+                find(shown["kind"])
+            except (ImportError, AttributeError, ValueError):
+                raise StudyError(f"{study.path}: unknown figure or table "
+                                 f"'{shown['kind']}'\n  allowed: MODULE.FUNCTION of "
+                                 "scripts/report, e.g. figures.load_displacement")
+
+
+def rows_of(shown, rows):
+    """The runs that a figure or a table shows."""
+    wanted = shown.get("groups")
+    return [row for row in rows if wanted is None or row["group"] in wanted]
+
+
+def figure_data(shown, rows, picture):
+    """A drawn figure as data of the page, also left as a file."""
+    figure = find(shown["kind"])(rows_of(shown, rows), shown)
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format="png", dpi=130)
+    plt.close(figure)
+    picture.write_bytes(buffer.getvalue())
+    return {"data": base64.b64encode(buffer.getvalue()).decode(), "file": picture.name,
+            "caption": paragraphs(shown.get("caption", ""))}
+
+
+def table_data(shown, rows):
+    """Head and lines of a table."""
+    head, lines = find(shown["kind"])(rows_of(shown, rows), shown)
+    return {"head": head, "lines": lines, "caption": paragraphs(shown.get("caption", ""))}
+
+
+def markdown(table):
+    """A table for files that people read as text."""
+    lines = [table["head"], ["---"] * len(table["head"]), *table["lines"]]
+    return "".join("| " + " | ".join(str(cell) for cell in line) + " |\n"
+                   for line in lines)
+
+
+def section_data(study, number, section, rows, folder):
+    """What a section shows; what cannot be shown is told instead."""
+    data = {"title": section.get("title", ""), "id": f"{study.name}-{number}",
+            "text": paragraphs(section.get("text", "")), "figures": [], "tables": [],
+            "problems": []}
+    for i, shown in enumerate(section.get("figure", [])):
+        picture = folder / f"{study.name}-{number}-{i + 1}.png"
+        try:
+            data["figures"].append(figure_data(shown, rows, picture))
+        except Exception as problem:  # of one figure: the others are still shown
+            data["problems"].append(f"the figure {shown['kind']} cannot be drawn: "
+                                    f"{problem!r}")
+            traceback.print_exc(file=sys.stderr)
+    for i, shown in enumerate(section.get("table", [])):
+        try:
+            table = table_data(shown, rows)
+        except Exception as problem:
+            data["problems"].append(f"the table {shown['kind']} cannot be made: "
+                                    f"{problem!r}")
+            traceback.print_exc(file=sys.stderr)
+            continue
+        data["tables"].append(table)
+        write_whole(folder / f"{study.name}-{number}-{i + 1}.md", markdown(table))
+    return data
+
+
+def write_report(path, studies, program):
+    """Writes the page.
+    @param studies pairs of a study and its rows
+    @return the problems of figures and tables"""
+    folder = path.parent / "figures"
+    folder.mkdir(parents=True, exist_ok=True)
+    parts, problems = [], []
+    for study, rows in studies:
+        sections = [section_data(study, number + 1, section, rows, folder)
+                    for number, section in enumerate(study.sections)]
+        problems += [text for section in sections for text in section["problems"]]
+        file = study.path
+        parts.append({
+            "title": study.title, "name": study.name, "text": paragraphs(study.text),
+            "file": file.relative_to(ROOT) if file.is_relative_to(ROOT) else file,
+            "sections": sections, "rows": rows,
+            "failed": sum(row["status"] == "failed" for row in rows),
+            "time": format_time(sum(row["seconds"] for row in rows))})
+    environment = jinja2.Environment(autoescape=True, trim_blocks=True,
+                                     lstrip_blocks=True,
+                                     undefined=jinja2.StrictUndefined)
+    template = environment.from_string(TEMPLATE.read_text())
+    write_whole(path, template.render(parts=parts, machine=machine(program)))
+    return problems

@@ -1,0 +1,248 @@
+# Copyright (C) 2026 by the geocone authors
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Computes the runs of studies, side by side, and gathers what they found.
+
+Each run has a folder, and beside it FOLDER.json: a digest of all that the result
+depends on, and how the run ended. A run whose digest is unchanged is used again.
+"""
+
+import csv
+import hashlib
+import json
+import os
+import shlex
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def format_time(seconds):
+    """A duration in words."""
+    if seconds < 90.:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60.:.0f} min" if seconds < 5400. else f"{seconds / 3600.:.1f} h"
+
+
+def write_whole(path, text):
+    """Writes a file under a temporary name first."""
+    part = path.with_name(path.name + ".part")
+    part.write_text(text)
+    part.replace(path)
+
+
+def command_text(run):
+    """The call that a reader may repeat."""
+    file = run.file.relative_to(ROOT) if run.file.is_relative_to(ROOT) else run.file
+    ranks = ["-n", str(run.ranks)] if run.ranks > 1 else []
+    return shlex.join(["scripts/geocone", *ranks, str(file), *run.options()])
+
+
+class Progress:
+    """One line that is updated on a terminal, plain lines in a file."""
+
+    def __init__(self, total, out=sys.stderr):
+        self.total, self.out, self.done, self.failed = total, out, 0, 0
+        self.left = 0.
+
+    def show(self, text):
+        """Tells what has ended and how long the rest will take."""
+        line = (f"study: {self.done}/{self.total} done" +
+                (f", {self.failed} failed" if self.failed else "") +
+                (f", about {format_time(self.left)} left" if self.done < self.total
+                 else "") + f": {text}")
+        if self.out.isatty():
+            width = shutil.get_terminal_size().columns - 1
+            end = "\n" if self.done == self.total else ""
+            self.out.write("\r" + line[:width].ljust(width) + end)
+        else:
+            self.out.write(line + "\n")
+        self.out.flush()
+
+
+class Computer:
+    """Calls the program for runs."""
+
+    def __init__(self, program, folder, cores):
+        self.program, self.folder, self.cores = program, folder, cores
+        self.digest = hashlib.sha256(program.read_bytes()).hexdigest()
+        self.children, self.lock = set(), threading.Lock()
+        self.stopped = False
+        folder.mkdir(parents=True, exist_ok=True)
+
+    def key(self, run):
+        """A digest of all that the result depends on."""
+        return hashlib.sha256((self.digest + run.inputs()).encode()).hexdigest()
+
+    def record(self, run):
+        """How the run has ended before, or {}."""
+        try:
+            return json.loads((self.folder / (run.name + ".json")).read_text())
+        except (OSError, ValueError):
+            return {}
+
+    def is_done(self, run):
+        """Whether the result is there and unchanged."""
+        return self.record(run).get("key") == self.key(run)
+
+    def call(self, run):
+        """Computes a run and writes its record."""
+        record = self.folder / (run.name + ".json")
+        folder = self.folder / run.name
+        record.unlink(missing_ok=True)
+        shutil.rmtree(folder, ignore_errors=True)
+        environment = {**os.environ, "OMP_NUM_THREADS": "1",
+                       "OPENBLAS_NUM_THREADS": "1"}
+        command = [str(self.program), str(run.file), "--output", str(folder),
+                   "--quiet", *run.options()]
+        if run.ranks > 1:
+            command = ["mpirun", "-np", str(run.ranks), *command]
+            if os.geteuid() == 0:
+                environment.update(OMPI_ALLOW_RUN_AS_ROOT="1",
+                                   OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+        start = time.monotonic()
+        # A session of its own, so that mpirun's children end with it.
+        with subprocess.Popen(command, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True, env=environment,
+                              start_new_session=True) as child:
+            with self.lock:
+                self.children.add(child)
+            try:
+                output, _ = child.communicate(timeout=run.time_limit)
+                reason = reason_of(child.returncode, output)
+            except subprocess.TimeoutExpired:
+                os.killpg(child.pid, signal.SIGKILL)
+                output, _ = child.communicate()
+                reason = f"no end in {format_time(run.time_limit)}"
+            finally:
+                with self.lock:
+                    self.children.discard(child)
+        if self.stopped:
+            return
+        write_whole(record, json.dumps(
+            {"key": self.key(run), "status": "failed" if reason else "finished",
+             "reason": reason, "seconds": round(time.monotonic() - start, 3),
+             "command": command_text(run), "output": output[-4000:]}, indent=1))
+
+    def stop(self):
+        """Ends what is being computed."""
+        self.stopped = True
+        with self.lock:
+            for child in self.children:
+                os.killpg(child.pid, signal.SIGTERM)
+
+    def compute(self, runs):
+        """Computes what is not there yet, the longest first as far as is known."""
+        expected = {run.name: self.record(run).get("seconds") for run in runs}
+        known = [seconds for seconds in expected.values() if seconds]
+        mean = sum(known) / len(known) if known else 5.
+        waiting = [run for run in runs if not self.is_done(run)]
+        # Those that need the machine for themselves come last, one by one.
+        waiting.sort(key=lambda run: (run.alone, -(expected[run.name] or mean)))
+        progress = Progress(len(runs))
+        progress.done = len(runs) - len(waiting)
+        progress.failed = sum(self.record(run)["status"] == "failed"
+                              for run in runs if run not in waiting)
+        progress.show(f"{progress.done} there from before")
+        free, changed, running = self.cores, threading.Condition(), []
+        began, computed = time.monotonic(), []
+
+        def work(run, slots):
+            nonlocal free
+            try:
+                self.call(run)
+            finally:
+                with changed:
+                    free += slots
+                    if not self.stopped:
+                        record = self.record(run)
+                        computed.append(run.name)
+                        progress.done += 1
+                        progress.failed += record.get("status") != "finished"
+                        # What the ended ones took, against what was expected.
+                        ended = sum(expected[name] or mean for name in computed)
+                        rest = sum(expected[other.name] or mean for other in waiting
+                                   if other.name not in computed)
+                        progress.left = (time.monotonic() - began) * rest / ended
+                        progress.show(run.name + (
+                            f": {record['reason']}" if record.get("reason") else ""))
+                    changed.notify()
+
+        try:
+            for run in waiting:
+                slots = self.cores if run.alone else min(run.ranks, self.cores)
+                with changed:
+                    changed.wait_for(lambda: free >= slots)
+                    free -= slots
+                running.append(threading.Thread(target=work, args=(run, slots)))
+                running[-1].start()
+            for thread in running:
+                thread.join()
+        except BaseException:
+            self.stop()
+            for thread in running:
+                thread.join()
+            raise
+
+    def row(self, run):
+        """What is known of a run, for figures and tables."""
+        record, folder = self.record(run), self.folder / run.name
+        try:
+            summary = json.loads((folder / "summary.json").read_text())
+        except (OSError, ValueError):
+            summary = {}
+        status, reason = record["status"], record["reason"]
+        if status == "finished" and not summary:
+            status, reason = "failed", "its folder has no summary.json"
+        return {"group": run.group, "label": run.label, "axes": run.axes,
+                "name": run.name, "folder": folder, "status": status,
+                "reason": reason, "seconds": record["seconds"],
+                "command": record["command"], "check": run.check,
+                "summary": summary}
+
+
+def reason_of(code, output):
+    """Why a call has failed, in a line; empty if it has not."""
+    if code == 0:
+        return ""
+    if code < 0:
+        return f"ended by signal {-code}"
+    lines = [line.strip() for line in output.splitlines() if line.strip()]
+    for i, line in enumerate(lines):
+        if line.startswith("error:"):
+            return " ".join(lines[i:i + 3])
+    unmet = [line for line in lines if line.startswith("expected ") and ": NO" in line]
+    return "; ".join(unmet) or (lines[-1] if lines else f"exit code {code}")
+
+
+def flat(tree, prefix=""):
+    """The leaves of a summary by their paths."""
+    leaves = {}
+    for key, value in tree.items():
+        if isinstance(value, dict):
+            leaves.update(flat(value, f"{prefix}{key}/"))
+        else:
+            leaves[prefix + key] = value
+    return leaves
+
+
+def write_csv(path, rows):
+    """One line for each run: its axes, how it ended, all of its summary."""
+    lines = [{"group": row["group"],
+              **{f"axis {name}": value for name, value in row["axes"].items()},
+              "status": row["status"], "reason": row["reason"],
+              "seconds": row["seconds"], **flat(row["summary"]),
+              "command": row["command"]} for row in rows]
+    columns = list(dict.fromkeys(key for line in lines for key in line
+                                 if key != "command")) + ["command"]
+    part = path.with_name(path.name + ".part")
+    with open(part, "w", newline="") as file:
+        writer = csv.DictWriter(file, columns, restval="")
+        writer.writeheader()
+        writer.writerows(lines)
+    part.replace(path)
