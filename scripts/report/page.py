@@ -79,7 +79,10 @@ def check_kinds(study):
 def rows_of(shown, rows):
     """The runs that a figure or a table shows."""
     wanted = shown.get("groups")
-    return [row for row in rows if wanted is None or row["group"] in wanted]
+    rows = [row for row in rows if wanted is None or row["group"] in wanted]
+    if not any(row["status"] == "finished" for row in rows):
+        raise ValueError("none of its runs has finished")
+    return rows
 
 
 def figure_data(shown, rows, picture):
@@ -106,6 +109,13 @@ def markdown(table):
                    for line in lines)
 
 
+def told(what, shown, problem):
+    """Why something cannot be shown; where that is unexpected, also from where."""
+    if not isinstance(problem, ValueError):
+        traceback.print_exception(problem, file=sys.stderr)
+    return f"the {what} {shown['kind']} cannot be shown: {problem}"
+
+
 def section_data(study, number, section, rows, folder):
     """What a section shows; what cannot be shown is told instead."""
     data = {"title": section.get("title", ""), "id": f"{study.name}-{number}",
@@ -116,16 +126,12 @@ def section_data(study, number, section, rows, folder):
         try:
             data["figures"].append(figure_data(shown, rows, picture))
         except Exception as problem:  # of one figure: the others are still shown
-            data["problems"].append(f"the figure {shown['kind']} cannot be drawn: "
-                                    f"{problem!r}")
-            traceback.print_exc(file=sys.stderr)
+            data["problems"].append(told("figure", shown, problem))
     for i, shown in enumerate(section.get("table", [])):
         try:
             table = table_data(shown, rows)
         except Exception as problem:
-            data["problems"].append(f"the table {shown['kind']} cannot be made: "
-                                    f"{problem!r}")
-            traceback.print_exc(file=sys.stderr)
+            data["problems"].append(told("table", shown, problem))
             continue
         data["tables"].append(table)
         write_whole(folder / f"{study.name}-{number}-{i + 1}.md", markdown(table))

@@ -13,6 +13,7 @@ from collections import namedtuple
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.ticker import NullFormatter
 
 from report.figures import (COLORS, MARKERS, number, percent, plain_ticks,
                             value_of)
@@ -266,8 +267,13 @@ def convergence(rows, options):
         ax.set_title(group)
     for ax in axes.flat[len(groups):]:
         ax.remove()
-    plain_ticks(axes.flat[0].xaxis, all_x, 4)
-    figure.supxlabel("cell size / width of the footing (-)")
+    for ax in axes.flat[max(0, len(groups) - n_columns):len(groups)]:
+        ax.tick_params(labelbottom=True)
+    ticks = sorted(set(all_x))
+    axes.flat[0].set_xticks(ticks, [f"B/{1. / x:.3g}" if x < 0.99 else f"{x:.3g} B"
+                                    for x in ticks])
+    axes.flat[0].xaxis.set_minor_formatter(NullFormatter())
+    figure.supxlabel("cell size")
     figure.supylabel("error of the limit load (%)")
     axes.flat[0].legend()
     return figure

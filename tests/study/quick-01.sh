@@ -31,7 +31,7 @@ END
 # One page with its pictures in it, and none that could not be drawn.
 page=$folder/results/report.html
 [ "$(grep -c 'src="data:image/png;base64' "$page")" = 5 ]
-! grep -q 'cannot be' "$page"
+! grep -q 'cannot be shown' "$page"
 ! grep -q 'src="[^d]' "$page"
 grep -q "soil without cohesion and weight carries nothing" "$page"
 grep -q "<code>scripts/geocone -n 2 prm/verification/prandtl_mpm.prm" "$page"
