@@ -75,7 +75,8 @@ namespace geocone
   PointArrays::memory() const
   {
     std::size_t bytes =
-      id.capacity() * sizeof(unsigned int) + buffer.capacity() * sizeof(double);
+      (id.capacity() + cell.capacity()) * sizeof(unsigned int) +
+      buffer.capacity() * sizeof(double);
     for (const std::vector<double> &array : data)
       bytes += array.capacity() * sizeof(double);
     return bytes;
