@@ -2,7 +2,7 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Computes the reference values of studies/validation.toml that are no closed form
-in geocone itself, and prints them; some minute.
+in geocone itself, and prints them; some ten seconds.
 
 N_gamma. Behind the edge of a footing on soil without cohesion stress is self-similar:
 the mean pressure is gamma r s(theta), and the larger principal stress is inclined to
@@ -63,9 +63,9 @@ def n_gamma(phi_degrees, rough):
     sin_phi, mu = sin(phi), pi / 4. - phi / 2.
     psi = -mu if rough else -pi / 2.
     low, high = 0.5, 80.
-    for _ in range(30):
+    for _ in range(36):
         s = sqrt(low * high)
-        end = field(s, psi, phi, 0.004)[-1]
+        end = field(s, psi, phi, 0.002)[-1]
         if abs(end[2] + mu) < 1e-3 and end[0] > mu:
             low = s
         else:
