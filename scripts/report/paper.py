@@ -4,7 +4,7 @@
 
 Each function takes the rows of runs and the table of the figure in the study file,
 whose further keys are options:
-  where   {axis = value}: only runs that have it
+  where   {axis = value or a list of them}: only runs that have it
   color, style   names of the axes that colours and line styles tell
 The others are told where they are used. Runs that have failed are left out, and the
 picture says so.
@@ -44,8 +44,10 @@ FLOOR = 1e-20  # what is drawn of smaller numbers on a logarithmic scale
 
 def chosen(rows, options):
     """The finished runs that a figure shows, and a note about failed ones."""
-    wanted = [row for row in rows if all(row["axes"].get(axis) == value for axis, value
-                                         in options.get("where", {}).items())]
+    where = {axis: value if isinstance(value, list) else [value]
+             for axis, value in options.get("where", {}).items()}
+    wanted = [row for row in rows if all(row["axes"].get(axis) in values
+                                         for axis, values in where.items())]
     good = [row for row in wanted if row["status"] == "finished"]
     failed = [f"{row['label'] or row['group']}: {row['reason']}" for row in wanted
               if row["status"] != "finished"]
@@ -200,7 +202,7 @@ def rates(rows, options):
                                 edgecolors="face", linewidths=0.5))
         drawn.set(cmap=plot.RATES, norm=LogNorm(shown * most, most))
         ax.add_collection(drawn)
-        ax.set_title(f"{row['label'] or row['group']}, t = {time:.3g} s")
+        ax.set_title(", ".join([*filter(None, [row["label"]]), f"t = {time:.3g} s"]))
         plot.add_bar(ax, drawn, "plastic strain rate (1/s)", extend="min")
         if "mechanism" in options:
             for line in prandtl_lines(np.radians(options["mechanism"]), options["width"]):
@@ -232,7 +234,7 @@ def velocities(rows, options):
             ax.axhline(y, color="black", linewidth=0.7, zorder=0.5)
         inside = np.all((field.points > [x0, y0]) & (field.points < [x1, y1]), axis=1)
         drawn = ax.scatter(*field.points[inside].T, c=speed[inside], s=42.,
-                           cmap=plt.get_cmap("coolwarm"), norm=Normalize(-1., 1.),
+                           cmap=plt.get_cmap("coolwarm"), norm=Normalize(-2., 2.),
                            edgecolors="black", linewidths=0.4, zorder=2.)
         half, level = options["width"] / 2., -time * options["speed"]
         held = np.abs(field.data["displacement"][:, 1] - level) < 1e-6
@@ -252,9 +254,10 @@ def velocities(rows, options):
                     arrowprops={"arrowstyle": "<->", "linewidth": 1.5})
         ax.text(0., y1 - 0.2 * size, "B", ha="center", va="center", fontsize=13,
                 bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.5})
-        ax.set_title(f"{row['label'] or row['group']}, t = {time:.3g} s")
+        ax.set_title(", ".join([*filter(None, [row["label"]]), f"t = {time:.3g} s"]))
         ax.legend(loc="lower left")
-        plot.add_bar(ax, drawn, "downward velocity\n/ velocity of the footing")
+        plot.add_bar(ax, drawn, "downward velocity\n/ velocity of the footing",
+                     extend="both")
     note(figure, text)
     return figure
 
@@ -366,10 +369,8 @@ def law(rows, options):
     i1, j = invariants(-np.cumsum(z, axis=0))
     paths(axes[0, 1], i1, j, every)
     top = j.max()
-    for slope, style, name in ((a, ":", "phi"), (b, "--", "theta")):
-        if slope < a or name == "theta":
-            axes[0, 1].plot([0., 2. * slope * top], [0., top], color="black",
-                            linestyle=style, linewidth=1.4, label=f"flow with {name}")
+    axes[0, 1].plot([0., 2. * b * top], [0., top], "k--", linewidth=1.4,
+                    label="the cone of flow with theta")
     axes[0, 1].set(xlabel="$I_1$ of the plastic strain (-)", ylabel=r"$\sqrt{J_2}$ (-)",
                    title="plastic strain")
     product = complementarity(stress, z, a, b, k)
