@@ -238,6 +238,7 @@ def velocities(rows, options):
                            edgecolors="black", linewidths=0.4, zorder=2.)
         half, level = options["width"] / 2., -time * options["speed"]
         held = np.abs(field.data["displacement"][:, 1] - level) < 1e-6
+        sunk = field.data["displacement"][:, 1] / level
         # The others in the cells beside the footing, at the depth of its points.
         from_axis = np.abs(field.points[:, 0])
         depth = field.points[held, 1].mean() if np.any(held) else level
@@ -245,8 +246,9 @@ def velocities(rows, options):
                   (from_axis > half) & (from_axis < half + size))
         for some, color, label in (
                 (held, "#D55E00", "held by the footing"),
-                (beside, "#009E73", "beside it: "
-                 f"{np.median(speed[beside]):.2f} of its velocity (median)")):
+                (beside, "#009E73", "beside it, medians: have sunk "
+                 f"{np.median(sunk[beside]):.2f} of its way,\n"
+                 f"and have {np.median(speed[beside]):.2f} of its velocity")):
             ax.scatter(*field.points[some & inside].T, s=110., marker="s", label=label,
                        facecolors="none", edgecolors=color, linewidths=1.6, zorder=3.)
         ax.axvspan(-half, half, color=plot.ORANGE, alpha=0.2, zorder=0.)
