@@ -6,8 +6,8 @@ Each function takes the rows of runs and the table of the figure in the study fi
 whose further keys are options:
   where   {axis = value or a list of them}: only runs that have it
   color, style   names of the axes that colours and line styles tell
-The others are told where they are used. Runs that have failed are left out, and the
-picture says so.
+The others are told where they are used; tables have none. Runs that have failed are
+left out, and the picture says so.
 """
 
 import importlib.machinery
@@ -105,7 +105,7 @@ def load_time(rows, options):
                   label=names.get(row["label"], row["label"] or row["group"]), **look)
     reference = good[0]["summary"]["limit_load"]["reference"]
     widths = options.get("widths", [0.2])
-    labels = options.get("names", ["Prandtl, B", *(f"Prandtl, {w} m" for w in widths[1:])])
+    labels = options.get("names", [f"Prandtl, {w} m" for w in widths])
     for width, label, style in zip(widths, labels, STYLES):
         value = reference * width / widths[0] / 1e3
         axes.axhline(value, color="black", linewidth=1.2, linestyle=style, zorder=1.5,
@@ -197,9 +197,11 @@ def rates(rows, options):
     values = [field.data["plastic_strain_rate"][:, 0] for field, _ in fields]
     most = max(value.max() for value in values)
     for ax, row, (field, time), value in zip(axes, good, fields, values):
-        drawn = (plot.disks(ax, field.points, field.data, value) if series == "points" else
-                 PolyCollection(field.points[field.cells], array=value[field.cells[:, 0]],
-                                edgecolors="face", linewidths=0.5))
+        if series == "points":
+            drawn = plot.disks(ax, field.points, field.data, value)
+        else:
+            drawn = PolyCollection(field.points[field.cells], edgecolors="face",
+                                   array=value[field.cells[:, 0]], linewidths=0.5)
         drawn.set(cmap=plot.RATES, norm=LogNorm(shown * most, most))
         ax.add_collection(drawn)
         ax.set_title(", ".join([*filter(None, [row["label"]]), f"t = {time:.3g} s"]))
@@ -410,7 +412,8 @@ def newton(axes, row):
                       color=plot.GREY if failed else
                       plot.STEPS(scale(table["step"][part[0]])))
     if np.any(table["converged"] == 0.):
-        axes.plot([], [], color=plot.GREY, linestyle=":", label="failed, the step was cut")
+        axes.plot([], [], color=plot.GREY, linestyle=":",
+                  label="failed, the step was cut")
     axes.axhline(1e-10, color="black", linestyle="--", linewidth=1.2,
                  label="tolerance of the solver")
     axes.set(xlabel="iteration", ylabel="relative residual (-)",
@@ -437,7 +440,8 @@ def strains(rows, options):
         drawn = plot.disks(ax, field.points, field.data, value)
         drawn.set(cmap=plot.STRAINS, norm=norm)
         ax.add_collection(drawn)
-        ax.set_title(f"{'abcdefgh'[i]}) t = {time:.3g} s, up to {100. * value.max():.0f} %")
+        ax.set_title(f"{'abcdefgh'[i]}) t = {time:.3g} s, "
+                     f"up to {100. * value.max():.0f} %")
         ax.label_outer()
     figure.suptitle(row["label"] or row["group"], fontsize=13)
     figure.colorbar(drawn, ax=list(axes), label="cumulative plastic strain (-)",
@@ -484,7 +488,7 @@ def energies(rows, options):
     return figure
 
 
-def loads_table(rows, options):
+def loads_table(rows, _):
     """Head and lines: what each run of a footing has found."""
     head = ["run", "largest load (kN/m)", "last load (kN/m)", "mean of the second half "
             "(kN/m)", "Prandtl (kN/m)", "largest / Prandtl", "mean / Prandtl",
@@ -499,7 +503,8 @@ def loads_table(rows, options):
         load, time = table["load (N/m)"], table["time (s)"]
         late = load[time > time[-1] / 2.].mean()
         exact = summary["limit_load"]["reference"]
-        lines.append([name, *(f"{v / 1e3:.2f}" for v in (load.max(), load[-1], late, exact)),
+        loads = (load.max(), load[-1], late, exact)
+        lines.append([name, *(f"{value / 1e3:.2f}" for value in loads),
                       f"{load.max() / exact:.3f}", f"{late / exact:.3f}",
                       str(summary["size"].get("lost_points", 0)),
                       f"{summary['newton']['iterations_mean']:.1f}",
@@ -507,7 +512,7 @@ def loads_table(rows, options):
     return head, lines
 
 
-def energies_table(rows, options):
+def energies_table(rows, _):
     """Head and lines: what each run of a slope has found."""
     head = ["run", "largest plastic strain", "released potential energy (kJ/m)",
             "dissipation (kJ/m)", "largest kinetic energy (kJ/m)", "at (s)",
