@@ -10,11 +10,6 @@ The others are told where they are used; tables have none. Runs that have failed
 left out, and the picture says so.
 """
 
-import importlib.machinery
-import importlib.util
-import sys
-from pathlib import Path
-
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.cm import ScalarMappable
@@ -23,21 +18,8 @@ from matplotlib.colors import LogNorm, Normalize
 from matplotlib.patheffects import Normal, Stroke
 from matplotlib.ticker import MaxNLocator
 
-SCRIPTS = Path(__file__).resolve().parents[1]
+from report.figures import plot
 
-
-def load_plot():
-    """scripts/plot, whose name has no .py, as a module."""
-    if str(SCRIPTS) not in sys.path:
-        sys.path.insert(0, str(SCRIPTS))  # it imports its neighbours
-    loader = importlib.machinery.SourceFileLoader("plot_script", str(SCRIPTS / "plot"))
-    module = importlib.util.module_from_spec(
-        importlib.util.spec_from_loader("plot_script", loader))
-    loader.exec_module(module)
-    return module
-
-
-plot = load_plot()
 STYLES = ["-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2))]
 FLOOR = 1e-20  # what is drawn of smaller numbers on a logarithmic scale
 

@@ -1,8 +1,10 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/exceptions.h>
 #include <geocone/discretisation/quadrature_points.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 
 #include <deal.II/fe/fe_nothing.h>
@@ -108,6 +110,18 @@ namespace geocone
           }
         points.first_point.push_back(points.weight.size());
       }
+    // The first material has what the others leave, which may be nothing.
+    std::vector<unsigned int> n(scene.materials.size(), 0);
+    for (const unsigned int material : points.material)
+      ++n[material];
+    Utilities::MPI::sum(n, mesh.triangulation().get_communicator(), n);
+    for (unsigned int i = 1; i < n.size(); ++i)
+      if (n[i] == 0)
+        throw InputError("no cell lies in the region of the material '" +
+                         scene.materials.name(i) +
+                         "'\n  allowed: one cell or more\n"
+                         "  remedy:  take smaller cells, or check 'Region "
+                         "polygon' and 'Region number'");
     points.plastic_strain.assign(points.n_points(), Mandel::Zero());
     points.cumulative_plastic_strain.assign(points.n_points(), 0.);
     points.plastic_strain_rate.assign(points.n_points(), 0.);

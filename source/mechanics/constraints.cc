@@ -210,9 +210,10 @@ namespace geocone
                          const unsigned int component) const
   {
     double sum = 0.;
-    for (const unsigned int node : owned_nodes[condition])
-      if (is_prescribed(dim * node + component))
-        sum += residual.local_element(dim * node + component);
+    for (const Prescribed &p : prescribed)
+      if (p.condition == condition && p.component == component &&
+          p.node < space.n_owned_nodes())
+        sum += residual.local_element(dim * p.node + component);
     return Utilities::MPI::sum(sum, comm);
   }
 

@@ -42,8 +42,16 @@ namespace geocone
       std::error_code error;
       for (const auto &entry : fs::directory_iterator(folder, error))
         {
-          const fs::path &file = entry.path();
-          if (std::count(names.begin(), names.end(), file.filename()) > 0 ||
+          const fs::path   &file = entry.path();
+          const std::string stem = file.stem();
+          const auto        is   = [&](const char *base) {
+            return stem.rfind(base, 0) == 0;
+          };
+          const bool is_field =
+            (file.extension() == ".h5" || file.extension() == ".xdmf") &&
+            (is("cells") || is("points") || is("frozen"));
+          if (is_field ||
+              std::count(names.begin(), names.end(), file.filename()) > 0 ||
               std::count(endings.begin(), endings.end(), file.extension()) > 0)
             fs::remove(file, error);
         }

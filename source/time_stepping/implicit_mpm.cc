@@ -93,6 +93,13 @@ namespace geocone
     part("Consistent mass part",
          consistent_mass,
          "0 (lumped) is usual; up to 0.999 is safe");
+    if (transfer_name == "APIC" && consistent_mass > 0.)
+      throw InputError(section + "Consistent mass part",
+                       consistent_mass,
+                       "0 with Transfer = APIC",
+                       "APIC hands over momentum by the lumped mass and grows "
+                       "without bound with another: set it to 0, or Transfer = "
+                       "FLIP");
     if (!(largest_move > 0.))
       throw InputError(
         section + "Largest move", largest_move, "> 0 cells", "3 is usual");

@@ -46,9 +46,10 @@ run --output a --set 'Output/If folder exists = number'
 [ -s a-2/summary.json ]
 if run --output a --set 'Output/If folder exists = refuse' 2>refused; then exit 1; fi
 grep -q 'exists and is not empty' refused
-touch a/mine
+touch a/mine a/mine.h5 a/cells-0000.h5 a/cells.xdmf
 run --output a --set 'Output/If folder exists = overwrite'
-[ -e a/mine ] && [ ! -e a/cells-0000.vtu ]
+[ -e a/mine ] && [ -e a/mine.h5 ] && [ ! -e a/cells-0000.vtu ]
+[ ! -e a/cells-0000.h5 ] && [ ! -e a/cells.xdmf ]
 
 if run --output b --set 'Output/Expectations = newton/steps >= 4' 2>failed; then
   exit 1

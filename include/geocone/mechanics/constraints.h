@@ -48,7 +48,8 @@ namespace geocone
     number_unknowns(const Vector *mass);
 
     /**
-     * Resultant of a nodal force over the nodes of a condition (N/m).
+     * Resultant of a nodal force over the nodes whose component the condition
+     * prescribes (N/m); where several do, the last of them in the list.
      * @param residual residual of the momentum balance in all rows
      */
     double
