@@ -236,7 +236,10 @@ def write_csv(path, rows):
     lines = [{"group": row["group"],
               **{f"axis {name}": value for name, value in row["axes"].items()},
               "status": row["status"], "reason": row["reason"],
-              "seconds": row["seconds"], **flat(row["summary"]),
+              "seconds": row["seconds"],
+              # The status of a summary is what the run knew, e.g. that it goes on.
+              **{key: value for key, value in flat(row["summary"]).items()
+                 if key != "status"},
               "command": row["command"]} for row in rows]
     columns = list(dict.fromkeys(key for line in lines for key in line
                                  if key != "command")) + ["command"]
