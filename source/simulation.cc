@@ -15,6 +15,37 @@ namespace geocone
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** Says if points start with a stress that their soil cannot bear: the first
+     *  step then begins with a jump to another one. Collective. */
+    std::string
+    outside_strength(const MaterialPoints &points,
+                     const Materials      &materials,
+                     const MPI_Comm        comm)
+    {
+      unsigned int n = 0, first = materials.size();
+      for (unsigned int p = 0; p < points.n_points(); ++p)
+        if (const auto cone = materials[points.material[p]].flow_cone())
+          if (cone->yield_function(to_cone_axes(points.stress[p])) >
+              1e-6 * points.stress[p].norm())
+            {
+              ++n;
+              first = std::min(first, points.material[p]);
+            }
+      n     = Utilities::MPI::sum(n, comm);
+      first = Utilities::MPI::min(first, comm);
+      if (n == 0)
+        return "";
+      return format("the initial stress of %u points is outside of the "
+                    "strength, e.g. of the material '",
+                    n) +
+             materials.name(first) +
+             "': the first step jumps to another one; change 'Initial stress' "
+             "(e.g. K0) or the strength";
+    }
+  } // namespace
+
   StepControl::StepControl()
     : ParameterAcceptor("/Time stepping")
   {
@@ -74,8 +105,10 @@ namespace geocone
       stepper->prepare(scene, mesh, space, newton, timer, kinematics, points);
     run_output.prepare(name, folder, scene);
     freezer.prepare(run_output.folder());
-    if (!warning.empty())
-      log.warn(warning);
+    for (const std::string &text :
+         {warning, outside_strength(points, scene.materials, comm)})
+      if (!text.empty())
+        log.warn(text);
   }
 
   StepRecord
