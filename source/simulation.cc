@@ -7,8 +7,6 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
-#include <sys/resource.h>
-
 #include <iostream>
 
 namespace geocone
@@ -330,12 +328,13 @@ namespace geocone
   {
     std::map<std::string, double> seconds =
       timer.get_summary_data(TimerOutput::total_wall_time);
-    const double  linear = seconds["factorise"] + seconds["solve"];
-    const double  steps  = step_loop.wall_time();
-    struct rusage usage;
-    getrusage(RUSAGE_SELF, &usage);
+    const double linear = seconds["factorise"] + seconds["solve"];
+    const double steps  = step_loop.wall_time();
+    // Of this program: getrusage() begins with what the calling one had.
+    Utilities::System::MemoryStats memory;
+    Utilities::System::get_memory_stats(memory);
     const double megabytes =
-      Utilities::MPI::sum(usage.ru_maxrss / 1024., comm); // kB on Linux
+      Utilities::MPI::sum(memory.VmHWM / 1024., comm); // from kB
     return {{"total_s", total.wall_time()},
             {"step_loop_s", steps},
             {"residual_s", seconds["residual"]},
