@@ -30,7 +30,7 @@ class Run:
     def label(self):
         """The values of the axes, in words."""
         return ", ".join(f"{name.rsplit('/', 1)[-1]} = {value}"
-                         if isinstance(value, (int, float)) else value
+                         if re.fullmatch(r"[-+.\de]+", str(value)) else value
                          for name, value in self.axes.items())
 
     @property
