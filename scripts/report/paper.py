@@ -470,50 +470,49 @@ def energies(rows, options):
     return figure
 
 
-def loads_table(rows, _):
-    """Head and lines: what each run of a footing has found."""
-    head = ["run", "largest load (kN/m)", "last load (kN/m)", "mean of the second half "
-            "(kN/m)", "Prandtl (kN/m)", "largest / Prandtl", "mean / Prandtl",
-            "points that left", "iterations per step", "failed attempts"]
+def table_of(head, rows, cells):
+    """Head and lines of a table: a run and its cells; a failed run tells so."""
     lines = []
     for row in rows:
         name = f"{row['group']}: {row['label']}" if row["label"] else row["group"]
-        if row["status"] != "finished":
-            lines.append([name, "failed"] + ["-"] * (len(head) - 2))
-            continue
+        lines.append([name, *cells(row)] if row["status"] == "finished" else
+                     [name, "failed", *["-"] * (len(head) - 1)])
+    return ["run", *head], lines
+
+
+def loads_table(rows, _):
+    """Head and lines: what each run of a footing has found."""
+    def cells(row):
         table, summary = statistics(row), row["summary"]
         load, time = table["load (N/m)"], table["time (s)"]
         late = load[time > time[-1] / 2.].mean()
         exact = summary["limit_load"]["reference"]
         loads = (load.max(), load[-1], late, exact)
-        lines.append([name, *(f"{value / 1e3:.2f}" for value in loads),
-                      f"{load.max() / exact:.3f}", f"{late / exact:.3f}",
-                      str(summary["size"].get("lost_points", 0)),
-                      f"{summary['newton']['iterations_mean']:.1f}",
-                      str(summary["newton"]["failures"])])
-    return head, lines
+        return [*(f"{value / 1e3:.2f}" for value in loads),
+                f"{load.max() / exact:.3f}", f"{late / exact:.3f}",
+                str(summary["size"].get("lost_points", 0)),
+                f"{summary['newton']['iterations_mean']:.1f}",
+                str(summary["newton"]["failures"])]
+    return table_of(["largest load (kN/m)", "last load (kN/m)", "mean of the second "
+                     "half (kN/m)", "Prandtl (kN/m)", "largest / Prandtl",
+                     "mean / Prandtl", "points that left", "iterations per step",
+                     "failed attempts"], rows, cells)
 
 
 def energies_table(rows, _):
     """Head and lines: what each run of a slope has found."""
-    head = ["run", "largest plastic strain", "released potential energy (kJ/m)",
-            "dissipation (kJ/m)", "largest kinetic energy (kJ/m)", "at (s)",
-            "kinetic energy at the end (kJ/m)", "loss / released (%)",
-            "loss / initial (%)", "largest rise of the total (J/m)", "points that left"]
-    lines = []
-    for row in rows:
-        name = f"{row['group']}: {row['label']}" if row["label"] else row["group"]
-        if row["status"] != "finished":
-            lines.append([name, "failed"] + ["-"] * (len(head) - 2))
-            continue
+    def cells(row):
         time, e = energy_table(row)
         loss = e["total"][0] - e["total"][-1]
-        lines.append([
-            name, f"{100. * row['summary']['state']['largest_plastic_strain']:.0f} %",
-            f"{e['potential'][0] / 1e3:.1f}", f"{e['dissipation'][-1] / 1e3:.1f}",
-            f"{e['kinetic'].max() / 1e3:.1f}", f"{time[np.argmax(e['kinetic'])]:.2f}",
-            f"{e['kinetic'][-1] / 1e3:.2f}", f"{100. * loss / e['potential'][0]:.1f}",
-            f"{100. * loss / row['summary']['energy']['initial_J_per_m']:.2f}",
-            f"{max(0., np.diff(e['total']).max()):.1f}",
-            str(row["summary"]["size"].get("lost_points", 0))])
-    return head, lines
+        return [f"{100. * row['summary']['state']['largest_plastic_strain']:.0f} %",
+                f"{e['potential'][0] / 1e3:.1f}", f"{e['dissipation'][-1] / 1e3:.1f}",
+                f"{e['kinetic'].max() / 1e3:.1f}", f"{time[np.argmax(e['kinetic'])]:.2f}",
+                f"{e['kinetic'][-1] / 1e3:.2f}", f"{100. * loss / e['potential'][0]:.1f}",
+                f"{100. * loss / row['summary']['energy']['initial_J_per_m']:.2f}",
+                f"{max(0., np.diff(e['total']).max()):.1f}",
+                str(row["summary"]["size"].get("lost_points", 0))]
+    return table_of(["largest plastic strain", "released potential energy (kJ/m)",
+                     "dissipation (kJ/m)", "largest kinetic energy (kJ/m)", "at (s)",
+                     "kinetic energy at the end (kJ/m)", "loss / released (%)",
+                     "loss / initial (%)", "largest rise of the total (J/m)",
+                     "points that left"], rows, cells)
