@@ -262,10 +262,14 @@ namespace geocone
           {"potential_J_per_m", e.potential},
           {"potential_datum", "lower left corner of the mesh"},
           {"initial_J_per_m", begin},
-          {"released_potential_J_per_m", released},
+          // Weight that grows has a potential energy that does, too.
+          {"released_potential_J_per_m",
+           scene->gravity.is_ramped() ? nothing : Json(released)},
           {"dissipation_J_per_m", dissipation},
           {"numerical_loss_J_per_m", loss},
-          {"loss_to_released", released > 0. ? Json(loss / released) : nothing},
+          {"loss_to_released",
+           released > 0. && !scene->gravity.is_ramped() ? Json(loss / released)
+                                                        : nothing},
           {"loss_to_initial", begin > 0. ? Json(loss / begin) : nothing},
           {"least_step_loss_relative", least_loss / scale},
           {"identity_error_max", identity}};

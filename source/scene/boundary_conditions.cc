@@ -61,8 +61,9 @@ namespace geocone
       throw InputError(parameter("Box"),
                        part(),
                        "a part of the boundary with at least one node",
-                       "this condition selects no node: check its sides, "
-                       "its box, and the size of the cells there");
+                       "this condition selects no node: check its sides "
+                       "(those of the mesh, not of a smaller body), its box, "
+                       "and the size of the cells there");
   }
 
   std::string

@@ -135,9 +135,14 @@ namespace geocone
 
     moving = std::make_unique<MovingConditions>(*scene, *mesh, *space);
 
-    const std::string warning = particles.prepare(*scene, *mesh, *space);
-    points                    = particles.collect(*mesh, *space);
-    datum                     = mesh->lower_corner();
+    std::string warning = particles.prepare(*scene, *mesh, *space);
+    if (midpoint && advection == "particle velocity")
+      warning += std::string(warning.empty() ? "" : "; ") +
+                 "the midpoint rule with Advection = particle velocity lets "
+                 "the total energy grow where particles and nodes move "
+                 "differently: take the grid velocity";
+    points = particles.collect(*mesh, *space);
+    datum  = mesh->lower_corner();
 
     constraints   = std::make_unique<Constraints>(*scene, *mesh, *space);
     linear_solver = make_linear_solver(newton.linear_solver_name(),

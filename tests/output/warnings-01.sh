@@ -1,4 +1,5 @@
-# A run that starts with a stress outside of the strength says so, once, and goes on.
+# A run that starts with a stress outside of the strength says so, once, and goes on;
+# so does one whose midpoint rule goes with particles that move by their own velocity.
 program=$1 root=$2 folder=$3
 rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
 run() {
@@ -16,3 +17,17 @@ stress -1000 -30000
 grep -q "material 'soil'" log
 stress -10000 -10000
 ! grep -q 'outside of the strength' log
+
+# Gravity that grows has no released potential energy.
+slope() {
+  "$program" "$root/prm/slope_associated.prm" --set 'Output/Pictures = false' \
+    --set 'Output/Fields = false' --set 'Loading/fall/Duration = 0.25' "$@" >log 2>&1
+}
+slope --set 'Material point method/Integration = midpoint' --output grid
+! grep -q 'lets the total energy grow' log
+grep -q '"released_potential_J_per_m": [0-9]' grid/summary.json
+slope --set 'Material point method/Integration = midpoint' --output particles \
+  --set 'Material point method/Advection = particle velocity' \
+  --set 'Gravity/Ramp duration = 1'
+[ "$(grep -c 'lets the total energy grow' log)" = 1 ]
+grep -q '"released_potential_J_per_m": null' particles/summary.json

@@ -103,6 +103,12 @@ namespace geocone
       return acceleration.norm() > 0.;
     }
 
+    bool
+    is_ramped() const
+    {
+      return ramp_duration > 0. && acts();
+    }
+
   private:
     dealii::Tensor<1, dim> acceleration;
     double                 ramp_duration = 0.;
