@@ -92,7 +92,7 @@ def figure_data(shown, rows, picture):
     figure.savefig(buffer, format="png", dpi=130)
     plt.close(figure)
     picture.write_bytes(buffer.getvalue())
-    return {"data": base64.b64encode(buffer.getvalue()).decode(), "file": picture.name,
+    return {"data": base64.b64encode(buffer.getvalue()).decode(),
             "caption": paragraphs(shown.get("caption", ""))}
 
 

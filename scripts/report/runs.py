@@ -8,6 +8,7 @@ depends on, and how the run ended. A run whose digest is unchanged is used again
 
 import csv
 import hashlib
+import io
 import json
 import os
 import shlex
@@ -94,6 +95,7 @@ class Computer:
         """Computes a run and writes its record."""
         record = self.folder / (run.name + ".json")
         folder = self.folder / run.name
+        key = self.key(run)  # of the files as they are now, not when it has ended
         record.unlink(missing_ok=True)
         shutil.rmtree(folder, ignore_errors=True)
         environment = {**os.environ, "OMP_NUM_THREADS": "1",
@@ -125,7 +127,7 @@ class Computer:
         if self.stopped:
             return
         write_whole(record, json.dumps(
-            {"key": self.key(run), "status": "failed" if reason else "finished",
+            {"key": key, "status": "failed" if reason else "finished",
              "reason": reason, "seconds": round(time.monotonic() - start, 3),
              "command": command_text(run), "output": output[-4000:]}, indent=1))
 
@@ -146,8 +148,9 @@ class Computer:
         waiting.sort(key=lambda run: (run.alone, -(expected[run.name] or mean)))
         progress = Progress(len(runs))
         progress.done = len(runs) - len(waiting)
+        missing = {run.name for run in waiting}
         progress.failed = sum(self.record(run)["status"] == "failed"
-                              for run in runs if run not in waiting)
+                              for run in runs if run.name not in missing)
         progress.show(f"{progress.done} there from before")
         free, changed, running = self.cores, threading.Condition(), []
         began, computed = time.monotonic(), []
@@ -243,9 +246,8 @@ def write_csv(path, rows):
               "command": row["command"]} for row in rows]
     columns = list(dict.fromkeys(key for line in lines for key in line
                                  if key != "command")) + ["command"]
-    part = path.with_name(path.name + ".part")
-    with open(part, "w", newline="") as file:
-        writer = csv.DictWriter(file, columns, restval="")
-        writer.writeheader()
-        writer.writerows(lines)
-    part.replace(path)
+    text = io.StringIO()
+    writer = csv.DictWriter(text, columns, restval="", lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(lines)
+    write_whole(path, text.getvalue())
