@@ -102,7 +102,16 @@ namespace geocone
     Json
     results() const;
 
+    /** Warns of the first load that jumps by more than half and back. */
+    void
+    warn_of_jump();
+
+    /** Warns once more than 1 % of the energy was created by the method. */
+    void
+    warn_of_energy(const double time);
+
     const Scene               *scene = nullptr;
+    std::vector<std::string>   columns; ///< of statistics.csv
     CsvFile                    newton;
     std::unique_ptr<Fields>    fields;
     std::vector<StepRecord>    records;
@@ -112,6 +121,9 @@ namespace geocone
     double work = 0., dissipation = 0., loss = 0., least_loss = 0.;
     double energy_n = 0.; ///< kinetic, elastic and potential, at the last step
     Energies initial;
+
+    unsigned int n_load_jumps     = 0;
+    bool         warned_of_energy = false;
   };
 } // namespace geocone
 

@@ -31,6 +31,10 @@ namespace geocone
     std::vector<double>
     step_sizes() const;
 
+    /** Their number, in closed form; within a few of step_sizes(). */
+    double
+    expected_steps() const;
+
     /** @throws InputError if it asks for what only explicit MPM can do */
     void
     check_implicit() const;
@@ -81,8 +85,7 @@ namespace geocone
     std::vector<std::unique_ptr<Stage>> stages;
 
   private:
-    std::vector<std::string>            names;
-    std::vector<std::unique_ptr<Stage>> unused;
+    std::vector<std::string> names;
   };
 
   /** Gravity g(t), at once or ramped up linearly over a duration. */
