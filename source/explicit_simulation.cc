@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/stop_request.h>
 #include <geocone/explicit_simulation.h>
 #include <geocone/output/run_status.h>
 
@@ -89,6 +90,7 @@ namespace geocone
             const std::vector<double> sizes = stage->step_sizes();
             for (std::size_t i = 0; i < sizes.size(); ++i)
               {
+                stop_if_asked(comm);
                 step_loop.start();
                 const ExplicitReport report =
                   stepper.advance(*stage, t, sizes[i]);

@@ -142,7 +142,8 @@ namespace geocone
         record.regularised += report.newton.regularised;
         if (report.converged)
           {
-            done = size == left ? h : done + size;
+            done    = size == left ? h : done + size;
+            reached = t + done;
             ++record.substeps;
             // Works add up over the substeps, and the worst of them counts.
             report.energies.external_work += record.last.energies.external_work;
@@ -238,8 +239,25 @@ namespace geocone
                   substep = sizes[i];
                 ++step;
                 step_loop.start();
-                StepRecord record =
-                  advance(kinematics, points, step, t, sizes[i], substep);
+                StepRecord record;
+                try
+                  {
+                    record =
+                      advance(kinematics, points, step, t, sizes[i], substep);
+                  }
+                catch (const StepFailure &failure)
+                  {
+                    if (!stage->until_failure)
+                      throw;
+                    step_loop.stop();
+                    run_output.set_failure({stage->name,
+                                            reached,
+                                            reached + 2. * substep,
+                                            failure.what()});
+                    run_output.write_fields(
+                      reached, mesh, space, points, kinematics);
+                    return end_run(kinematics, points, reached);
+                  }
                 record.resets = i == 0 && stage->reset_displacement;
                 step_loop.stop();
                 t += sizes[i];
@@ -292,10 +310,7 @@ namespace geocone
                   run_output.write_summary("running", size(points), cost());
               }
           }
-        if (exact_solution.is_given())
-          run_output.set_field_errors(exact_solution.errors(
-            mesh, space, points, kinematics.displacement, t));
-        run_output.write_summary("finished", size(points), cost());
+        return end_run(kinematics, points, t);
       }
     catch (const std::exception &error)
       {
@@ -305,6 +320,17 @@ namespace geocone
         });
         throw;
       }
+  }
+
+  bool
+  Simulation::end_run(const Kinematics     &kinematics,
+                      const MaterialPoints &points,
+                      const double          t)
+  {
+    if (exact_solution.is_given())
+      run_output.set_field_errors(
+        exact_solution.errors(mesh, space, points, kinematics.displacement, t));
+    run_output.write_summary("finished", size(points), cost());
     run_output.print_result();
     const Json costs = cost();
     log.print(format(

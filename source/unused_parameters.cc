@@ -42,6 +42,7 @@ namespace geocone
       {"Boundary conditions/*/Segment shortening",
        "Boundary conditions/*/Imposed on",
        {"segments"}},
+      {"Loading/*/Until failure", method, {"FEM", "MPM"}},
       {"Observation/Conditions", method, {"FEM", "MPM"}},
       {"Observation/Component", "Observation/Conditions", {}},
       {"Observation/Factor", "Observation/Conditions", {}},

@@ -68,6 +68,13 @@ namespace geocone
             const double       h,
             double            &substep);
 
+    /** The results, when all stages are done or one has ended by failure.
+     *  @return as run() */
+    bool
+    end_run(const Kinematics     &kinematics,
+            const MaterialPoints &points,
+            const double          t);
+
     Json
     size(const MaterialPoints &points) const;
     Json
@@ -88,6 +95,8 @@ namespace geocone
     Freezer         freezer;
     ExactSolution   exact_solution;
     RunOutput       run_output;
+
+    double reached = 0.; ///< time of the last substep that was solved (s)
 
     dealii::TimerOutput timer;
     dealii::Timer       total, step_loop;

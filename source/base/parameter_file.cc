@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <numeric>
 #include <ostream>
 #include <regex>
@@ -95,6 +96,11 @@ namespace geocone
               distance = d;
               best     = candidate;
             }
+      // Or only its beginning.
+      for (const std::string &candidate : known)
+        if (best.empty() && name.size() > 2 &&
+            candidate.compare(0, name.size(), name) == 0)
+          best = candidate;
       if (!best.empty())
         return "\n  remedy:  did you mean '" + section + best +
                "'? 'geocone --help' lists all";
@@ -233,13 +239,7 @@ namespace geocone
         return "true | false";
       if (begins("[Integer"))
         {
-          const std::string text = bounds(pattern);
-          // The type of the parameter cannot hold more.
-          return "a whole number" +
-                 (text.empty() &&
-                      pattern.find("[Integer range 0...") != std::string::npos
-                    ? " >= 0"
-                    : text);
+          return "a whole number" + bounds(pattern);
         }
       if (begins("[Double"))
         return "a number" + bounds(pattern);
@@ -300,6 +300,14 @@ namespace geocone
       if (entry.pattern.find("[Double") != std::string::npos &&
           !is_sensible(value))
         refuse("finite numbers of magnitude <= 1e100");
+      // The library takes a number without sign for one with it.
+      if (entry.pattern == "[Integer]" &&
+          (value.empty() ||
+           value.find_first_not_of("0123456789") != std::string::npos ||
+           value.size() > 10 ||
+           std::stoull(value) > std::numeric_limits<unsigned>::max()))
+        refuse("a whole number from 0 to " +
+               std::to_string(std::numeric_limits<unsigned>::max()));
       std::string text;
       for (const std::string &section : sections)
         text += "subsection " + section + "\n";

@@ -94,7 +94,8 @@ namespace geocone
           if (is_used(path))
             {
               if (if_exists == IfExists::refuse)
-                return "it exists and is not empty";
+                return "it exists and is not empty: set 'Output/If folder "
+                       "exists' to overwrite or number";
               if (if_exists == IfExists::overwrite)
                 {
                   const std::string why = remove_old_run(path);
@@ -154,14 +155,8 @@ namespace geocone
     if (!refusal.empty())
       throw InputError("Output/Folder",
                        path,
-                       if_exists == IfExists::refuse
-                         ? "a folder that is empty or not there yet"
-                         : "a folder that can be written",
-                       refusal + "; name another one with --output" +
-                         (if_exists == IfExists::refuse
-                            ? ", or set 'Output/If folder exists' to overwrite "
-                              "or number"
-                            : ""));
+                       "a folder that can be written, empty or not there yet",
+                       refusal + "; or name another one with --output");
     keep_list_of_files(path);
     return path;
   }

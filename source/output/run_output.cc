@@ -274,9 +274,9 @@ namespace geocone
         topic["plateau_begins_at"] =
           limit.found ? Json(limit.begins_at) : nothing;
         topic["reason"] = limit.found ? nothing : Json(limit.reason);
-        topic["drift"] = limit.drift;
-        topic["peak"]  = limit.peak;
-        topic["last"]  = curve.empty() ? nothing : Json(curve.back().load);
+        topic["drift"]  = limit.drift;
+        topic["peak"]   = limit.peak;
+        topic["last"]   = curve.empty() ? nothing : Json(curve.back().load);
       }
     if (!scene->observation.conditions.empty())
       json["limit_load"]["load_jumps"] = n_load_jumps;
@@ -346,9 +346,25 @@ namespace geocone
     if (field_errors)
       summary["field_errors"] = {{"displacement", field_errors->displacement},
                                  {"stress", field_errors->stress}};
+    if (failure)
+      summary["failure"] = {{"stage", failure->stage},
+                            {"carried_until_s", failure->carried_until},
+                            {"not_until_s", failure->not_until},
+                            {"reason", failure->reason}};
     summary["size"] = size;
     summary["cost"] = cost;
     write_summary_file();
+  }
+
+  void
+  RunOutput::set_failure(const Failure &what)
+  {
+    failure = what;
+    log.print(format("failure: the loads of the stage '%s' are carried until t "
+                     "= %.6g s, and not until %.6g s",
+                     what.stage.c_str(),
+                     what.carried_until,
+                     what.not_until));
   }
 
   void
@@ -379,8 +395,7 @@ namespace geocone
       {
         const Json &limit = summary["limit_load"];
         if (limit["value"].is_null())
-          log.print("limit load: none, " +
-                    limit["reason"].get<std::string>());
+          log.print("limit load: none, " + limit["reason"].get<std::string>());
         else
           {
             std::string line =

@@ -35,6 +35,12 @@ namespace geocone
                   reset_displacement,
                   "Count displacements and plastic strains from the beginning "
                   "of this stage.");
+    add_parameter("Until failure",
+                  until_failure,
+                  "FEM and MPM: the first step that cannot be solved, however "
+                  "it is cut, ends the stage and the run as wanted: loads that "
+                  "grow in time are raised until the body carries no more. "
+                  "summary.json tells until when it did (topic 'failure').");
     add_parameter("Damping",
                   damping,
                   "Explicit MPM: local damping, the part (0 to 1) of each "

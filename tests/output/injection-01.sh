@@ -20,7 +20,7 @@ mkdir tmp
 for pid in $(seq $$ $(($$ + 300))); do ln -s "$PWD/victim" "tmp/geocone-$pid.prm"; done
 TMPDIR=$PWD/tmp "$program" --help >help
 TMPDIR=$PWD/tmp "$program" --defaults all.prm
-[ ! -e victim ] && [ "$(find tmp -type f | wc -l)" = 0 ]
+[ ! -e victim ] && [ -z "$(find tmp -type f -name '*geocone*')" ]
 
 # One line of --set sets one parameter.
 if run --output lines --set 'Materials/soil/Cohesion = 1

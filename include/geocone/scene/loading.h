@@ -44,6 +44,9 @@ namespace geocone
     unsigned int      output_every       = 0;
     bool              reset_displacement = false;
 
+    /** Whether the first step that cannot be solved ends the run as wanted. */
+    bool until_failure = false;
+
     /** @name For explicit MPM only */
     /** @{ */
 
