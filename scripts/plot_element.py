@@ -1,13 +1,14 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The pictures of an element test, for scripts/plot:
+"""The pictures of an element test for scripts/plot, which hands itself over as `plot`:
   stress_strain.png   q (or the shear stress) against the strain that changes most
   stress_path.png     q against p, with the surfaces at the start and at the end
   compression.png     ln v against p, if the volume changes
   ratios.png          R and the structure ratio along the path, of laws with them
 """
 
-import matplotlib.pyplot as plt
+import itertools
+
 import numpy as np
 from matplotlib.ticker import MaxNLocator, NullFormatter, ScalarFormatter
 
@@ -23,9 +24,9 @@ OTHERS = {"xx": ("yy", "zz"), "yy": ("xx", "zz"), "zz": ("xx", "yy")}
 class Path:
     """The table of an element test, in the units of the pictures."""
 
-    def __init__(self, table, summary, unit_for):
-        self.table, self.summary = table, summary
-        self.name, self.factor = unit_for(
+    def __init__(self, plot, table, summary):
+        self.plot, self.table, self.summary = plot, table, summary
+        self.name, self.factor = plot.unit_for(
             max(np.abs(table["p (Pa)"]).max(), table["q (Pa)"].max()), "Pa")
         self.axis = summary["axis"]
         self.p, self.q = table["p (Pa)"] / self.factor, table["q (Pa)"] / self.factor
@@ -41,30 +42,30 @@ class Path:
         for i, name in enumerate(self.summary["stages"], 1):
             lines = np.flatnonzero(number == i)
             if len(lines):
-                yield name, slice(lines[0] - 1, lines[-1] + 1)
+                yield self.plot.plain(name, 40), slice(lines[0] - 1, lines[-1] + 1)
 
 
-def curve(axes, path, x, y, colors):
+def curve(axes, path, x, y):
     """Draws a curve, each stage in its colour, and a dot at the start."""
     # Many cycles are thin lines, or they would fill the picture.
     width = 0.7 if len(x) > 1500 else 1.4
-    for (name, part), color in zip(path.stages(), np.resize(colors, 99)):
+    for (name, part), color in zip(path.stages(), itertools.cycle(path.plot.COLORS)):
         axes.plot(x[part], y[part], color=color, label=name, linewidth=width,
                   solid_joinstyle="round")
     axes.plot(x[0], y[0], "o", color="black", markersize=5., zorder=4)
 
 
-def stress_strain(path, colors, title):
+def stress_strain(path, title):
     """q or the shear stress against the strain of the axis."""
-    figure, axes = plt.subplots(figsize=(7., 4.4), constrained_layout=True)
+    figure, axes = path.plot.subplots(figsize=(7., 4.4))
     strain = path.table[f"eps {path.axis} (-)"]
     if path.axis in OTHERS:
-        curve(axes, path, -100. * strain, path.q, colors)
+        curve(axes, path, -100. * strain, path.q)
         axes.set(xlabel=f"axial strain {path.axis} (%), compression positive",
                  ylabel=f"deviatoric stress q ({path.name})")
     else:
         curve(axes, path, 200. * strain,
-              path.table[f"stress {path.axis} (Pa)"] / path.factor, colors)
+              path.table[f"stress {path.axis} (Pa)"] / path.factor)
         axes.set(xlabel=f"shear angle 2 eps_{path.axis} (%)",
                  ylabel=f"shear stress {path.axis} ({path.name})")
     axes.set_title(f"{title}: stress and strain")
@@ -72,10 +73,10 @@ def stress_strain(path, colors, title):
     return figure
 
 
-def stress_path(path, surfaces, colors, title):
+def stress_path(path, surfaces, title):
     """q against p, with the surfaces."""
-    figure, axes = plt.subplots(figsize=(8.6, 4.8), constrained_layout=True)
-    curve(axes, path, path.p, path.q, colors)
+    figure, axes = path.plot.subplots(figsize=(8.6, 4.8))
+    curve(axes, path, path.p, path.q)
     for (state, surface), (label, color, style) in SURFACES.items():
         if surfaces is None:
             break
@@ -96,13 +97,13 @@ def stress_path(path, surfaces, colors, title):
     return figure
 
 
-def compression(path, colors, title):
+def compression(path, title):
     """ln v against p on a logarithmic axis; nothing if the volume is constant."""
     if path.p.min() <= 0. or np.ptp(path.table["ln v (-)"]) < 1e-9:
         return None
-    figure, axes = plt.subplots(figsize=(7., 4.4), constrained_layout=True)
+    figure, axes = path.plot.subplots(figsize=(7., 4.4))
     axes.set_xscale("log")
-    curve(axes, path, path.p, path.table["ln v (-)"], colors)
+    curve(axes, path, path.p, path.table["ln v (-)"])
     if path.p.max() < 30. * path.p.min():
         # Less than a decade or so: labels at 1, 2, 5 times a power would be too few.
         ticks = [t for t in MaxNLocator(7, steps=[1, 2, 5, 10]).tick_values(
@@ -117,15 +118,14 @@ def compression(path, colors, title):
     return figure
 
 
-def ratios(path, colors, title):
+def ratios(path, title):
     """R and Rb along the path."""
     if "R (-)" not in path.table:
         return None
-    figure, (first, second) = plt.subplots(2, 1, figsize=(7.6, 5.4), sharex=True,
-                                           constrained_layout=True)
+    figure, (first, second) = path.plot.subplots(2, 1, figsize=(7.6, 5.4), sharex=True)
     way = 100. * path.table["strain path (-)"]
-    curve(first, path, way, path.table["R (-)"], colors)
-    curve(second, path, way, path.table["Rb (-)"], colors)
+    curve(first, path, way, path.table["R (-)"])
+    curve(second, path, way, path.table["Rb (-)"])
     first.axhline(1., color="black", linewidth=1., linestyle="--")
     first.set(ylabel="subloading ratio R (-)", title=f"{title}: ratios", ylim=(0., 1.05))
     second.set(xlabel="length of the strain path (%)", ylabel="structure ratio Rb (-)")
@@ -135,13 +135,13 @@ def ratios(path, colors, title):
     return figure
 
 
-def figures(run, table, surfaces, unit_for, colors):
+def figures(plot, run, table, surfaces):
     """The names and figures of all pictures; surfaces may be None."""
-    path = Path(table, run.summary, unit_for)
+    path = Path(plot, table, run.summary)
     for name, figure in (
-            ("stress_strain.png", stress_strain(path, colors, run.name)),
-            ("stress_path.png", stress_path(path, surfaces, colors, run.name)),
-            ("compression.png", compression(path, colors, run.name)),
-            ("ratios.png", ratios(path, colors, run.name))):
+            ("stress_strain.png", stress_strain(path, run.name)),
+            ("stress_path.png", stress_path(path, surfaces, run.name)),
+            ("compression.png", compression(path, run.name)),
+            ("ratios.png", ratios(path, run.name))):
         if figure is not None:
             yield name, figure

@@ -11,7 +11,7 @@
 import functools
 import re
 
-import matplotlib.pyplot as plt
+import matplotlib
 import numpy as np
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.ticker import MaxNLocator
@@ -44,9 +44,8 @@ def draw_energy(plot, run, folder):
     residual = table.get("energy residual (J/m)", np.zeros_like(time))
     if not lines:
         raise plot.Skipped("all energies are zero")
-    figure, (axes, below) = plt.subplots(2, 1, figsize=(9., 6.2), sharex=True,
-                                         constrained_layout=True,
-                                         gridspec_kw={"height_ratios": [3., 2.]})
+    figure, (axes, below) = plot.subplots(2, 1, figsize=(9., 6.2), sharex=True,
+                                          gridspec_kw={"height_ratios": [3., 2.]})
     largest = max(np.max(np.abs(values)) for values, _, _ in lines)
     lines = [line for line in lines if np.max(np.abs(line[0])) > 1e-4 * largest]
     name, factor = unit_for(largest)
@@ -63,7 +62,7 @@ def draw_energy(plot, run, folder):
     below.secondary_yaxis("right", functions=(lambda y: y * percent,
                                               lambda y: y / percent)
                           ).set_ylabel("% of the largest\nenergy above")
-    plot.save(figure, folder / "energy.png")
+    plot.save(figure, run, folder / "energy.png")
 
 
 def unit_for(size):
@@ -90,13 +89,13 @@ def draw_runout(plot, run, folder):
     drawn = [line for line in drawn if np.ptp(line[0]) > 0.01 * size]
     if not drawn:
         raise plot.Skipped("the outline of the body does not move")
-    figure, axes = plt.subplots(figsize=(8., 4.6), constrained_layout=True)
+    figure, axes = plot.subplots(figsize=(8., 4.6))
     for values, label, color, style in drawn:
         axes.plot(time, values, color=color, linestyle=style, label=label)
     axes.set(title=f"{run.name}: reach of the body", xlabel="time (s)",
              ylabel="coordinate (m)")
     axes.legend(loc="upper left", bbox_to_anchor=(1., 1.02))
-    plot.save(figure, folder / "runout.png")
+    plot.save(figure, run, folder / "runout.png")
 
 
 def snapshots_of(plot, run, times):
@@ -128,7 +127,7 @@ def draw_panels(plot, run, path, snapshots, view, values, norm, label, **options
     if np.ptp(view, axis=0)[0] > 5. * np.ptp(view, axis=0)[1]:  # flat
         for ax in axes:
             ax.yaxis.set_major_locator(MaxNLocator(2))
-    colors = plt.get_cmap(options.get("colors", "viridis")).copy()
+    colors = matplotlib.colormaps[options.get("colors", "viridis")].copy()
     colors.set_extremes(under=UNTOUCHED, bad=UNTOUCHED)
     for ax, ((points, _, data), time), value in zip(axes, snapshots, values):
         drawn = plot.disks(ax, points, data, value)
@@ -141,7 +140,7 @@ def draw_panels(plot, run, path, snapshots, view, values, norm, label, **options
         label = label.replace(" stress", "\nstress").replace(" strain", "\nstrain")
     figure.colorbar(drawn, ax=list(axes), label=label, aspect=40, pad=0.02,
                     extend=options.get("extend", "neither"))
-    plot.save(figure, path)
+    plot.save(figure, run, path, cropped=True)
 
 
 def column(snapshots, *names):

@@ -27,6 +27,7 @@ def load_plot():
 
 
 plot = load_plot()
+plain = plot.plain  # for all texts of study files and runs in pictures
 COLORS = [*plot.COLORS, "#8B5A2B", "#6A3D9A", "#000000"]
 MARKERS = "osD^vP*Xh<"
 
@@ -88,9 +89,9 @@ def load_displacement(rows, options):
         try:
             run = plot.read_run(row["folder"])
             curves.append(plot.read_curve(run))
-            names.append(", ".join(word for word in (
+            names.append(plain(", ".join(word for word in (
                 row["group"] if options.get("with_group", True) else "", row["label"])
-                if word))
+                if word)))
         except (plot.PlotError, plot.Skipped):
             continue
     figure, axes = plt.subplots(figsize=(9.5, 4.6), constrained_layout=True)

@@ -11,13 +11,13 @@ import platform
 import re
 import subprocess
 import sys
-import traceback
 from pathlib import Path
 
 import jinja2
 import matplotlib.pyplot as plt
 from markupsafe import Markup, escape
 
+from report.figures import plot
 from report.runs import ROOT, format_time, write_whole
 from report.study_file import StudyError
 
@@ -105,15 +105,16 @@ def table_data(shown, rows):
 def markdown(table):
     """A table for files that people read as text."""
     lines = [table["head"], ["---"] * len(table["head"]), *table["lines"]]
-    return "".join("| " + " | ".join(str(cell) for cell in line) + " |\n"
-                   for line in lines)
+    return "".join("| " + " | ".join(" ".join(str(cell).replace("|", "\\|").split())
+                                     for cell in line) + " |\n" for line in lines)
 
 
 def told(what, shown, problem):
-    """Why something cannot be shown; where that is unexpected, also from where."""
-    if not isinstance(problem, ValueError):
-        traceback.print_exception(problem, file=sys.stderr)
-    return f"the {what} {shown['kind']} cannot be shown: {problem}"
+    """Why something cannot be shown, in a line; also on the screen."""
+    text = " ".join((str(problem) if isinstance(problem, (
+        ValueError, plot.PlotError, plot.Skipped)) else repr(problem)).split())
+    print(f"error: the {what} {shown['kind']} cannot be shown: {text}", file=sys.stderr)
+    return f"the {what} {shown['kind']} cannot be shown: {text}"
 
 
 def section_data(study, number, section, rows, folder):

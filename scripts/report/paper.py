@@ -18,7 +18,7 @@ from matplotlib.colors import LogNorm, Normalize
 from matplotlib.patheffects import Normal, Stroke
 from matplotlib.ticker import MaxNLocator
 
-from report.figures import plot
+from report.figures import plain, plot
 
 STYLES = ["-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2))]
 FLOOR = 1e-20  # what is drawn of smaller numbers on a logarithmic scale
@@ -39,14 +39,14 @@ def chosen(rows, options):
 def note(figure, text):
     """Writes a note about what is missing under a figure."""
     if text:
-        figure.text(0.01, -0.01, text[:200], fontsize=9, color="#a00000", va="top")
+        figure.text(0.01, -0.01, plain(text, 200), fontsize=9, color="#a00000", va="top")
 
 
 def empty(text):
     """The figure of no runs."""
     figure, axes = plt.subplots(figsize=(6., 1.2))
     axes.set_axis_off()
-    axes.text(0.5, 0.5, text or "no runs", ha="center", va="center")
+    axes.text(0.5, 0.5, plain(text or "no runs"), ha="center", va="center")
     return figure
 
 
@@ -84,14 +84,15 @@ def load_time(rows, options):
         x = table["time (s)"] if by_time else 1e3 * table["displacement (m)"]
         axes.plot([0., *x], [0., *table["load (N/m)"] / 1e3], linewidth=1.6,
                   marker="o" if len(x) <= 30 else None, markersize=3.,
-                  label=names.get(row["label"], row["label"] or row["group"]), **look)
+                  label=plain(names.get(row["label"], row["label"] or row["group"])),
+                  **look)
     reference = good[0]["summary"]["limit_load"]["reference"]
     widths = options.get("widths", [0.2])
     labels = options.get("names", [f"Prandtl, {w} m" for w in widths])
     for width, label, style in zip(widths, labels, STYLES):
         value = reference * width / widths[0] / 1e3
         axes.axhline(value, color="black", linewidth=1.2, linestyle=style, zorder=1.5,
-                     label=f"{label}: {value:.2f} kN/m")
+                     label=f"{plain(label)}: {value:.2f} kN/m")
     axes.set(xlabel="time (s)" if by_time else "displacement (mm)", ylabel="load (kN/m)",
              ylim=(0., None))
     axes.set_xlim(0., None)
@@ -131,7 +132,7 @@ def load_angle(rows, options):
         phi, load = np.array(sorted(points)).T
         look = {"color": plot.COLORS[i % len(plot.COLORS)], "marker": "osD^v"[i % 5],
                 "linestyle": STYLES[(i // 2) % len(STYLES)], "markersize": 6.}
-        axes.plot(phi, load / 1e3, label=key, **look)
+        axes.plot(phi, load / 1e3, label=plain(key), **look)
         below.plot(phi, 100. * (load / bearing(phi, cohesion, width) - 1.), **look)
     below.axhline(0., color="black", linewidth=1.2)
     below.axhspan(-5., 5., color="#e8e8e8", zorder=0., label="the paper: within 5 %")
@@ -186,7 +187,7 @@ def rates(rows, options):
                                    array=value[field.cells[:, 0]], linewidths=0.5)
         drawn.set(cmap=plot.RATES, norm=LogNorm(shown * most, most))
         ax.add_collection(drawn)
-        ax.set_title(", ".join([*filter(None, [row["label"]]), f"t = {time:.3g} s"]))
+        ax.set_title(", ".join([*filter(None, [plain(row["label"])]), f"t = {time:.3g} s"]))
         plot.add_bar(ax, drawn, "plastic strain rate (1/s)", extend="min")
         if "mechanism" in options:
             for line in prandtl_lines(np.radians(options["mechanism"]), options["width"]):
@@ -240,7 +241,7 @@ def velocities(rows, options):
                     arrowprops={"arrowstyle": "<->", "linewidth": 1.5})
         ax.text(0., y1 - 0.2 * size, "B", ha="center", va="center", fontsize=13,
                 bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.5})
-        ax.set_title(", ".join([*filter(None, [row["label"]]), f"t = {time:.3g} s"]))
+        ax.set_title(", ".join([*filter(None, [plain(row["label"])]), f"t = {time:.3g} s"]))
         ax.legend(loc="lower left")
         plot.add_bar(ax, drawn, "downward velocity\n/ velocity of the footing",
                      extend="both")
@@ -376,7 +377,7 @@ def law(rows, options):
     for ax, place in zip(axes.flat, ("upper right", "lower right", "upper right",
                                      "upper right")):
         ax.legend(fontsize=9, loc=place)
-    figure.suptitle(row["label"] or row["group"], fontsize=13)
+    figure.suptitle(plain(row["label"] or row["group"]), fontsize=13)
     note(figure, text)
     return figure
 
@@ -425,7 +426,7 @@ def strains(rows, options):
         ax.set_title(f"{'abcdefgh'[i]}) t = {time:.3g} s, "
                      f"up to {100. * value.max():.0f} %")
         ax.label_outer()
-    figure.suptitle(row["label"] or row["group"], fontsize=13)
+    figure.suptitle(plain(row["label"] or row["group"]), fontsize=13)
     figure.colorbar(drawn, ax=list(axes), label="cumulative plastic strain (-)",
                     aspect=40, pad=0.02, extend="max" if "largest" in options else
                     "neither")
@@ -463,7 +464,7 @@ def energies(rows, options):
         for name, values in curves.items():
             ax.plot(time, values / 1e3, color=colors[name], marker="o", markersize=3.,
                     linestyle="--" if name == "total" else "-", label=name)
-        ax.set(title=row["label"] or row["group"], xlabel="time (s)")
+        ax.set(title=plain(row["label"] or row["group"]), xlabel="time (s)")
     axes[0, 0].set_ylabel("energy (kJ/m)")
     axes[0, -1].legend(loc="upper left", bbox_to_anchor=(1., 1.02))
     note(figure, text)

@@ -37,6 +37,15 @@ def write_whole(path, text):
     part.replace(path)
 
 
+def read_json(path):
+    """The object in a file; {} if there is none or it is damaged."""
+    try:
+        found = json.loads(path.read_text()) if path.is_file() else {}
+    except (OSError, ValueError, RecursionError):
+        found = {}
+    return found if isinstance(found, dict) else {}
+
+
 def command_text(run):
     """The call that a reader may repeat."""
     file = run.file.relative_to(ROOT) if run.file.is_relative_to(ROOT) else run.file
@@ -82,10 +91,9 @@ class Computer:
 
     def record(self, run):
         """How the run has ended before, or {}."""
-        try:
-            return json.loads((self.folder / (run.name + ".json")).read_text())
-        except (OSError, ValueError):
-            return {}
+        record = read_json(self.folder / (run.name + ".json"))
+        return record if {"key", "status", "reason", "seconds",
+                          "command"} <= record.keys() else {}
 
     def is_done(self, run):
         """Whether the result is there and unchanged."""
@@ -111,7 +119,7 @@ class Computer:
         # A session of its own, so that mpirun's children end with it.
         with subprocess.Popen(command, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True, env=environment,
-                              start_new_session=True) as child:
+                              errors="replace", start_new_session=True) as child:
             with self.lock:
                 self.children.add(child)
             try:
@@ -195,10 +203,7 @@ class Computer:
     def row(self, run):
         """What is known of a run, for figures and tables."""
         record, folder = self.record(run), self.folder / run.name
-        try:
-            summary = json.loads((folder / "summary.json").read_text())
-        except (OSError, ValueError):
-            summary = {}
+        summary = read_json(folder / "summary.json")
         status, reason = record["status"], record["reason"]
         if status == "finished" and not summary:
             status, reason = "failed", "its folder has no summary.json"

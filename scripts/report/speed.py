@@ -15,8 +15,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import NullFormatter
 
-from report.figures import (COLORS, MARKERS, number, percent, plain_ticks,
-                            value_of)
+from report.figures import (COLORS, MARKERS, number, percent, plain,
+                            plain_ticks, value_of)
 
 # A method on a mesh in a case; time (s): median, least and largest of the
 # repetitions; ratio: time over that of one factorisation of the same matrix.
@@ -97,12 +97,12 @@ def work_precision(rows, options):
         for i, method in enumerate(methods):
             line = [p for p in points if (p.case, p.method) == (case, method)]
             ax.loglog([get(p, x) for p in line], [get(p, y) for p in line],
-                      label=method, **style(i, method))
+                      label=plain(method), **style(i, method))
             if y == "time" and x == "error":
                 ax.vlines([get(p, x) for p in line], [p.fastest for p in line],
                           [p.slowest for p in line], color=COLORS[i % len(COLORS)],
                           linewidth=3., alpha=0.35)
-        ax.set_title(case_name(case))
+        ax.set_title(plain(case_name(case)))
         ax.grid(True, which="major")
     words = {"error": "error of the limit load (%)", **UNITS}
     figure.supxlabel(words[x])
@@ -222,7 +222,7 @@ def cost_split(rows, options):
         if all(dict(p.case).get(name) == value for name, value in wanted.items()):
             if p.method not in finest or p.dofs > finest[p.method].dofs:
                 finest[p.method] = p
-    names = list(finest)
+    names = [plain(name) for name in finest]
     figure, axes = plt.subplots(figsize=(9.5, 1.2 + 0.38 * len(names)),
                                 constrained_layout=True)
     left = np.zeros(len(names))
@@ -264,7 +264,7 @@ def convergence(rows, options):
             all_x += list(x)
             all_y += list(y)
         ax.axhline(0., color="black", linewidth=1.)
-        ax.set_title(group)
+        ax.set_title(plain(group))
     for ax in axes.flat[len(groups):]:
         ax.remove()
     for ax in axes.flat[max(0, len(groups) - n_columns):len(groups)]:

@@ -66,13 +66,16 @@ class Study:
         return self.path.stem
 
 
-def parameters(path):
-    """A parameter file's text, with that of the files it includes or names."""
+def parameters(path, depth=0):
+    """A parameter file's text, with that of the files it includes or names. What the
+    program will refuse is left to it."""
     lines = []
-    for line in path.read_text().splitlines():
+    if depth > 20 or not path.is_file():
+        return f"{path} cannot be read"
+    for line in path.read_text(errors="replace").splitlines():
         words = line.split()
         if len(words) == 2 and words[0] == "include":
-            lines.append(parameters(path.parent / words[1]))
+            lines.append(parameters(path.parent / words[1], depth + 1))
         else:
             lines.append(line)
             named = re.match(r"\s*set\s+File\s*=\s*(\S+)", line)
@@ -173,7 +176,7 @@ def read_study(path):
         table = tomllib.loads(path.read_text())
     except OSError as problem:
         raise StudyError(f"{path}: {problem.strerror}")
-    except tomllib.TOMLDecodeError as problem:
+    except ValueError as problem:  # also if it is no text
         raise StudyError(f"{path} is no TOML file: {problem}")
     known_keys(path, "the study", table, "title", "text", "defaults", "group", "section")
     defaults = table.get("defaults", {})

@@ -10,7 +10,7 @@ there is no reference. status = "failed" is for runs that must not find an equil
 
 import matplotlib.pyplot as plt
 
-from report.figures import COLORS, number, percent, value_of
+from report.figures import COLORS, number, percent, plain, value_of
 
 
 def reference_of(row):
@@ -83,8 +83,8 @@ def errors(rows, options):
         axes.plot(100. * error, i, "o" if good else "X", markersize=5.,
                   color=COLORS[0] if good else COLORS[1])
     axes.axvline(0., color="black", linewidth=1.)
-    axes.set_yticks(range(len(shown)), [", ".join(
-        word for word in (row["group"], row["label"]) if word) for row, *_ in shown])
+    axes.set_yticks(range(len(shown)), [plain(", ".join(
+        word for word in (row["group"], row["label"]) if word)) for row, *_ in shown])
     axes.tick_params(axis="y", labelsize=8)
     axes.set(xlabel="error (%); grey: the band", ylim=(len(shown) - 0.4, -0.6))
     axes.grid(axis="y", visible=False)
