@@ -6,6 +6,7 @@
 #include <geocone/base/parameter_file.h>
 #include <geocone/mechanics/frozen_problem.h>
 #include <geocone/mechanics/reduced_problem.h>
+#include <geocone/output/run_folder.h>
 #include <geocone/replay.h>
 #include <geocone/scene/geometry.h>
 #include <geocone/solvers/nonsmooth_newton.h>
@@ -23,6 +24,34 @@ namespace geocone
 
   namespace
   {
+    /** Where the results go. */
+    class ResultFolder : public dealii::ParameterAcceptor
+    {
+    public:
+      explicit ResultFolder(const std::string &path)
+        : dealii::ParameterAcceptor("/Output")
+        , path(path)
+      {
+        add_parameter("If folder exists", if_exists);
+      }
+
+      /** Makes it, if there is to be one. @throws InputError */
+      void
+      make()
+      {
+        check_choice("Output/If folder exists",
+                     if_exists,
+                     {"number", "refuse", "overwrite"});
+        if (!path.empty())
+          path = make_run_folder(MPI_COMM_SELF, path, if_exists);
+      }
+
+      std::string path; ///< empty: nowhere
+
+    private:
+      std::string if_exists = "number";
+    };
+
     /** What is left of a replay: numbers to compare, and stresses (Pa). */
     struct Outcome
     {
@@ -32,7 +61,8 @@ namespace geocone
 
     Outcome
     replay_incremental(const std::string              &file_name,
-                       const std::vector<std::string> &overrides)
+                       const std::vector<std::string> &overrides,
+                       ResultFolder                   &folder)
     {
       const FrozenProblem frozen = FrozenProblem::read(file_name);
       const ParameterFile file =
@@ -44,7 +74,8 @@ namespace geocone
       materials.prepare();
       newton.prepare();
 
-      ThawedProblem       thawed(frozen, materials);
+      ThawedProblem thawed(frozen, materials);
+      folder.make();
       IncrementalProblem &problem       = thawed.problem();
       const auto          linear_solver = make_linear_solver(
         newton.linear_solver_name(), MPI_COMM_SELF, problem.is_symmetric());
@@ -55,15 +86,10 @@ namespace geocone
         problem.make_pattern(linear_solver->wants_one_triangle());
       linear_solver->analyse(matrix);
       Vector             v = thawed.start(), residual = problem.make_vector();
-      const SolverReport report  = newton.solve(problem,
-                                               matrix,
-                                               *linear_solver,
-                                               timer,
-                                               v,
-                                               residual,
-                                               {});
-      const double       cpu     = clock.cpu_time();
-      const Quality      quality = problem.quality();
+      const SolverReport report =
+        newton.solve(problem, matrix, *linear_solver, timer, v, residual, {});
+      const double  cpu     = clock.cpu_time();
+      const Quality quality = problem.quality();
 
       Outcome outcome;
       outcome.summary = {
@@ -87,7 +113,8 @@ namespace geocone
 
     Outcome
     replay_reduced(const std::string              &file_name,
-                   const std::vector<std::string> &overrides)
+                   const std::vector<std::string> &overrides,
+                   ResultFolder                   &folder)
     {
       const ReducedProblem problem = read_siconos(file_name);
       const ParameterFile  file =
@@ -95,6 +122,7 @@ namespace geocone
       NonsmoothNewton newton;
       file.parse();
       newton.prepare();
+      folder.make();
 
       Eigen::VectorXd     s      = Eigen::VectorXd::Zero(3 * problem.n_cones());
       const ReducedReport report = newton.solve_reduced(problem, s);
@@ -133,11 +161,13 @@ namespace geocone
          Log                            &log)
   {
     const std::filesystem::path path(file_name);
-    const Outcome               outcome = path.extension() == ".dat"
-                                            ? replay_reduced(file_name, overrides)
-                                            : replay_incremental(file_name, overrides);
-    Json                        summary = outcome.summary;
-    summary["name"]                     = path.stem().string();
+    ResultFolder                results(folder);
+    const Outcome               outcome =
+      path.extension() == ".dat"
+                      ? replay_reduced(file_name, overrides, results)
+                      : replay_incremental(file_name, overrides, results);
+    Json summary    = outcome.summary;
+    summary["name"] = path.stem().string();
     log.print(format(
       "%s: %s, %u unknowns, %u points, %u constraints: %s, %u "
       "iterations, residual %.1e, natural-map error %.1e, %.3g s "
@@ -155,12 +185,11 @@ namespace geocone
       summary["friction_lag"].get<double>() > 0. ? ", friction lags" : ""));
     if (!summary["converged"].get<bool>())
       log.print("  " + summary["reason"].get<std::string>());
-    if (!folder.empty())
+    if (!results.path.empty())
       {
-        std::filesystem::create_directories(folder);
-        write_file(folder + "/summary.json",
+        write_file(results.path + "/summary.json",
                    [&](std::ostream &out) { out << summary.dump(2) << "\n"; });
-        write_file(folder + "/stress.csv", [&](std::ostream &out) {
+        write_file(results.path + "/stress.csv", [&](std::ostream &out) {
           out << "xx (Pa),yy (Pa),sqrt2 xy (Pa)\n";
           for (const Mandel &s : outcome.stress)
             out << format("%.17g,%.17g,%.17g\n", s[0], s[1], s[2]);

@@ -17,8 +17,10 @@ namespace geocone
    * Siconos (ReducedProblem).
    *
    * @param overrides parameters of the sections Newton, Linear solver, Time
-   * stepping (friction) and Materials, as on the command line
-   * @param folder where summary.json and stress.csv go, or empty: nowhere
+   * stepping (friction), Materials and Output ('If folder exists', as of runs), as
+   * on the command line
+   * @param folder where summary.json, stress.csv and the parameters go, or empty:
+   * nowhere
    * @return whether the problem was solved
    * @throws InputError, RunError
    */

@@ -81,4 +81,28 @@ namespace geocone
           }
       }
   }
+
+  std::vector<int>
+  CartesianGrid::slabs(const std::vector<std::size_t> &points_in,
+                       const unsigned int              n_ranks) const
+  {
+    const unsigned int n_columns = axes[0].n_intervals;
+    std::size_t        total     = 0;
+    for (const std::size_t n : points_in)
+      total += n;
+    std::vector<int> begin(n_ranks + 1, n_columns);
+    begin[0]            = 0;
+    std::size_t  before = 0;
+    unsigned int r      = 1;
+    for (unsigned int column = 0; column < n_columns; ++column)
+      {
+        // The border goes to the side of the column that is nearer to its place.
+        while (r < n_ranks &&
+               2 * n_ranks * before + n_ranks * points_in[column] >=
+                 2 * r * total)
+          begin[r++] = column;
+        before += points_in[column];
+      }
+    return begin;
+  }
 } // namespace geocone

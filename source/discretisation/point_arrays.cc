@@ -15,6 +15,25 @@ namespace geocone
     , data(n_common + n_history + (affine ? 4 : 0))
   {}
 
+  namespace
+  {
+    /** Points with those that fill up the last vector. */
+    std::size_t
+    padded(const std::size_t n)
+    {
+      const std::size_t lanes = PointBlock::lanes;
+      return (n + lanes - 1) / lanes * lanes;
+    }
+  } // namespace
+
+  void
+  PointArrays::reserve(const std::size_t n)
+  {
+    for (std::vector<double> &array : data)
+      array.reserve(padded(n));
+    id.reserve(n);
+  }
+
   void
   PointArrays::append(const double *values, const unsigned int new_id)
   {
@@ -36,12 +55,10 @@ namespace geocone
   PointArrays::pad()
   {
     unpad();
-    const unsigned int lanes  = PointBlock::lanes;
-    const unsigned int n      = id.size();
-    const unsigned int padded = (n + lanes - 1) / lanes * lanes;
+    const std::size_t n = id.size();
     for (unsigned int field = 0; field < data.size(); ++field)
       data[field].resize(
-        padded,
+        padded(n),
         n == 0 || field == mass || field == volume ? 0. : data[field].back());
   }
 

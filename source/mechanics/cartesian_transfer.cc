@@ -98,27 +98,12 @@ namespace geocone
   CartesianTransfer::cut_slabs(const std::vector<PointArrays> &groups)
   {
     const CartesianGrid::Axis &axis = grid.axes[0];
-    std::vector<unsigned int>  points_in(axis.n_intervals, 0);
+    std::vector<std::size_t>   points_in(axis.n_intervals, 0);
     for (const PointArrays &group : groups)
       for (unsigned int p = 0; p < group.n_points(); ++p)
         ++points_in[axis.interval(group[PointArrays::x][p])];
     Utilities::MPI::sum(points_in, comm, points_in);
-    unsigned long total = 0;
-    for (const unsigned int n : points_in)
-      total += n;
-    slab_begin.assign(n_ranks + 1, axis.n_intervals);
-    slab_begin[0]        = 0;
-    unsigned long before = 0;
-    unsigned int  r      = 1;
-    for (unsigned int column = 0; column < axis.n_intervals; ++column)
-      {
-        // The border goes to the side of the column that is nearer to its place.
-        while (r < n_ranks &&
-               2 * n_ranks * before + n_ranks * points_in[column] >=
-                 2 * r * total)
-          slab_begin[r++] = column;
-        before += points_in[column];
-      }
+    slab_begin = grid.slabs(points_in, n_ranks);
   }
 
   void
@@ -151,8 +136,12 @@ namespace geocone
             if (staying.size() < group.n_points())
               group.reorder(staying);
             const unsigned int size = group.n_fields() + 1;
-            for (const auto &[sender, message] :
-                 Utilities::MPI::some_to_some(comm, leaving))
+            const auto  arriving = Utilities::MPI::some_to_some(comm, leaving);
+            std::size_t n        = group.n_points();
+            for (const auto &from_rank : arriving)
+              n += from_rank.second.size() / size;
+            group.reserve(n);
+            for (const auto &[sender, message] : arriving)
               for (std::size_t i = 0; i < message.size(); i += size)
                 group.append(&message[i],
                              static_cast<unsigned int>(message[i + size - 1]));

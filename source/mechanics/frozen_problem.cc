@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/gather.h>
 #include <geocone/base/hdf5_file.h>
+#include <geocone/discretisation/spline_basis.h>
 #include <geocone/mechanics/frozen_problem.h>
 
-#include <deal.II/base/mpi.h>
+#include <algorithm>
+#include <cmath>
+#include <sstream>
 
 namespace geocone
 {
@@ -13,17 +17,6 @@ namespace geocone
 
   namespace
   {
-    /** The arrays of all ranks one after another, on the first one. */
-    template <typename T>
-    std::vector<T>
-    join(const std::vector<T> &part, const MPI_Comm comm)
-    {
-      std::vector<T> all;
-      for (const std::vector<T> &of_rank : Utilities::MPI::gather(comm, part))
-        all.insert(all.end(), of_rank.begin(), of_rank.end());
-      return all;
-    }
-
     std::vector<double>
     owned(const Vector &v)
     {
@@ -45,6 +38,69 @@ namespace geocone
         result.insert(result.end(), value.data(), value.data() + n_mandel);
       return result;
     }
+
+    /** Points as two numbers each. */
+    std::vector<double>
+    flat(const std::vector<Point<dim>> &values)
+    {
+      std::vector<double> result;
+      for (const Point<dim> &value : values)
+        result.insert(result.end(), {value[0], value[1]});
+      return result;
+    }
+
+    /** What a frozen file says that it is. */
+    const std::string format_name = "geocone-1";
+
+    /** No quantity in SI units is larger; squares of it are still numbers. */
+    constexpr double largest = 1e30;
+
+    /** What is wrong with the text of a section Materials; empty: nothing. */
+    std::string
+    objection_to_materials(const std::string &text)
+    {
+      std::istringstream       in(text);
+      std::vector<std::string> sections;
+      bool                     any = false;
+      for (std::string line; std::getline(in, line);)
+        {
+          const std::size_t first = line.find_first_not_of(" \t\r");
+          if (first == std::string::npos)
+            continue;
+          line = line.substr(first, line.find_last_not_of(" \t\r") - first + 1);
+          const std::string shown = "'" + line.substr(0, 80) + "'";
+          if (std::any_of(line.begin(), line.end(), [](const unsigned char c) {
+                return c < ' ';
+              }))
+            return "its materials are no text";
+          if (line.compare(0, 11, "subsection ") == 0)
+            {
+              const std::string name = line.substr(11);
+              if (name.find('/') != std::string::npos)
+                return "it has the material '" + name.substr(0, 80) +
+                       "', whose name must have no '/'";
+              if (sections.empty() && (name != "Materials" || any))
+                return "its materials have the section " + shown +
+                       ", where only one, Materials, may be";
+              any = true;
+              sections.push_back(name);
+            }
+          else if (line == "end")
+            {
+              if (sections.empty())
+                return "its materials have an 'end' without a subsection";
+              sections.pop_back();
+            }
+          else if (line.compare(0, 4, "set ") != 0 || sections.empty())
+            return "its materials have the line " + shown +
+                   ", which is no parameter of a material";
+          else if (sections.size() == 1 && line.find('/') != std::string::npos)
+            return "its materials have the line " + shown +
+                   ", but names must have no '/'";
+        }
+      return sections.empty() ? ""
+                              : "its materials have a subsection without 'end'";
+    }
   } // namespace
 
   FrozenProblem
@@ -60,42 +116,44 @@ namespace geocone
     std::vector<unsigned int> counts;
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       counts.push_back(points.first_point[c + 1] - points.first_point[c]);
-    for (const unsigned int count : join(counts, comm))
+    for (const unsigned int count : gather(counts, comm))
       p.first_point.push_back(p.first_point.back() + count);
     for (const unsigned int node : points.nodes)
       p.nodes.push_back(layout->local_to_global(dim * node) / dim);
-    p.nodes                            = join(p.nodes, comm);
-    p.gradients                        = join(points.gradients, comm);
-    p.values                           = join(points.values, comm);
-    p.mean_gradients                   = join(points.mean_gradients, comm);
-    p.material                         = join(points.material, comm);
-    p.weight                           = join(points.weight, comm);
-    p.position                         = join(points.position, comm);
-    p.mass                             = join(points.mass, comm);
-    const std::vector<double> stresses = join(flat(points.stress), comm);
+    p.nodes                            = gather(p.nodes, comm);
+    p.gradients                        = gather(points.gradients, comm);
+    p.values                           = gather(points.values, comm);
+    p.mean_gradients                   = gather(points.mean_gradients, comm);
+    p.material                         = gather(points.material, comm);
+    p.weight                           = gather(points.weight, comm);
+    p.mass                             = gather(points.mass, comm);
+    const std::vector<double> stresses = gather(flat(points.stress), comm);
     for (std::size_t i = 0; i < stresses.size(); i += n_mandel)
       p.stress.emplace_back(&stresses[i]);
+    const std::vector<double> places = gather(flat(points.position), comm);
+    for (std::size_t i = 0; i < places.size(); i += dim)
+      p.position.emplace_back(places[i], places[i + 1]);
 
     for (unsigned int dof = 0; dof < layout->locally_owned_size(); ++dof)
       frozen.kind.push_back(std::min(0, unknowns.free_row[dof]));
-    frozen.kind = join(frozen.kind, comm);
+    frozen.kind = gather(frozen.kind, comm);
     if (mass != nullptr)
-      frozen.mass = join(owned(*mass), comm);
+      frozen.mass = gather(owned(*mass), comm);
     if (force != nullptr)
-      frozen.force = join(owned(*force), comm);
-    frozen.velocity_L = join(owned(velocity_L), comm);
-    frozen.prescribed = join(owned(prescribed), comm);
-    frozen.start      = join(owned(start), comm);
+      frozen.force = gather(owned(*force), comm);
+    frozen.velocity_L = gather(owned(velocity_L), comm);
+    frozen.prescribed = gather(owned(prescribed), comm);
+    frozen.start      = gather(owned(start), comm);
 
     const Multipliers &rows = unknowns.multipliers;
     for (const unsigned int dof : rows.dofs())
       frozen.constrained_dofs.push_back(layout->local_to_global(dof));
-    frozen.constrained_dofs = join(frozen.constrained_dofs, comm);
+    frozen.constrained_dofs = gather(frozen.constrained_dofs, comm);
     const std::vector<double> coefficients =
-      join(std::vector<double>(rows.coefficients().data(),
-                               rows.coefficients().data() +
-                                 rows.coefficients().size()),
-           comm);
+      gather(std::vector<double>(rows.coefficients().data(),
+                                 rows.coefficients().data() +
+                                   rows.coefficients().size()),
+             comm);
     frozen.H = Eigen::Map<const Eigen::MatrixXd>(
       coefficients.data(),
       rows.n_rows(),
@@ -108,6 +166,7 @@ namespace geocone
   FrozenProblem::write(const std::string &file_name) const
   {
     Hdf5File file(file_name, Hdf5File::Access::create);
+    file.write("format", format_name);
     file.write("materials", materials);
     file.write("step", std::vector<double>{h, consistent_part});
     file.write("particles", std::vector<int>{particles});
@@ -121,10 +180,7 @@ namespace geocone
     file.write("points/weight", points.weight);
     file.write("points/mass", points.mass);
     file.write("points/stress", flat(points.stress));
-    std::vector<double> positions;
-    for (const Point<dim> &x : points.position)
-      positions.insert(positions.end(), {x[0], x[1]});
-    file.write("points/position", positions);
+    file.write("points/position", flat(points.position));
     file.write("dofs/kind", kind);
     file.write("dofs/mass", mass);
     file.write("dofs/force", force);
@@ -145,7 +201,9 @@ namespace geocone
     const Hdf5File file(file_name, Hdf5File::Access::read);
     const auto     check = [&](const bool holds, const std::string &what) {
       if (!holds)
-        throw RunError("the file '" + file_name + "' is inconsistent: " + what);
+        throw RunError("the file '" + file_name + "' is inconsistent: " + what +
+                       "\n  remedy:  freeze the step again ('Output/Freeze "
+                           "steps')");
     };
     const auto unsigned_array = [&](const std::string &name) {
       const std::vector<int> values = file.read_integers(name);
@@ -153,66 +211,104 @@ namespace geocone
         check(value >= 0, "negative numbers in '" + name + "'");
       return std::vector<unsigned int>(values.begin(), values.end());
     };
+    const auto doubles = [&](const std::string &name) {
+      const std::vector<double> values = file.read_doubles(name);
+      for (const double value : values)
+        check(std::abs(value) <= largest,
+              "numbers in '" + name + "' that are not finite, or beyond 1e30");
+      return values;
+    };
 
+    check(file.read_text("format") == format_name,
+          "its format is another one than '" + format_name + "'");
     FrozenProblem frozen;
-    frozen.materials = file.read_text("materials");
-    const auto step  = file.read_doubles("step");
+    frozen.materials            = file.read_text("materials");
+    const std::string objection = objection_to_materials(frozen.materials);
+    check(objection.empty(), objection);
+    const auto step = doubles("step");
     check(step.size() == 2 && step[0] > 0., "the step must be > 0 s");
+    check(step[1] >= 0. && step[1] <= 1.,
+          "the consistent part of the mass must be 0 to 1");
     frozen.h               = step[0];
     frozen.consistent_part = step[1];
     const auto particles   = unsigned_array("particles");
     const auto n_nodes     = unsigned_array("points/n_nodes");
     check(particles.size() == 1 && n_nodes.size() == 1, "it lacks numbers");
+    check(n_nodes[0] >= 1 && n_nodes[0] <= (max_degree + 1) * (max_degree + 1),
+          "cells have 1 to 16 nodes");
     frozen.particles = particles[0] != 0;
 
     MaterialPoints &p       = frozen.points;
     p.n_nodes               = n_nodes[0];
     p.first_point           = unsigned_array("points/first_point");
     p.nodes                 = unsigned_array("points/nodes");
-    p.gradients             = file.read_doubles("points/gradients");
-    p.values                = file.read_doubles("points/values");
-    p.mean_gradients        = file.read_doubles("points/mean_gradients");
+    p.gradients             = doubles("points/gradients");
+    p.values                = doubles("points/values");
+    p.mean_gradients        = doubles("points/mean_gradients");
     p.material              = unsigned_array("points/material");
-    p.weight                = file.read_doubles("points/weight");
-    p.mass                  = file.read_doubles("points/mass");
-    const auto stress       = file.read_doubles("points/stress");
-    const auto x            = file.read_doubles("points/position");
+    p.weight                = doubles("points/weight");
+    p.mass                  = doubles("points/mass");
+    const auto stress       = doubles("points/stress");
+    const auto x            = doubles("points/position");
     frozen.kind             = file.read_integers("dofs/kind");
-    frozen.mass             = file.read_doubles("dofs/mass");
-    frozen.force            = file.read_doubles("dofs/force");
-    frozen.velocity_L       = file.read_doubles("dofs/velocity_L");
-    frozen.prescribed       = file.read_doubles("dofs/prescribed");
-    frozen.start            = file.read_doubles("dofs/start");
+    frozen.mass             = doubles("dofs/mass");
+    frozen.force            = doubles("dofs/force");
+    frozen.velocity_L       = doubles("dofs/velocity_L");
+    frozen.prescribed       = doubles("dofs/prescribed");
+    frozen.start            = doubles("dofs/start");
     frozen.constrained_dofs = file.read_integers("constraints/dofs");
-    const auto H            = file.read_doubles("constraints/coefficients");
-    const auto q            = file.read_doubles("constraints/targets");
+    const auto H            = doubles("constraints/coefficients");
+    const auto q            = doubles("constraints/targets");
 
     const std::size_t n = p.n_points(), n_dofs = frozen.kind.size();
-    check(!p.first_point.empty() && p.first_point[0] == 0 &&
+    const std::size_t functions = p.n_nodes;
+    check(p.first_point.size() >= 2 && p.first_point[0] == 0 &&
             p.first_point.back() == n &&
-            std::is_sorted(p.first_point.begin(), p.first_point.end()),
+            std::is_sorted(p.first_point.begin(), p.first_point.end()) &&
+            std::adjacent_find(p.first_point.begin(), p.first_point.end()) ==
+              p.first_point.end(),
           "the cells do not hold its points");
-    check(p.nodes.size() == p.n_cells() * p.n_nodes &&
-            p.gradients.size() == 2 * n * p.n_nodes && p.material.size() == n &&
-            stress.size() == n_mandel * n && x.size() == dim * n,
+    check(p.nodes.size() == p.n_cells() * functions &&
+            p.gradients.size() == dim * n * functions &&
+            p.material.size() == n && stress.size() == n_mandel * n &&
+            x.size() == dim * n && (p.mass.empty() || p.mass.size() == n),
           "the arrays of its points differ in length");
-    check((p.values.empty() || p.values.size() == n * p.n_nodes) &&
+    check((p.values.empty() || p.values.size() == n * functions) &&
             (p.mean_gradients.empty() ||
-             p.mean_gradients.size() == 2 * p.n_cells() * p.n_nodes),
+             p.mean_gradients.size() == dim * p.n_cells() * functions),
           "the functions of its points differ in number");
-    for (const unsigned int node : p.nodes)
+    for (const double weight : p.weight)
+      check(weight > 0., "it has points without a volume");
+    for (const auto *masses : {&p.mass, &frozen.mass})
+      for (const double mass : *masses)
+        check(mass >= 0., "it has negative masses");
+    check(n_dofs % dim == 0, "it has half a node");
+    for (const std::size_t node : p.nodes)
       check(dim * node + dim <= n_dofs, "it has cells without nodes");
+    for (const int kind : frozen.kind)
+      check(
+        kind == 0 || kind == Unknowns::prescribed_row ||
+          kind == Unknowns::massless_row,
+        "it has dofs that are neither free nor prescribed nor without mass");
     for (const auto *array :
          {&frozen.velocity_L, &frozen.prescribed, &frozen.start})
       check(array->size() == n_dofs, "the arrays of its dofs differ in length");
     for (const auto *array : {&frozen.mass, &frozen.force})
       check(array->empty() || array->size() == n_dofs,
             "the arrays of its dofs differ in length");
+    check(frozen.consistent_part == 0. ||
+            (p.values.size() == n * functions && p.mass.size() == n),
+          "it lacks the functions or masses of a consistent mass");
     check(H.size() == q.size() * frozen.constrained_dofs.size(),
           "its constraints differ in length");
     for (const int dof : frozen.constrained_dofs)
-      check(dof >= 0 && std::size_t(dof) < n_dofs,
-            "it has constraints without dofs");
+      check(dof >= 0 && std::size_t(dof) < n_dofs && frozen.kind[dof] == 0,
+            "it has constraints on dofs that are not free");
+    std::vector<int> dofs = frozen.constrained_dofs;
+    std::sort(dofs.begin(), dofs.end());
+    check(std::adjacent_find(dofs.begin(), dofs.end()) == dofs.end() &&
+            q.size() <= dofs.size(),
+          "it has more constraints than dofs in them, or dofs twice");
 
     for (std::size_t i = 0; i < n; ++i)
       {

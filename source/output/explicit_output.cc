@@ -3,6 +3,7 @@
 
 #include <geocone/output/explicit_output.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace geocone
@@ -165,67 +166,100 @@ namespace geocone
     if (!with_fields)
       return;
     using Field = PointArrays::Field;
-    PatchOutput<0>           output;
-    std::vector<std::string> scalars = {"material",
-                                        "volume",
-                                        "stress_xx",
-                                        "stress_yy",
-                                        "stress_xy",
-                                        "cumulative_plastic_strain"};
+    FieldTable table;
+    for (const PointArrays &group : groups)
+      table.n_nodes += group.n_points();
+    // A column whose values are functions of the group, the point and a component.
+    const auto filled = [&](const unsigned int n_components,
+                            const auto        &value) {
+      return [&, n_components, value](std::vector<double> &to) {
+        double *next = to.data();
+        for (const PointArrays &group : groups)
+          for (unsigned int p = 0; p < group.n_points(); ++p)
+            for (unsigned int d = 0; d < n_components; ++d)
+              *next++ = value(group, p, d);
+      };
+    };
+    const auto add = [&](const std::string &name, const unsigned int field) {
+      table.columns.push_back(
+        {name,
+         1,
+         filled(1, [field](const auto &group, const unsigned int p, int) {
+           return group[field][p];
+         })});
+    };
+    table.positions =
+      filled(dim, [](const auto &group, const unsigned int p, const int d) {
+        return group[Field::x + d][p];
+      });
+    table.columns.push_back(
+      {"velocity",
+       dim,
+       filled(dim, [](const auto &group, const unsigned int p, const int d) {
+         return group[Field::vx + d][p];
+       })});
+    table.columns.push_back(
+      {"displacement",
+       dim,
+       filled(dim, [](const auto &group, const unsigned int p, const int d) {
+         return group[Field::x + d][p] - group[Field::x_start + d][p];
+       })});
+    table.columns.push_back(
+      {"material", 1, filled(1, [](const auto &group, const unsigned int, int) {
+         return double(group.material);
+       })});
+    add("volume", Field::volume);
+    add("stress_xx", Field::s_xx);
+    add("stress_yy", Field::s_yy);
+    add("stress_xy", Field::s_xy);
+    add("cumulative_plastic_strain", Field::plastic_strain);
+
     // What any of the laws can show; where a law cannot, not a number.
-    const unsigned int first_of_laws = scalars.size();
+    std::vector<std::string> of_laws;
     for (unsigned int m = 0; m < scene->materials.size(); ++m)
       for (const std::string &shown : scene->materials.law(m).shown_names())
-        if (std::find(scalars.begin(), scalars.end(), shown) == scalars.end())
-          scalars.push_back(shown);
-    for (const std::string &scalar : scalars)
-      output.add_scalar(scalar);
-    output.add_vector("velocity");
-    output.add_vector("displacement");
-    for (const PointArrays &group : groups)
+        if (std::find(of_laws.begin(), of_laws.end(), shown) == of_laws.end())
+          of_laws.push_back(shown);
+    for (const std::string &name : of_laws)
+      table.columns.push_back({name, 1, [&](std::vector<double> &to) {
+                                 double *next = to.data();
+                                 for (const PointArrays &group : groups)
+                                   {
+                                     show(name, group, next);
+                                     next += group.n_points();
+                                   }
+                               }});
+    point_files->write(table, path, time, comm);
+  }
+
+  void
+  ExplicitOutput::show(const std::string &name,
+                       const PointArrays &group,
+                       double            *values) const
+  {
+    using Field                          = PointArrays::Field;
+    const ConstitutiveLaw         &law   = scene->materials.law(group.material);
+    const std::vector<std::string> names = law.shown_names();
+    const std::size_t              place =
+      std::find(names.begin(), names.end(), name) - names.begin();
+    if (place == names.size())
       {
-        const ConstitutiveLaw    &law = scene->materials.law(group.material);
-        std::vector<unsigned int> place;
-        for (const std::string &shown : law.shown_names())
-          place.push_back(std::find(scalars.begin(), scalars.end(), shown) -
-                          scalars.begin());
-        std::vector<double> shown(place.size()), history(group.n_history);
-        for (unsigned int p = 0; p < group.n_points(); ++p)
-          {
-            if (!(group[Field::mass][p] > 0.))
-              continue; // it has left
-            PatchOutput<0>::Patch patch;
-            patch.patch_index = output.patches.size();
-            patch.vertices[0] = group.position(p);
-            patch.data.reinit(output.names.size(), 1);
-            const double common[] = {double(group.material),
-                                     group[Field::volume][p],
-                                     group[Field::s_xx][p],
-                                     group[Field::s_yy][p],
-                                     group[Field::s_xy][p],
-                                     group[Field::plastic_strain][p]};
-            for (unsigned int i = 0; i < first_of_laws; ++i)
-              patch.data(i, 0) = common[i];
-            for (unsigned int i = first_of_laws; i < scalars.size(); ++i)
-              patch.data(i, 0) = std::numeric_limits<double>::quiet_NaN();
-            for (unsigned int k = 0; k < group.n_history; ++k)
-              history[k] = group[group.first_history() + k][p];
-            law.show({{common[2], common[3], common[4]}},
-                     history.data(),
-                     shown.data());
-            for (unsigned int k = 0; k < place.size(); ++k)
-              patch.data(place[k], 0) = shown[k];
-            const unsigned int n = scalars.size();
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                patch.data(n + d, 0) = group[Field::vx + d][p];
-                patch.data(n + dim + d, 0) =
-                  group[Field::x + d][p] - group[Field::x_start + d][p];
-              }
-            output.patches.push_back(patch);
-          }
+        std::fill_n(
+          values, group.n_points(), std::numeric_limits<double>::quiet_NaN());
+        return;
       }
-    point_files->write(output, path, time, comm);
+    std::vector<double> shown(names.size()), history(group.n_history);
+    for (unsigned int p = 0; p < group.n_points(); ++p)
+      {
+        for (unsigned int k = 0; k < group.n_history; ++k)
+          history[k] = group[group.first_history() + k][p];
+        law.show({{group[Field::s_xx][p],
+                   group[Field::s_yy][p],
+                   group[Field::s_xy][p]}},
+                 history.data(),
+                 shown.data());
+        values[p] = shown[place];
+      }
   }
 
   void

@@ -3,6 +3,9 @@
 
 #include <geocone/output/fields.h>
 
+#include <array>
+#include <utility>
+
 namespace geocone
 {
   using namespace dealii;
@@ -33,6 +36,26 @@ namespace geocone
             }
       return cells;
     }
+
+    /** What is written of each cell: the material, and means. */
+    constexpr std::array<const char *, 6> names = {
+      {"material",
+       "stress_xx",
+       "stress_yy",
+       "stress_xy",
+       "plastic_strain_rate",
+       "cumulative_plastic_strain"}};
+
+    /** The components of points or vectors, one after another. */
+    template <typename Values>
+    FieldTable::Fill
+    components(const Values &values)
+    {
+      return [&values](std::vector<double> &to) {
+        for (std::size_t i = 0; i < to.size(); ++i)
+          to[i] = values[i / dim][i % dim];
+      };
+    }
   } // namespace
 
   void
@@ -47,117 +70,111 @@ namespace geocone
     // Also on a rank that has no points, to write the same data as the others.
     const bool moving =
       Utilities::MPI::logical_or(!points.values.empty(), comm);
-    PatchOutput<dim>    on_cells;
-    std::vector<Vector> on_nodes;
+    std::vector<std::pair<std::string, Vector>> on_nodes;
     if (!moving)
-      {
-        on_cells.add_vector("displacement");
-        on_nodes.push_back(kinematics.displacement);
-      }
-    on_cells.add_vector("velocity");
-    on_nodes.push_back(kinematics.velocity);
-    for (Vector &vector : on_nodes)
-      vector.update_ghost_values();
-    const unsigned int scalars = on_cells.names.size(); // from there on
-    for (const char *name : {"material",
-                             "stress_xx",
-                             "stress_yy",
-                             "stress_xy",
-                             "plastic_strain_rate",
-                             "cumulative_plastic_strain"})
-      on_cells.add_scalar(name);
+      on_nodes.emplace_back("displacement", kinematics.displacement);
+    on_nodes.emplace_back("velocity", kinematics.velocity);
+    for (auto &field : on_nodes)
+      field.second.update_ghost_values();
 
     const auto          parts = sub_cells(space.degree(), mesh.is_simplicial());
     std::vector<double> N(points.n_nodes);
+
+    // At the nodes of the parts: places, the fields on nodes; means of the cells.
+    std::vector<double>                           places;
+    std::vector<std::vector<double>>              vectors(on_nodes.size());
+    std::array<std::vector<double>, names.size()> means;
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       {
-        const auto        &cell     = points.cells[c];
-        const unsigned int first    = points.first_point[c];
-        double             means[5] = {}, area = 0.;
+        const auto                      &cell  = points.cells[c];
+        const unsigned int               first = points.first_point[c];
+        double                           area  = 0.;
+        std::array<double, names.size()> mean  = {};
         for (unsigned int p = first; p < points.first_point[c + 1]; ++p)
           {
             const double V = points.weight[p];
             area += V;
-            means[0] += V * points.stress[p][0];
-            means[1] += V * points.stress[p][1];
-            means[2] += V * points.stress[p][2] / sqrt2;
-            means[3] += V * points.plastic_strain_rate[p];
-            means[4] += V * points.cumulative_plastic_strain[p];
+            mean[1] += V * points.stress[p][0];
+            mean[2] += V * points.stress[p][1];
+            mean[3] += V * points.stress[p][2] / sqrt2;
+            mean[4] += V * points.plastic_strain_rate[p];
+            mean[5] += V * points.cumulative_plastic_strain[p];
           }
+        for (double &value : mean)
+          value /= area;
+        mean[0]                   = points.material[first];
         const unsigned int *nodes = &points.nodes[c * points.n_nodes];
         for (const auto &part : parts)
-          {
-            PatchOutput<dim>::Patch patch;
-            patch.patch_index    = on_cells.patches.size();
-            patch.n_subdivisions = 1;
-            patch.reference_cell = cell->reference_cell();
-            patch.data.reinit(on_cells.names.size(), part.size());
-            for (unsigned int k = 0; k < part.size(); ++k)
-              {
-                patch.vertices[k] =
-                  mesh.mapping().transform_unit_to_real_cell(cell, part[k]);
-                space.evaluate(cell, part[k], N.data(), nullptr);
-                for (unsigned int i = 0; i < points.n_nodes; ++i)
+          for (const Point<dim> &unit : part)
+            {
+              const Point<dim> x =
+                mesh.mapping().transform_unit_to_real_cell(cell, unit);
+              space.evaluate(cell, unit, N.data(), nullptr);
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  places.push_back(x[d]);
                   for (unsigned int f = 0; f < on_nodes.size(); ++f)
-                    for (unsigned int d = 0; d < dim; ++d)
-                      patch.data(dim * f + d, k) +=
-                        N[i] * on_nodes[f].local_element(dim * nodes[i] + d);
-                patch.data(scalars, k) = points.material[first];
-                for (unsigned int m = 0; m < 5; ++m)
-                  patch.data(scalars + 1 + m, k) = means[m] / area;
-              }
-            on_cells.patches.push_back(patch);
-          }
+                    {
+                      double value = 0.;
+                      for (unsigned int i = 0; i < points.n_nodes; ++i)
+                        value += N[i] * on_nodes[f].second.local_element(
+                                          dim * nodes[i] + d);
+                      vectors[f].push_back(value);
+                    }
+                }
+              for (unsigned int m = 0; m < mean.size(); ++m)
+                means[m].push_back(mean[m]);
+            }
       }
+    const auto copy_of = [](const std::vector<double> &from) {
+      return [&from](std::vector<double> &to) { to = from; };
+    };
+    FieldTable on_cells;
+    on_cells.cell      = mesh.is_simplicial() ? FieldTable::Cell::triangle
+                                              : FieldTable::Cell::quadrilateral;
+    on_cells.n_nodes   = places.size() / dim;
+    on_cells.positions = copy_of(places);
+    for (unsigned int f = 0; f < on_nodes.size(); ++f)
+      on_cells.columns.push_back({on_nodes[f].first, dim, copy_of(vectors[f])});
+    for (unsigned int m = 0; m < names.size(); ++m)
+      on_cells.columns.push_back({names[m], 1, copy_of(means[m])});
     cells.write(on_cells, folder, time, comm);
 
-    PatchOutput<0> on_points;
-    for (const char *name : {"material",
-                             "volume",
-                             "stress_xx",
-                             "stress_yy",
-                             "stress_xy",
-                             "plastic_strain_xx",
-                             "plastic_strain_yy",
-                             "plastic_strain_xy",
-                             "plastic_strain_rate",
-                             "cumulative_plastic_strain"})
-      on_points.add_scalar(name);
+    FieldTable on_points;
+    on_points.n_nodes   = points.n_points();
+    on_points.positions = components(points.position);
+    const auto add      = [&](const std::string &name, const auto &value) {
+      on_points.columns.push_back(
+        {name, 1, [&, value](std::vector<double> &to) {
+           for (std::size_t p = 0; p < to.size(); ++p)
+             to[p] = value(p);
+         }});
+    };
     if (moving)
       {
-        // Their order changes from time to time.
-        on_points.add_scalar("id");
-        for (const char *name : {"velocity", "displacement"})
-          on_points.add_vector(name);
+        on_points.columns.push_back(
+          {"velocity", dim, components(points.velocity)});
+        on_points.columns.push_back(
+          {"displacement", dim, components(points.displacement)});
       }
-    for (unsigned int p = 0; p < points.n_points(); ++p)
-      {
-        PatchOutput<0>::Patch patch;
-        patch.patch_index = p;
-        patch.vertices[0] = points.position[p];
-        patch.data.reinit(on_points.names.size(), 1);
-        const Mandel       &s = points.stress[p], &e = points.plastic_strain[p];
-        std::vector<double> values = {static_cast<double>(points.material[p]),
-                                      points.weight[p],
-                                      s[0],
-                                      s[1],
-                                      s[2] / sqrt2,
-                                      e[0],
-                                      e[1],
-                                      e[2] / sqrt2,
-                                      points.plastic_strain_rate[p],
-                                      points.cumulative_plastic_strain[p]};
-        if (moving)
-          {
-            values.push_back(points.id[p]);
-            for (const auto *vectors : {&points.velocity, &points.displacement})
-              for (unsigned int d = 0; d < dim; ++d)
-                values.push_back((*vectors)[p][d]);
-          }
-        for (unsigned int i = 0; i < values.size(); ++i)
-          patch.data(i, 0) = values[i];
-        on_points.patches.push_back(patch);
-      }
+    add("material", [&](const std::size_t p) { return points.material[p]; });
+    add("volume", [&](const std::size_t p) { return points.weight[p]; });
+    const auto add_tensor = [&](const std::string         &name,
+                                const std::vector<Mandel> &values) {
+      add(name + "_xx", [&](const std::size_t p) { return values[p][0]; });
+      add(name + "_yy", [&](const std::size_t p) { return values[p][1]; });
+      add(name + "_xy",
+          [&](const std::size_t p) { return values[p][2] / sqrt2; });
+    };
+    add_tensor("stress", points.stress);
+    add_tensor("plastic_strain", points.plastic_strain);
+    add("plastic_strain_rate",
+        [&](const std::size_t p) { return points.plastic_strain_rate[p]; });
+    add("cumulative_plastic_strain", [&](const std::size_t p) {
+      return points.cumulative_plastic_strain[p];
+    });
+    if (moving) // their order changes from time to time
+      add("id", [&](const std::size_t p) { return points.id[p]; });
     point_clouds.write(on_points, folder, time, comm);
   }
 } // namespace geocone

@@ -163,7 +163,7 @@ namespace geocone
         transfer =
           std::make_unique<CartesianTransfer>(comm, grid, scene->dirichlet);
         datum = {lines[0].front(), lines[1].front()};
-        seed_points(seeding.make(*scene, grid, comm), remarks);
+        seed_columns(grid, remarks);
       }
     else
       {
@@ -171,7 +171,12 @@ namespace geocone
         space.prepare(mesh, method);
         transfer = std::make_unique<MeshTransfer>(*scene, mesh, space);
         datum    = mesh.lower_corner();
-        seed_points(seeding.make(*scene, mesh), remarks);
+        seed_points(
+          seeding.count(*scene, mesh),
+          [&](const Seeding::Take &take) {
+            seeding.for_each(*scene, mesh, take);
+          },
+          remarks);
       }
 
     if (affine && space.degree() == 1)

@@ -11,7 +11,9 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 namespace geocone
 {
@@ -82,64 +84,97 @@ namespace geocone
   } // namespace
 
   void
-  ExplicitMPM::seed_points(const std::vector<Seed>  &seeds,
-                           std::vector<std::string> &remarks)
+  ExplicitMPM::seed_columns(const CartesianGrid      &grid,
+                            std::vector<std::string> &remarks)
+  {
+    const auto               in_column = seeding.count(*scene, grid, comm);
+    std::vector<std::size_t> points_in;
+    for (const auto &of_material : in_column)
+      points_in.push_back(std::accumulate(
+        of_material.begin(), of_material.end(), std::size_t(0)));
+    const auto slabs =
+      grid.slabs(points_in, Utilities::MPI::n_mpi_processes(comm));
+    const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
+    const std::array<unsigned int, 2> own = {
+      {static_cast<unsigned int>(slabs[rank]),
+       static_cast<unsigned int>(slabs[rank + 1])}};
+    std::vector<std::size_t> n(scene->materials.size(), 0);
+    for (unsigned int column = own[0]; column < own[1]; ++column)
+      for (unsigned int m = 0; m < n.size(); ++m)
+        n[m] += in_column[column][m];
+    seed_points(
+      n,
+      [&](const Seeding::Take &take) {
+        seeding.for_each(*scene, grid, own, take);
+      },
+      remarks);
+  }
+
+  void
+  ExplicitMPM::seed_points(
+    const std::vector<std::size_t>                   &n,
+    const std::function<void(const Seeding::Take &)> &for_each,
+    std::vector<std::string>                         &remarks)
   {
     for (unsigned int m = 0; m < scene->materials.size(); ++m)
-      groups.emplace_back(m, scene->materials.law(m).n_history(), affine);
-    unsigned int       first = 0;
-    const unsigned int n     = seeds.size();
-    MPI_Exscan(&n, &first, 1, MPI_UNSIGNED, MPI_SUM, comm);
+      {
+        groups.emplace_back(m, scene->materials.law(m).n_history(), affine);
+        groups.back().reserve(n[m]);
+      }
+    unsigned int       next = 0;
+    const unsigned int here =
+      std::accumulate(n.begin(), n.end(), std::size_t(0));
+    MPI_Exscan(&here, &next, 1, MPI_UNSIGNED, MPI_SUM, comm);
     HistoryStart start;
     double       largest_mass = 0.;
-    for (unsigned int i = 0; i < n; ++i)
-      {
-        const Seed            &seed  = seeds[i];
-        PointArrays           &group = groups[seed.material];
-        const ConstitutiveLaw &law   = scene->materials.law(seed.material);
-        std::vector<double>    values(group.n_fields(), 0.);
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            values[Field::x + d]       = seed.position[d];
-            values[Field::x_start + d] = seed.position[d];
-            values[Field::vx + d]      = seed.velocity[d];
-          }
-        values[Field::s_xx]   = seed.stress[0];
-        values[Field::s_yy]   = seed.stress[1];
-        values[Field::s_xy]   = seed.stress[2] / sqrt2;
-        values[Field::volume] = seed.volume;
-        values[Field::mass]   = seed.volume * law.density();
-        largest_mass          = std::max(largest_mass, values[Field::mass]);
-        const ConstitutiveLaw::Stress stress = {{seed.stress[0],
-                                                 seed.stress[1],
-                                                 seed.stress_zz,
-                                                 seed.stress[2] / sqrt2}};
-        for (unsigned int k = 0; k < group.first_history(); ++k)
-          if (!std::isfinite(values[k]))
-            start.refuse(format("the initial stress or velocity at (%g, %g) is "
-                                "not a finite number\n  remedy:  check the "
-                                "formulas in 'Initial stress' and 'Initial "
-                                "velocity'",
-                                seed.position[0],
-                                seed.position[1]));
-        if (start.is_refused())
-          break;
-        start.set(law, stress, seed.position, &values[group.first_history()]);
-        sums.wave_speed2 =
-          std::max(sums.wave_speed2,
-                   law.wave_modulus(stress, &values[group.first_history()]) /
-                     law.density());
-        sums.speed2 = std::max(sums.speed2, seed.velocity.norm_square());
-        if (affine)
-          {
-            const Tensor<2, dim> gradient = scene->initial_velocity.gradient(
-              seed.position, std::sqrt(seed.volume));
-            for (unsigned int c = 0; c < dim; ++c)
-              for (unsigned int d = 0; d < dim; ++d)
-                values[group.first_affine() + dim * c + d] = gradient[c][d];
-          }
-        group.append(values.data(), first + i);
-      }
+    for_each([&](const Seed &seed) {
+      if (start.is_refused())
+        return;
+      PointArrays           &group = groups[seed.material];
+      const ConstitutiveLaw &law   = scene->materials.law(seed.material);
+      std::vector<double>    values(group.n_fields(), 0.);
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          values[Field::x + d]       = seed.position[d];
+          values[Field::x_start + d] = seed.position[d];
+          values[Field::vx + d]      = seed.velocity[d];
+        }
+      values[Field::s_xx]   = seed.stress[0];
+      values[Field::s_yy]   = seed.stress[1];
+      values[Field::s_xy]   = seed.stress[2] / sqrt2;
+      values[Field::volume] = seed.volume;
+      values[Field::mass]   = seed.volume * law.density();
+      largest_mass          = std::max(largest_mass, values[Field::mass]);
+      const ConstitutiveLaw::Stress stress = {{seed.stress[0],
+                                               seed.stress[1],
+                                               seed.stress_zz,
+                                               seed.stress[2] / sqrt2}};
+      for (unsigned int k = 0; k < group.first_history(); ++k)
+        if (!std::isfinite(values[k]))
+          start.refuse(format("the initial stress or velocity at (%g, %g) is "
+                              "not a finite number\n  remedy:  check the "
+                              "formulas in 'Initial stress' and 'Initial "
+                              "velocity'",
+                              seed.position[0],
+                              seed.position[1]));
+      if (start.is_refused())
+        return;
+      start.set(law, stress, seed.position, &values[group.first_history()]);
+      sums.wave_speed2 =
+        std::max(sums.wave_speed2,
+                 law.wave_modulus(stress, &values[group.first_history()]) /
+                   law.density());
+      sums.speed2 = std::max(sums.speed2, seed.velocity.norm_square());
+      if (affine)
+        {
+          const Tensor<2, dim> gradient = scene->initial_velocity.gradient(
+            seed.position, std::sqrt(seed.volume));
+          for (unsigned int c = 0; c < dim; ++c)
+            for (unsigned int d = 0; d < dim; ++d)
+              values[group.first_affine() + dim * c + d] = gradient[c][d];
+        }
+      group.append(values.data(), next++);
+    });
     start.finish<InputError>(comm, remarks);
     for (PointArrays &group : groups)
       group.pad();

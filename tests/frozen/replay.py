@@ -41,9 +41,9 @@ def flow(name):
 
 def solve(program, file, folder, *settings):
     """Summary and stresses of a replay; (None, message) if it ended otherwise."""
-    (folder / "summary.json").unlink(missing_ok=True)
     command = [program, "--replay", file, "--output", folder, "--quiet"]
-    for text in ("Time stepping/Friction = exact", *settings):
+    for text in ("Output/If folder exists = overwrite",
+                 "Time stepping/Friction = exact", *settings):
         command += ["--set", text]
     result = subprocess.run(command, capture_output=True, text=True, timeout=60)
     if not (folder / "summary.json").exists():

@@ -6,12 +6,13 @@
 // seeded must be refused by all ranks together.
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/hdf5_file.h>
 #include <geocone/base/version.h>
 #include <geocone/discretisation/seeding.h>
 
-#include <deal.II/base/hdf5.h>
 #include <deal.II/base/mpi.h>
 
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 
@@ -44,7 +45,15 @@ seed(const std::string &name, const std::vector<std::string> &overrides)
       scene.prepare();
       seeding.prepare(scene);
       mesh.prepare(scene, method);
-      const std::vector<Seed> seeds = seeding.make(scene, mesh);
+      const std::vector<Seed> seeds  = seeding.make(scene, mesh);
+      const auto              n      = seeding.count(scene, mesh);
+      std::size_t             n_same = 0;
+      seeding.for_each(scene, mesh, [&](const Seed &s) {
+        n_same += n_same < seeds.size() &&
+                  s.position == seeds[n_same].position &&
+                  s.stress == seeds[n_same].stress;
+      });
+      const bool same = n_same == seeds.size() && n[0] + n[1] == seeds.size();
 
       double                 n_points[2] = {}, volume = 0.;
       dealii::Tensor<1, dim> moment, velocity;
@@ -65,7 +74,7 @@ seed(const std::string &name, const std::vector<std::string> &overrides)
       velocity = sum(velocity, comm);
       for (int i = 0; i < n_mandel; ++i)
         stress[i] = sum(stress[i], comm);
-      inside = sum(inside ? 0 : 1, comm) == 0;
+      inside = sum(inside && same ? 0 : 1, comm) == 0;
       if (speaks())
         {
           std::printf("%s: k = %u, %g + %g points, volume %.8f, centre %.8f "
@@ -78,7 +87,7 @@ seed(const std::string &name, const std::vector<std::string> &overrides)
                       moment[0] / volume,
                       moment[1] / volume);
           std::printf("  velocities %.8f %.8f, stresses %.8f %.8f %.8f, inside "
-                      "the body: %s\n",
+                      "the body, thrice the same: %s\n",
                       velocity[0],
                       velocity[1],
                       stress[0],
@@ -87,6 +96,14 @@ seed(const std::string &name, const std::vector<std::string> &overrides)
                       inside ? "yes" : "no");
           if (scene.geometry.shape != Geometry::Shape::file)
             std::printf("  area of the body %.8f\n", scene.geometry.area());
+          // The box of seeding.prm has 16 x 12 cells of 0.1 m.
+          const double expected =
+            seeding.expected_number(scene, {{16., 12.}}, 1.92);
+          if (mesh.grid()[0].size() == 17)
+            std::printf("  about as many as expected: %s\n",
+                        std::abs(clay + sand - expected) <= 0.1 * expected
+                          ? "yes"
+                          : "no");
         }
     }
   catch (const InputError &error)
@@ -119,10 +136,10 @@ seed_hdf5(const std::string                                &name,
 {
   if (speaks())
     {
-      dealii::HDF5::File out("points.h5",
-                             dealii::HDF5::File::FileAccessMode::create);
+      Hdf5File out("points.h5", Hdf5File::Access::create);
       for (const auto &[column, values] : columns)
-        out.write_dataset(column, values);
+        out.write(column, values);
+      out.close();
     }
   MPI_Barrier(comm);
   seed(name, {"Particles/Layout = file", "Particles/File = points.h5"});
@@ -203,6 +220,10 @@ main(int argc, char **argv)
                       {"sxy", {30., 300.}}});
   seed_hdf5("all datasets", all_columns);
 
+  seed_csv("byte-order mark, quotes, blank lines at the end",
+           "\xEF\xBB\xBF\"x\",\"y\",volume,material\n"
+           "+0.1,0.1,0.5,\"sand\"\n1.1,0.2,0.25,\"0\"\n\n \r\n\n");
+
   // Four cells that are no parallelograms, with points on their common edges.
   write("cells.msh",
         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n9\n"
@@ -228,6 +249,13 @@ main(int argc, char **argv)
   seed("k", {"Particles/Points per direction = 0"});
   seed("spacing", {lattice, "Particles/Spacing = 0"});
   seed("number", {random, "Particles/Number = 0"});
+  seed("large k", {"Particles/Points per direction = 65536"});
+  seed("small spacing", {lattice, "Particles/Spacing = 1e-7"});
+  seed("random points in a sliver",
+       {random,
+        "Particles/Number = 1000000",
+        "Geometry/Shape = polygon",
+        "Geometry/Polygon = 0, 0; 1, 1; 0, 1e-8"});
   seed("lattice in a file's domain", {shape, msh, box, lattice});
   seed("radii", {discs, centres, "Geometry/Radii = 0.1, 0.2, 0.3"});
   seed("radius", {discs, centres, "Geometry/Radii = 0"});
@@ -241,6 +269,15 @@ main(int argc, char **argv)
   seed_csv("repeated column", "x,y,volume,x\n");
   seed_csv("missing column", "x,volume\n0,1\n");
   seed_csv("half a velocity", "x,y,volume,vy\n0,0,1,1\n");
+  seed_csv("blank line", "x,y,volume\n0,0,1\n\n0,0,1\n");
+  seed_csv("no text", std::string("x,y,volume\n0,0,\0,1\n", 21));
+  seed_csv("a thousand columns", "x" + std::string(1000, ',') + "\n");
+  seed_csv("a line without end", std::string(1 << 20, ','));
+  seed_csv("large stress", "x,y,volume,sxx,syy,sxy\n0,0,1,1e300,0,0\n");
+  seed_csv("larger number", "x,y,volume\n0,0,1\n1e999,0,1\n");
+  seed_csv("tiny volume", "x,y,volume\n0,0,1e-200\n");
+  seed("no regular file",
+       {"Particles/Layout = file", "Particles/File = /dev/zero"});
   seed_csv("header only", "x,y,volume\n");
   seed_csv("missing value", "x,y,volume\n0,0,1\n0,0\n");
   seed_csv("no number", "x,y,volume\n0,0,1\n0,0,one\n");

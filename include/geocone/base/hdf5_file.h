@@ -4,16 +4,25 @@
 #ifndef geocone_base_hdf5_file_h
 #define geocone_base_hdf5_file_h
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 namespace geocone
 {
   /**
-   * An HDF5 file of named arrays, of one process. It is written whole: into a
-   * temporary name first, renamed by close(), so that a reader never sees a part
-   * of it. Arrays are compressed.
-   * @throws RunError naming the file where it cannot be written or lacks an array
+   * An HDF5 file of named arrays, of one process.
+   *
+   * A new one is built in memory, and close() writes it whole (write_file()):
+   * the library never has a file of the disk open for writing, which it could not
+   * close where the disk is full. Needs twice the size of the file.
+   *
+   * One that is read may come from anywhere. Arrays are read only if they are
+   * plain: in the file itself, without filters that the library would load from
+   * elsewhere, and no larger than the file and the memory allow.
+   *
+   * @throws RunError naming the file where it cannot be written, or what is wrong
+   * in it
    */
   class Hdf5File
   {
@@ -30,7 +39,7 @@ namespace geocone
     Hdf5File &
     operator=(const Hdf5File &) = delete;
 
-    /** @name The array types that files have */
+    /** @name Arrays with one dimension, compressed */
     /** @{ */
     void
     write(const std::string &name, const std::vector<double> &values);
@@ -38,32 +47,70 @@ namespace geocone
     write(const std::string &name, const std::vector<int> &values);
     void
     write(const std::string &name, const std::string &text);
+    /** @} */
+
+    /** @name Tables with the rows one after another, not compressed */
+    /** @{ */
+    void
+    write_table(const std::string         &name,
+                const std::vector<double> &values,
+                const unsigned int         n_columns);
+    void
+    write_table(const std::string               &name,
+                const std::vector<unsigned int> &values,
+                const unsigned int               n_columns);
+    /** @} */
+
+    /** Writes a file that was created. */
+    void
+    close();
+
+    /** Whether there is anything of this name. */
+    bool
+    has(const std::string &name) const;
+
+    /** Entries of an array with one dimension. */
+    std::size_t
+    length(const std::string &name) const;
+
+    /** @name Arrays with one dimension */
+    /** @{ */
     std::vector<double>
     read_doubles(const std::string &name) const;
+    std::vector<double>
+    read_doubles(const std::string &name,
+                 const std::size_t  first,
+                 const std::size_t  n) const;
     std::vector<int>
     read_integers(const std::string &name) const;
     std::string
     read_text(const std::string &name) const;
     /** @} */
 
-    /** Completes a file that was created. */
-    void
-    close();
-
   private:
     template <typename T>
     void
-    write_array(const std::string &name, const T *values, const std::size_t n);
+    write_array(const std::string &name,
+                const T           *values,
+                const std::size_t  n,
+                const std::size_t  n_columns);
     template <typename T>
     std::vector<T>
     read_array(const std::string &name) const;
+
+    /** Opens an array that is plain; @p size: its entries. */
+    long long
+    open_array(const std::string &name,
+               const bool         of_integers,
+               std::size_t       &size) const;
 
     [[noreturn]] void
     fail(const std::string &what) const;
 
     const std::string file_name;
     const bool        creates;
-    long long         id = -1; ///< of the HDF5 library, < 0 if closed
+    std::size_t       file_size = 0;  ///< of a file that is read (bytes)
+    long long         id        = -1; ///< of the HDF5 library, < 0 if closed
   };
 } // namespace geocone
 

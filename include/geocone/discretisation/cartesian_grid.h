@@ -79,6 +79,15 @@ namespace geocone
              axes[1].n_intervals;
     }
 
+    /**
+     * The first column of each rank, and behind them the number of columns, where
+     * columns are shared out so that all ranks have about as many points.
+     * @param points_in number of points per column
+     */
+    std::vector<int>
+    slabs(const std::vector<std::size_t> &points_in,
+          const unsigned int              n_ranks) const;
+
     /** Whether x lies in the box, up to a part of a cell's size. */
     bool
     contains(const dealii::Point<dim> &x, const double tolerance = 1e-9) const

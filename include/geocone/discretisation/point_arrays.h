@@ -90,6 +90,10 @@ namespace geocone
       return data.size();
     }
 
+    /** Makes room for @p n points with what fills up the last vector. */
+    void
+    reserve(const std::size_t n);
+
     /** Adds a point; pad() must follow before kernels see the arrays. */
     void
     append(const double *values, const unsigned int id);

@@ -6,26 +6,15 @@
 
 #include <geocone/discretisation/background_mesh.h>
 #include <geocone/discretisation/cartesian_grid.h>
+#include <geocone/discretisation/particle_file.h>
 
-#include <deal.II/base/tensor.h>
-
-#include <set>
+#include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace geocone
 {
-  /** A particle before its life: what the scene says of it. */
-  struct Seed
-  {
-    dealii::Point<dim>     position;
-    double                 volume   = 0.; ///< per unit thickness (m^2)
-    unsigned int           material = 0;
-    dealii::Tensor<1, dim> velocity;
-    Mandel                 stress    = Mandel::Zero();
-    double                 stress_zz = 0.;
-  };
-
   /**
    * How the body is filled with particles:
    *  - Gauss: the k x k Gauss points of each cell, with their weights;
@@ -35,6 +24,10 @@ namespace geocone
    *  - random: uniformly distributed, the same on every number of ranks;
    *  - file: a table, which may know more of them than place and volume.
    * All but a file give the points within the body only.
+   *
+   * Seeds come one after another, so that nobody needs to hold those of other
+   * ranks, nor all of its own twice: who wants arrays of the right length counts
+   * first. Their order depends on nothing but the parameters and the cells.
    */
   class Seeding : public dealii::ParameterAcceptor
   {
@@ -45,54 +38,103 @@ namespace geocone
     void
     prepare(const Scene &scene);
 
+    /** What is called with each seed. */
+    using Take = std::function<void(const Seed &)>;
+
+    /** @name Seeds in the cells of this rank of a mesh (collective)
+     *  One on the face between two ranks belongs to the lower one. */
+    /** @{ */
+    void
+    for_each(const Scene          &scene,
+             const BackgroundMesh &mesh,
+             const Take           &take) const;
+
     /**
-     * The seeds in the cells of this rank (collective). One on the face between
-     * two ranks belongs to the lower one.
+     * Their numbers by material.
      * @throws InputError, on all ranks, for files that cannot be understood,
-     * points outside the mesh, and materials without points
+     * points outside the mesh, and materials without points; so does make()
      */
+    std::vector<std::size_t>
+    count(const Scene &scene, const BackgroundMesh &mesh) const;
+
     std::vector<Seed>
     make(const Scene &scene, const BackgroundMesh &mesh) const;
+    /** @} */
 
-    /** The same on a uniform grid, of which each rank gets a slab of columns. */
-    std::vector<Seed>
-    make(const Scene         &scene,
-         const CartesianGrid &grid,
-         const MPI_Comm       comm) const;
+    /** @name Seeds in some columns of cells of a uniform grid */
+    /** @{ */
+    void
+    for_each(const Scene                       &scene,
+             const CartesianGrid               &grid,
+             const std::array<unsigned int, 2> &columns,
+             const Take                        &take) const;
+
+    /** Their numbers by column and material, in all columns (collective).
+     *  @throws InputError as above */
+    std::vector<std::vector<std::size_t>>
+    count(const Scene         &scene,
+          const CartesianGrid &grid,
+          const MPI_Comm       comm) const;
+    /** @} */
 
     /** The k of the layouts that follow the cells, 0 for the others. */
     unsigned int
     points_per_direction() const;
 
+    /**
+     * How many seeds there will be on all ranks, in closed form, before a mesh is
+     * made: k^2 times the cells that the body fills, its area over that of a
+     * square, the number asked for, or the rows of the file. To be called after
+     * prepare(), here and of the scene.
+     * @param n_cells cells of the mesh per direction
+     * @param area_of_mesh area of the box that they fill (m^2)
+     */
+    double
+    expected_number(const Scene                   &scene,
+                    const std::array<double, dim> &n_cells,
+                    const double                   area_of_mesh) const;
+
   private:
-    /** The points in this rank's cells, for layouts that follow the cells. */
-    std::vector<Seed>
-    follow_cells(const Geometry &geometry, const BackgroundMesh &mesh) const;
-
-    std::vector<Seed>
-    follow_cells(const Geometry                    &geometry,
-                 const CartesianGrid               &grid,
-                 const std::array<unsigned int, 2> &columns) const;
-
-    /** The points of the layouts that do not follow cells; all of them. */
-    std::vector<Seed>
-    make_all(const Scene &scene, std::set<std::string> &given) const;
-
-    /** What the scene says of the seeds, where a file has not said it. */
+    /** @throws InputError if a lattice or random points would take for ever */
     void
-    describe(std::vector<Seed>           &seeds,
-             const Scene                 &scene,
-             const std::set<std::string> &given) const;
+    check_effort(const Geometry &geometry) const;
 
-    std::vector<Seed>
-    make_lattice(const Geometry &geometry) const;
+    /** What is asked of seeds: only where they are and of which material. */
+    enum class Detail
+    {
+      material,
+      all
+    };
 
-    std::vector<Seed>
-    make_random(const Geometry &geometry) const;
+    void
+    visit(const Scene          &scene,
+          const BackgroundMesh &mesh,
+          const Detail          detail,
+          const Take           &take) const;
 
-    /** The points of the file; @p given: the names of its columns. */
-    std::vector<Seed>
-    read_file(const Materials &materials, std::set<std::string> &given) const;
+    void
+    visit(const Scene                       &scene,
+          const CartesianGrid               &grid,
+          const std::array<unsigned int, 2> &columns,
+          const Detail                       detail,
+          const Take                        &take) const;
+
+    /** Seeds, and whether a file has said their columns. */
+    using Block     = std::vector<Seed>;
+    using Given     = std::array<bool, ParticleFile::n_columns>;
+    using TakeBlock = std::function<void(Block &, const Given &)>;
+
+    /** The seeds of the layouts that do not follow cells, all of them in blocks
+     *  that are the same on all ranks. */
+    void
+    visit_all(const Scene &scene, const TakeBlock &take) const;
+
+    /** What the scene says of a seed, where a file has not said it. */
+    void
+    describe(Seed        &seed,
+             const Scene &scene,
+             const Given &given,
+             const Detail detail) const;
 
     const std::string folder_of_parameters;
     std::string       layout      = "Gauss";

@@ -4,8 +4,8 @@
 #ifndef geocone_output_explicit_output_h
 #define geocone_output_explicit_output_h
 
+#include <geocone/output/field_files.h>
 #include <geocone/output/output_base.h>
-#include <geocone/output/patch_output.h>
 #include <geocone/scene/scene.h>
 #include <geocone/time_stepping/explicit_mpm.h>
 
@@ -83,6 +83,13 @@ namespace geocone
     /** @} */
 
   private:
+    /** One of the values that laws show, of the points of a group; not a number
+     *  where its law does not know it. */
+    void
+    show(const std::string &name,
+         const PointArrays &group,
+         double            *values) const;
+
     const Scene                *scene = nullptr;
     std::vector<std::string>    columns; ///< of statistics.csv
     ExplicitState               initial;

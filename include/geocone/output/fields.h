@@ -6,7 +6,7 @@
 
 #include <geocone/discretisation/material_points.h>
 #include <geocone/discretisation/space.h>
-#include <geocone/output/patch_output.h>
+#include <geocone/output/field_files.h>
 #include <geocone/time_stepping/time_stepper.h>
 
 #include <string>

@@ -13,6 +13,7 @@
 #include <geocone/scene/scene.h>
 #include <geocone/time_stepping/nodal_update.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -194,9 +195,16 @@ namespace geocone
     void
     check_parameters() const;
 
+    /** Makes the points of a uniform grid: those of each rank where they belong. */
     void
-    seed_points(const std::vector<Seed>  &seeds,
-                std::vector<std::string> &remarks);
+    seed_columns(const CartesianGrid &grid, std::vector<std::string> &remarks);
+
+    /** Makes the points. @param n their numbers on this rank by material
+     *  @param for_each calls its argument with each seed of this rank */
+    void
+    seed_points(const std::vector<std::size_t>                   &n,
+                const std::function<void(const Seeding::Take &)> &for_each,
+                std::vector<std::string>                         &remarks);
 
     /** Takes the points in a stage's polygon away, or begins to. */
     std::string

@@ -1,0 +1,109 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_output_field_files_h
+#define geocone_output_field_files_h
+
+#include <mpi.h>
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * What a file of fields holds of this rank: cells that share no nodes, and
+   * values at the nodes. Arrays are asked for one at a time, so that a file costs
+   * the memory of one of them.
+   */
+  struct FieldTable
+  {
+    /** What each cell is; its nodes stand one after another, those of a
+     *  quadrilateral in lexicographic order. */
+    enum class Cell
+    {
+      point,
+      triangle,
+      quadrilateral
+    };
+
+    /** Fills an array with the values of each node one after another. */
+    using Fill = std::function<void(std::vector<double> &)>;
+
+    struct Column
+    {
+      std::string  name;
+      unsigned int n_components; ///< 1, or dim of a vector
+      Fill         fill;         ///< its argument has the right length
+    };
+
+    Cell                cell    = Cell::point;
+    std::size_t         n_nodes = 0;
+    Fill                positions; ///< dim values per node (m)
+    std::vector<Column> columns;
+
+    unsigned int
+    nodes_per_cell() const
+    {
+      return cell == Cell::point ? 1 : cell == Cell::triangle ? 3 : 4;
+    }
+
+    std::size_t
+    n_cells() const
+    {
+      return n_nodes / nodes_per_cell();
+    }
+
+    /** The array of a column, or the positions. */
+    std::vector<double>
+    values(const Fill &fill, const unsigned int n_components) const;
+  };
+
+  /**
+   * The files of one kind of cells at all times, in the formats wanted:
+   *  - vtu: base-NNNN.vtu, or a file per rank and base-NNNN.pvtu, and the series
+   *    base.pvd. Single precision, compressed in haste.
+   *  - hdf5: base-NNNN.h5, of all ranks, with the arrays nodes, cells and one for
+   *    each column, vectors with a third component 0; the series base.xdmf. Double
+   *    precision, not compressed. The first rank holds the file in memory.
+   * Each file is written whole.
+   */
+  class FieldFiles
+  {
+  public:
+    /** @param base e.g. "points" @param format vtu | hdf5 | both */
+    FieldFiles(const std::string &base, const std::string &format);
+
+    /** Writes base-NNNN and adds it to the series. Collective. @throws RunError */
+    void
+    write(const FieldTable  &table,
+          const std::string &folder,
+          const double       time,
+          const MPI_Comm     comm);
+
+  private:
+    void
+    write_as_vtu(const FieldTable  &table,
+                 const std::string &folder,
+                 const double       time,
+                 const MPI_Comm     comm);
+
+    void
+    write_as_hdf5(const FieldTable  &table,
+                  const std::string &folder,
+                  const double       time,
+                  const MPI_Comm     comm);
+
+    const std::string base, format;
+    unsigned int      number = 0;
+
+    /** Of the first rank: times and files; grids of the XDMF record. */
+    std::vector<std::pair<double, std::string>> vtu;
+    std::vector<std::string>                    hdf5;
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,398 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/hdf5_file.h>
+#include <geocone/base/log.h>
+#include <geocone/discretisation/particle_file.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+namespace geocone
+{
+  namespace
+  {
+    using Column = ParticleFile::Column;
+    using Row    = std::array<double, Column::n_columns>;
+
+    const std::array<std::string, Column::n_columns> names = {
+      {"x", "y", "volume", "material", "vx", "vy", "sxx", "syy", "sxy"}};
+
+    /** A line of a table is shorter by far; another file may have one line only. */
+    constexpr std::size_t longest_line = 4096;
+
+    /** Some 10^9 rows, more than a run can have points. */
+    constexpr std::uintmax_t largest_file = 1ULL << 37;
+
+    /** No quantity in SI units is larger; squares of it are still numbers. */
+    constexpr double largest = 1e30;
+
+    InputError
+    refused(const std::string &file, const std::string &what)
+    {
+      return InputError("Particles/File",
+                        file,
+                        "a .csv or .h5 file of x, y, volume > 0 and, if given, "
+                        "material, vx and vy, sxx and syy and sxy",
+                        what);
+    }
+
+    std::string
+    trimmed(const std::string &text)
+    {
+      const char       *space = " \t\r\n";
+      const std::size_t first = text.find_first_not_of(space);
+      if (first == std::string::npos)
+        return "";
+      std::string part =
+        text.substr(first, text.find_last_not_of(space) - first + 1);
+      if (part.size() >= 2 && part.front() == '"' && part.back() == '"')
+        part = trimmed(part.substr(1, part.size() - 2));
+      return part;
+    }
+
+    /** A line cut at its commas. */
+    std::vector<std::string>
+    cut(const std::string &line)
+    {
+      std::vector<std::string> parts(1);
+      for (const char c : line)
+        if (c == ',')
+          parts.emplace_back();
+        else
+          parts.back() += c;
+      for (std::string &part : parts)
+        part = trimmed(part);
+      return parts;
+    }
+  } // namespace
+
+  class ParticleFile::Reader
+  {
+  public:
+    Reader(const std::string &file, const Materials &materials)
+      : file(file)
+      , materials(materials)
+    {
+      given.fill(false);
+    }
+    virtual ~Reader() = default;
+
+    /** Adds up to @p n rows. */
+    virtual void
+    read(const std::size_t n, std::vector<Row> &rows) = 0;
+
+    /** Whether each column is in the file. */
+    std::array<bool, Column::n_columns> given;
+
+  protected:
+    /** The columns of a group come together; those of the first must come. */
+    void
+    check_columns() const
+    {
+      const std::vector<std::vector<Column>> groups = {
+        {x, y, volume}, {vx, vy}, {sxx, syy, sxy}};
+      for (const auto &group : groups)
+        if (group == groups[0] ||
+            std::any_of(group.begin(), group.end(), [&](const Column column) {
+              return given[column];
+            }))
+          for (const Column column : group)
+            if (!given[column])
+              throw refused(file,
+                            "the column '" + names[column] + "' is missing");
+    }
+
+    /** @throws InputError if a value is impossible @param place e.g. the line */
+    template <typename Place>
+    void
+    check(const Column column, const double value, const Place &place) const
+    {
+      std::string what;
+      if (!std::isfinite(value))
+        what = "is not a finite number";
+      else if (column == volume && value <= 0.)
+        what = "is not > 0";
+      else if (column == material && (value < 0. || value >= materials.size() ||
+                                      value != std::floor(value)))
+        what = "is no material: they are counted from 0 to " +
+               std::to_string(materials.size() - 1);
+      else if (std::abs(value) > largest)
+        what = "is larger than 1e30; give it in m, m^2, m/s or Pa";
+      else if (column == volume && value < 1. / largest)
+        what = "is smaller than 1e-30 m^2; give it in m^2";
+      if (!what.empty())
+        throw refused(file, place() + format("%g ", value) + what);
+    }
+
+    const std::string file;
+    const Materials  &materials;
+  };
+
+  namespace
+  {
+    class CsvReader : public ParticleFile::Reader
+    {
+    public:
+      CsvReader(const std::string &file, const Materials &materials)
+        : Reader(file, materials)
+        , in(file, std::ios::binary)
+      {
+        for (unsigned int i = 0; i < materials.size(); ++i)
+          number_of_material[materials.name(i)] = i;
+
+        std::string line;
+        if (!next_line(line))
+          throw refused(file, "it is empty");
+        if (line.compare(0, 3, "\xEF\xBB\xBF") == 0) // a byte-order mark
+          line.erase(0, 3);
+        for (const std::string &name : cut(line))
+          {
+            const std::size_t column =
+              std::find(names.begin(), names.end(), name) - names.begin();
+            if (column == Column::n_columns || given[column])
+              throw refused(
+                file, place(name) + "not one of these names, or there twice");
+            given[column] = true;
+            columns.push_back(static_cast<Column>(column));
+          }
+        check_columns();
+      }
+
+      void
+      read(const std::size_t n, std::vector<Row> &rows) override
+      {
+        std::string line;
+        for (std::size_t i = 0; i < n && next_line(line); ++i)
+          {
+            if (trimmed(line).empty())
+              {
+                const std::size_t blank = n_lines;
+                while (next_line(line))
+                  if (!trimmed(line).empty())
+                    throw refused(file,
+                                  format("line %zu is blank, with others below "
+                                         "it",
+                                         blank));
+                return;
+              }
+            rows.push_back(row(line));
+          }
+      }
+
+    private:
+      bool
+      next_line(std::string &line)
+      {
+        char buffer[longest_line + 1];
+        in.getline(buffer, sizeof(buffer));
+        const std::size_t n = in.gcount() - (in.eof() || in.fail() ? 0 : 1);
+        if (n == 0 && in.eof())
+          return false;
+        ++n_lines;
+        if (in.fail())
+          throw refused(file,
+                        format("line %zu has more than %zu characters: is it "
+                               "a table?",
+                               n_lines,
+                               longest_line - 1));
+        if (std::memchr(buffer, '\0', n) != nullptr)
+          throw refused(file, format("line %zu is no text", n_lines));
+        line.assign(buffer, n);
+        return true;
+      }
+
+      std::string
+      place(const std::string &column) const
+      {
+        return format("line %zu, column '", n_lines) + column + "': ";
+      }
+
+      Row
+      row(const std::string &line) const
+      {
+        const std::vector<std::string> texts = cut(line);
+        if (texts.size() != columns.size())
+          throw refused(file,
+                        format("line %zu: %zu values instead of %zu",
+                               n_lines,
+                               texts.size(),
+                               columns.size()));
+        Row values = {};
+        for (std::size_t c = 0; c < columns.size(); ++c)
+          {
+            const Column       column = columns[c];
+            const std::string &text   = texts[c];
+            if (column == ParticleFile::material)
+              if (const auto named = number_of_material.find(text);
+                  named != number_of_material.end())
+                {
+                  values[column] = named->second;
+                  continue;
+                }
+            const char *begin = text.c_str() + (text[0] == '+' ? 1 : 0),
+                       *end   = text.c_str() + text.size();
+            const auto parsed = std::from_chars(begin, end, values[column]);
+            if (parsed.ec != std::errc() || parsed.ptr != end)
+              throw refused(file,
+                            place(names[column]) + "'" + text +
+                              (column == ParticleFile::material
+                                 ? "' is no material"
+                               : parsed.ec == std::errc::result_out_of_range
+                                 ? "' is beyond the numbers that a computer has"
+                                 : "' is not a number"));
+            check(
+              column, values[column], [&]() { return place(names[column]); });
+          }
+        return values;
+      }
+
+      std::ifstream                 in;
+      std::size_t                   n_lines = 0;
+      std::map<std::string, double> number_of_material;
+      std::vector<Column>           columns;
+    };
+
+    class Hdf5Reader : public ParticleFile::Reader
+    {
+    public:
+      Hdf5Reader(const std::string &file_name, const Materials &materials)
+        : Reader(file_name, materials)
+        , in(file_name, Hdf5File::Access::read)
+      {
+        for (unsigned int c = 0; c < Column::n_columns; ++c)
+          given[c] = in.has(names[c]);
+        check_columns();
+        length = in.length("x");
+        for (unsigned int c = 0; c < Column::n_columns; ++c)
+          if (given[c] && in.length(names[c]) != length)
+            throw refused(file,
+                          "the columns 'x' and '" + names[c] +
+                            "' have different lengths");
+      }
+
+      void
+      read(const std::size_t n, std::vector<Row> &rows) override
+      {
+        const std::size_t first  = rows.size(),
+                          n_here = std::min(n, length - at);
+        rows.resize(first + n_here, Row());
+        for (unsigned int c = 0; c < Column::n_columns && n_here > 0; ++c)
+          if (given[c])
+            {
+              const std::vector<double> values =
+                in.read_doubles(names[c], at, n_here);
+              for (std::size_t i = 0; i < n_here; ++i)
+                {
+                  check(static_cast<Column>(c), values[i], [&]() {
+                    return format("entry %zu (from 0) of '", at + i) +
+                           names[c] + "': ";
+                  });
+                  rows[first + i][c] = values[i];
+                }
+            }
+        at += n_here;
+      }
+
+    private:
+      const Hdf5File in;
+      std::size_t    length = 0, at = 0;
+    };
+
+    bool
+    is_hdf5(const std::string &file_name)
+    {
+      return std::filesystem::path(file_name).extension() == ".h5";
+    }
+  } // namespace
+
+  ParticleFile::ParticleFile(const std::string &file_name,
+                             const Materials   &materials)
+    : file_name(file_name)
+  {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file_name, error))
+      throw refused(file_name, "it is no regular file");
+    if (std::filesystem::file_size(file_name, error) > largest_file)
+      throw refused(file_name, "it is larger than 128 GB: is it a table?");
+    try
+      {
+        if (is_hdf5(file_name))
+          reader = std::make_unique<Hdf5Reader>(file_name, materials);
+        else
+          reader = std::make_unique<CsvReader>(file_name, materials);
+      }
+    catch (const RunError &error)
+      {
+        throw refused(file_name, error.what());
+      }
+  }
+
+  ParticleFile::~ParticleFile() = default;
+
+  bool
+  ParticleFile::has(const Column column) const
+  {
+    return reader->given[column];
+  }
+
+  std::vector<Seed>
+  ParticleFile::read(const std::size_t n)
+  {
+    std::vector<Row> rows;
+    rows.reserve(std::min<std::size_t>(n, 1 << 16));
+    try
+      {
+        reader->read(n, rows);
+      }
+    catch (const RunError &error)
+      {
+        throw refused(file_name, error.what());
+      }
+    std::vector<Seed> seeds(rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      {
+        const Row &row       = rows[i];
+        seeds[i].position    = dealii::Point<dim>(row[x], row[y]);
+        seeds[i].volume      = row[volume];
+        seeds[i].material    = static_cast<unsigned int>(row[material]);
+        seeds[i].velocity[0] = row[vx];
+        seeds[i].velocity[1] = row[vy];
+        seeds[i].stress      = Mandel(row[sxx], row[syy], sqrt2 * row[sxy]);
+      }
+    return seeds;
+  }
+
+  double
+  ParticleFile::expected_number(const std::string &file_name)
+  {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file_name, error))
+      return 0.;
+    if (is_hdf5(file_name))
+      try
+        {
+          return Hdf5File(file_name, Hdf5File::Access::read).length("x");
+        }
+      catch (const RunError &)
+        {
+          return 0.; // said where the file is read
+        }
+    std::vector<char> start(1 << 16);
+    std::ifstream     in(file_name, std::ios::binary);
+    in.read(start.data(), start.size());
+    const double n_lines =
+      std::count(start.begin(), start.begin() + in.gcount(), '\n');
+    return in.gcount() > 0
+             ? n_lines * std::filesystem::file_size(file_name, error) /
+                 in.gcount()
+             : 0.;
+  }
+} // namespace geocone

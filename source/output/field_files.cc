@@ -1,0 +1,372 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/files.h>
+#include <geocone/base/gather.h>
+#include <geocone/base/hdf5_file.h>
+#include <geocone/base/log.h>
+#include <geocone/base/types.h>
+#include <geocone/output/field_files.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+
+#include <zlib.h>
+
+namespace geocone
+{
+  std::vector<double>
+  FieldTable::values(const Fill &fill, const unsigned int n_components) const
+  {
+    std::vector<double> all(n_nodes * n_components);
+    fill(all);
+    return all;
+  }
+
+  namespace
+  {
+    /** A name in a text between the marks of XML. */
+    std::string
+    escaped(const std::string &name)
+    {
+      std::string text;
+      for (const char c : name)
+        text += c == '&'   ? "&amp;"
+                : c == '<' ? "&lt;"
+                : c == '>' ? "&gt;"
+                : c == '"' ? "&quot;"
+                           : std::string(1, c);
+      return text;
+    }
+
+    void
+    write_base64(std::ostream &out, const std::vector<unsigned char> &bytes)
+    {
+      const char *digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                           "abcdefghijklmnopqrstuvwxyz0123456789+/";
+      std::string text;
+      text.reserve((bytes.size() + 2) / 3 * 4);
+      for (std::size_t i = 0; i < bytes.size(); i += 3)
+        {
+          const std::size_t  n     = std::min<std::size_t>(3, bytes.size() - i);
+          const unsigned int three = bytes[i] << 16 |
+                                     (n > 1 ? bytes[i + 1] << 8 : 0) |
+                                     (n > 2 ? bytes[i + 2] : 0);
+          text += digits[three >> 18];
+          text += digits[three >> 12 & 63];
+          text += n > 1 ? digits[three >> 6 & 63] : '=';
+          text += n > 2 ? digits[three & 63] : '=';
+        }
+      out.write(text.data(), text.size());
+    }
+
+    /** Numbers as VTK wants them: blocks of zlib, and before them their sizes. */
+    template <typename T>
+    void
+    write_blocks(std::ostream &out, const std::vector<T> &values)
+    {
+      constexpr std::size_t block = 1 << 20;
+      const auto           *bytes =
+        reinterpret_cast<const unsigned char *>(values.data());
+      const std::size_t          n        = values.size() * sizeof(T);
+      const std::size_t          n_blocks = (n + block - 1) / block;
+      std::vector<std::uint32_t> header   = {
+          static_cast<std::uint32_t>(n_blocks),
+          static_cast<std::uint32_t>(block),
+          static_cast<std::uint32_t>(n > 0 ? n - (n_blocks - 1) * block : 0)};
+      std::vector<unsigned char> packed;
+      for (std::size_t first = 0; first < n; first += block)
+        {
+          const std::size_t size = std::min(block, n - first);
+          const std::size_t end  = packed.size();
+          uLongf            room = compressBound(size);
+          packed.resize(end + room);
+          // Better compression takes ten times as long for a fifth of the size.
+          if (compress2(
+                &packed[end], &room, bytes + first, size, Z_BEST_SPEED) != Z_OK)
+            throw RunError("fields cannot be compressed\n"
+                           "  remedy:  set 'Output/Fields format' = hdf5");
+          packed.resize(end + room);
+          header.push_back(room);
+        }
+      const auto *begin =
+        reinterpret_cast<const unsigned char *>(header.data());
+      write_base64(out,
+                   std::vector<unsigned char>(
+                     begin, begin + header.size() * sizeof(header[0])));
+      write_base64(out, packed);
+      out << "\n";
+    }
+
+    /** The attributes of an array of three-dimensional vectors or scalars. */
+    std::string
+    components(const unsigned int n)
+    {
+      return n > 1 ? " NumberOfComponents=\"3\"" : "";
+    }
+
+    /** In single precision, vectors with a third component 0. */
+    std::vector<float>
+    as_vtk(const std::vector<double> &values, const unsigned int n_components)
+    {
+      if (n_components == 1)
+        return std::vector<float>(values.begin(), values.end());
+      std::vector<float> result(values.size() / dim * 3, 0.f);
+      for (std::size_t i = 0; i < values.size(); ++i)
+        result[i / dim * 3 + i % dim] = values[i];
+      return result;
+    }
+
+    template <typename T>
+    void
+    write_data_array(std::ostream         &out,
+                     const std::string    &attributes,
+                     const std::vector<T> &values)
+    {
+      out << "<DataArray " << attributes << " format=\"binary\">\n";
+      write_blocks(out, values);
+      out << "</DataArray>\n";
+    }
+
+    void
+    write_vtu(std::ostream      &out,
+              const FieldTable  &table,
+              const double       time,
+              const unsigned int number)
+    {
+      const std::size_t  n_cells = table.n_cells();
+      const unsigned int n       = table.nodes_per_cell();
+      out << "<?xml version=\"1.0\"?>\n"
+             "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
+             "byte_order=\"LittleEndian\" "
+             "compressor=\"vtkZLibDataCompressor\">\n"
+             "<UnstructuredGrid>\n<FieldData>\n"
+          << format("<DataArray type=\"Float64\" Name=\"TIME\" "
+                    "NumberOfTuples=\"1\" format=\"ascii\">%.12g</DataArray>\n"
+                    "<DataArray type=\"Int32\" Name=\"CYCLE\" "
+                    "NumberOfTuples=\"1\" format=\"ascii\">%u</DataArray>\n"
+                    "</FieldData>\n"
+                    "<Piece NumberOfPoints=\"%zu\" NumberOfCells=\"%zu\">\n",
+                    time,
+                    number,
+                    table.n_nodes,
+                    n_cells);
+      out << "<Points>\n";
+      write_data_array(out,
+                       "type=\"Float32\"" + components(dim),
+                       as_vtk(table.values(table.positions, dim), dim));
+      out << "</Points>\n<Cells>\n";
+      {
+        // VTK's quadrilaterals go round.
+        std::vector<std::int32_t> nodes(table.n_nodes);
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+          nodes[i] = n == 4 && i % n >= 2 ? i / n * n + 5 - i % n : i;
+        write_data_array(out, "type=\"Int32\" Name=\"connectivity\"", nodes);
+        nodes.resize(n_cells);
+        for (std::size_t c = 0; c < n_cells; ++c)
+          nodes[c] = (c + 1) * n;
+        write_data_array(out, "type=\"Int32\" Name=\"offsets\"", nodes);
+        write_data_array(out,
+                         "type=\"UInt8\" Name=\"types\"",
+                         std::vector<std::uint8_t>(n_cells,
+                                                   n == 1   ? 1
+                                                   : n == 3 ? 5
+                                                            : 9));
+      }
+      out << "</Cells>\n<PointData>\n";
+      for (const FieldTable::Column &column : table.columns)
+        write_data_array(out,
+                         "type=\"Float32\" Name=\"" + escaped(column.name) +
+                           "\"" + components(column.n_components),
+                         as_vtk(table.values(column.fill, column.n_components),
+                                column.n_components));
+      out << "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+    }
+
+    void
+    write_pvtu(std::ostream                   &out,
+               const FieldTable               &table,
+               const std::vector<std::string> &pieces)
+    {
+      out << "<?xml version=\"1.0\"?>\n"
+             "<VTKFile type=\"PUnstructuredGrid\" version=\"0.1\" "
+             "byte_order=\"LittleEndian\">\n"
+             "<PUnstructuredGrid GhostLevel=\"0\">\n<PPointData>\n";
+      for (const FieldTable::Column &column : table.columns)
+        out << "<PDataArray type=\"Float32\" Name=\"" << escaped(column.name)
+            << "\"" << components(column.n_components) << "/>\n";
+      out << "</PPointData>\n<PPoints>\n<PDataArray type=\"Float32\""
+          << components(dim) << "/>\n</PPoints>\n";
+      for (const std::string &piece : pieces)
+        out << "<Piece Source=\"" << escaped(piece) << "\"/>\n";
+      out << "</PUnstructuredGrid>\n</VTKFile>\n";
+    }
+
+    void
+    write_pvd(std::ostream                                      &out,
+              const std::vector<std::pair<double, std::string>> &series)
+    {
+      out << "<?xml version=\"1.0\"?>\n"
+             "<VTKFile type=\"Collection\" version=\"0.1\" "
+             "byte_order=\"LittleEndian\">\n<Collection>\n";
+      for (const auto &[time, file] : series)
+        out << format("<DataSet timestep=\"%.12g\" group=\"\" part=\"0\" "
+                      "file=\"",
+                      time)
+            << escaped(file) << "\"/>\n";
+      out << "</Collection>\n</VTKFile>\n";
+    }
+
+    /** The reference of an XDMF record to an array of the .h5 file. */
+    std::string
+    data_item(const std::string &file,
+              const std::string &name,
+              const std::size_t  n,
+              const unsigned int n_columns)
+    {
+      return format("<DataItem Dimensions=\"%zu %u\" NumberType=\"%s\" "
+                    "Format=\"HDF\">\n",
+                    n,
+                    n_columns,
+                    name == "cells" ? "UInt" : "Float\" Precision=\"8") +
+             escaped(file + ":/" + name) + "\n</DataItem>\n";
+    }
+  } // namespace
+
+  FieldFiles::FieldFiles(const std::string &base, const std::string &format)
+    : base(base)
+    , format(format)
+  {}
+
+  void
+  FieldFiles::write(const FieldTable  &table,
+                    const std::string &folder,
+                    const double       time,
+                    const MPI_Comm     comm)
+  {
+    if (format != "hdf5")
+      write_as_vtu(table, folder, time, comm);
+    if (format != "vtu")
+      write_as_hdf5(table, folder, time, comm);
+    ++number;
+  }
+
+  void
+  FieldFiles::write_as_vtu(const FieldTable  &table,
+                           const std::string &folder,
+                           const double       time,
+                           const MPI_Comm     comm)
+  {
+    const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
+    const unsigned int rank    = dealii::Utilities::MPI::this_mpi_process(comm);
+    const std::string  stem    = base + geocone::format("-%04u", number);
+    const auto         piece   = [&](const unsigned int r) {
+      return stem + (n_ranks == 1 ? ".vtu" : geocone::format(".%03u.vtu", r));
+    };
+    write_file(folder + "/" + piece(rank),
+               [&](std::ostream &out) { write_vtu(out, table, time, number); });
+    if (rank != 0)
+      return;
+    std::string whole = piece(0);
+    if (n_ranks > 1)
+      {
+        std::vector<std::string> pieces;
+        for (unsigned int r = 0; r < n_ranks; ++r)
+          pieces.push_back(piece(r));
+        whole = stem + ".pvtu";
+        write_file(folder + "/" + whole,
+                   [&](std::ostream &out) { write_pvtu(out, table, pieces); });
+      }
+    vtu.emplace_back(time, whole);
+    write_file(folder + "/" + base + ".pvd",
+               [&](std::ostream &out) { write_pvd(out, vtu); });
+  }
+
+  void
+  FieldFiles::write_as_hdf5(const FieldTable  &table,
+                            const std::string &folder,
+                            const double       time,
+                            const MPI_Comm     comm)
+  {
+    const std::size_t n_nodes =
+      dealii::Utilities::MPI::sum(table.n_nodes, comm);
+    if (n_nodes == 0)
+      return; // nothing to write
+    const bool writes = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
+    const unsigned int        n       = table.nodes_per_cell();
+    const std::size_t         n_cells = n_nodes / n;
+    const std::string         file = base + geocone::format("-%04u.h5", number);
+    std::unique_ptr<Hdf5File> out;
+    if (writes)
+      {
+        out = std::make_unique<Hdf5File>(folder + "/" + file,
+                                         Hdf5File::Access::create);
+        std::vector<unsigned int> nodes(n_nodes);
+        for (std::size_t i = 0; i < n_nodes; ++i)
+          nodes[i] = n == 4 && i % n >= 2 ? i / n * n + 5 - i % n : i;
+        out->write_table("cells", nodes, n);
+      }
+    const auto write_array = [&](const std::string      &name,
+                                 const FieldTable::Fill &fill,
+                                 const unsigned int      n_components,
+                                 const unsigned int      n_columns) {
+      const std::vector<double> all =
+        gather(table.values(fill, n_components), comm);
+      if (!writes)
+        return;
+      if (n_columns == n_components)
+        {
+          out->write_table(name, all, n_columns);
+          return;
+        }
+      std::vector<double> wide(n_nodes * n_columns, 0.);
+      for (std::size_t i = 0; i < all.size(); ++i)
+        wide[i / n_components * n_columns + i % n_components] = all[i];
+      out->write_table(name, wide, n_columns);
+    };
+    write_array("nodes", table.positions, dim, dim);
+    for (const FieldTable::Column &column : table.columns)
+      write_array(column.name,
+                  column.fill,
+                  column.n_components,
+                  column.n_components > 1 ? 3 : 1);
+    if (!writes)
+      return;
+    out->close();
+
+    std::string entry =
+      geocone::format("<Grid Name=\"mesh\" GridType=\"Uniform\">\n"
+                      "<Time Value=\"%.12g\"/>\n"
+                      "<Geometry GeometryType=\"XY\">\n",
+                      time) +
+      data_item(file, "nodes", n_nodes, dim) +
+      geocone::format("</Geometry>\n<Topology TopologyType=\"%s\" "
+                      "NumberOfElements=\"%zu\"%s>\n",
+                      n == 1   ? "Polyvertex"
+                      : n == 3 ? "Triangle"
+                               : "Quadrilateral",
+                      n_cells,
+                      n == 1 ? " NodesPerElement=\"1\"" : "") +
+      data_item(file, "cells", n_cells, n) + "</Topology>\n";
+    for (const FieldTable::Column &column : table.columns)
+      entry +=
+        "<Attribute Name=\"" + escaped(column.name) + "\" AttributeType=\"" +
+        (column.n_components > 1 ? "Vector" : "Scalar") +
+        "\" Center=\"Node\">\n" +
+        data_item(file, column.name, n_nodes, column.n_components > 1 ? 3 : 1) +
+        "</Attribute>\n";
+    hdf5.push_back(entry + "</Grid>\n");
+    write_file(folder + "/" + base + ".xdmf", [&](std::ostream &out) {
+      out << "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n<Domain>\n"
+             "<Grid Name=\"CellTime\" GridType=\"Collection\" "
+             "CollectionType=\"Temporal\">\n";
+      for (const std::string &grid : hdf5)
+        out << grid;
+      out << "</Grid>\n</Domain>\n</Xdmf>\n";
+    });
+  }
+} // namespace geocone

@@ -1,0 +1,31 @@
+# Where no file can be larger than 16 kB, as where the disk is full, a run ends with
+# one message, exit code 1, and no crash, in each format of the fields and on two
+# ranks, too. No part of a file is left.
+program=$1 root=$2 folder=$3
+rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
+limited() {
+  (
+    trap '' XFSZ
+    ulimit -f 16
+    "$@"
+  )
+}
+for scene in tests/footing_coarse.prm prm/footing_mpm.prm tests/explicit/collapse.prm; do
+  for format in vtu hdf5; do
+    for ranks in 1 2; do
+      name=$(basename $scene .prm)-$format-$ranks
+      call=("$program")
+      [ $ranks = 1 ] || call=(mpirun -np $ranks "$program")
+      code=0
+      limited "${call[@]}" "$root/$scene" --quiet --output "$name" \
+        --set 'Output/Report for tests = none' --set 'Output/Pictures = false' \
+        --set 'Output/Fields = true' --set "Output/Fields format = $format" \
+        --set 'Particles/Points per direction = 12' >"$name.out" 2>&1 || code=$?
+      [ $code = 1 ] || { echo "$name: exit code $code"; cat "$name.out"; exit 1; }
+      grep -q "error: .*the file '$name/.*cannot be written: is the disk full?" \
+        "$name.out" || { echo "$name:"; cat "$name.out"; exit 1; }
+      ! grep -q 'HDF5-DIAG\|Segmentation\|signal' "$name.out"
+      ! ls "$name"/*.part 2>/dev/null
+    done
+  done
+done
