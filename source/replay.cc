@@ -77,6 +77,7 @@ namespace geocone
       ThawedProblem thawed(frozen, materials);
       folder.make();
       IncrementalProblem &problem       = thawed.problem();
+      newton.check(problem);
       const auto          linear_solver = make_linear_solver(
         newton.linear_solver_name(), MPI_COMM_SELF, problem.is_symmetric());
       dealii::TimerOutput timer(

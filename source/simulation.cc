@@ -41,8 +41,10 @@ namespace geocone
                     "strength, e.g. of the material '",
                     n) +
              materials.name(first) +
-             "': the first step jumps to another one; change 'Initial stress' "
-             "(e.g. K0) or the strength";
+             "': the first step jumps to another one; set 'Initial stress/K0' "
+             "= "
+             "automatic where it is geostatic, or change the stress or the "
+             "strength";
     }
   } // namespace
 
@@ -102,6 +104,7 @@ namespace geocone
       stepper = &implicit_fem;
     const std::string warning =
       stepper->prepare(scene, mesh, space, newton, timer, kinematics, points);
+    freezer.check(scene.loading);
     if (options.dry_run)
       return false;
     run_output.prepare(options.name, options.folder, scene);
@@ -153,6 +156,8 @@ namespace geocone
             report.quality.take_worse(record.last.quality);
             report.newton.residual =
               std::max(report.newton.residual, record.last.newton.residual);
+            report.newton.at_rounding_floor |=
+              record.last.newton.at_rounding_floor;
             const double last_lag      = report.newton.friction_lag;
             report.newton.friction_lag = std::max(
               report.newton.friction_lag, record.last.newton.friction_lag);
@@ -176,16 +181,26 @@ namespace geocone
                                   substep,
                                   record.iterations));
             if (substep < smallest * (1. - 1e-6))
-              throw StepFailure(
-                format("the step %u failed at t = %.6g s, also when cut to "
-                       "%.3g s ('Time stepping/Maximum halvings' = %u):\n  ",
-                       step,
-                       t + done,
-                       size,
-                       step_control.max_halvings) +
-                report.newton.reason +
-                "\n  remedy:  take smaller steps, allow more halvings or "
-                "iterations, or check whether the body can carry its loads");
+              {
+                const std::string jump =
+                  step == 1 ? outside_strength(points, scene.materials, comm)
+                            : "";
+                throw StepFailure(
+                  format("the step %u failed at t = %.6g s, also when cut to "
+                         "%.3g s ('Time stepping/Maximum halvings' = %u):\n  ",
+                         step,
+                         t + done,
+                         size,
+                         step_control.max_halvings) +
+                  report.newton.reason +
+                  (jump.empty() ? "" : "\n  cause:   " + jump) +
+                  "\n  remedy:  " +
+                  (report.newton.remedy.empty()
+                     ? "take smaller steps, allow more halvings or iterations, "
+                       "or "
+                       "check whether the body can carry its loads"
+                     : report.newton.remedy));
+              }
           }
       }
     return record;

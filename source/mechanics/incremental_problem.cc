@@ -52,6 +52,7 @@ namespace geocone
     velocity_L   = v;
     prescribed   = prescribed_velocity;
     elastic_diagonal.reinit(0);
+    row_factors = Multipliers::Factors();
     if (consistent_part > 0.)
       {
         velocity_L.update_ghost_values();
@@ -220,8 +221,9 @@ namespace geocone
                         ArrayView<double>(sums.data(), sums.size()));
     if (unknowns.multipliers.n_rows() > 0)
       {
-        lambda = unknowns.multipliers.fit(dst, &scale());
-        unknowns.multipliers.add_transposed(dst, -1., lambda);
+        if (row_factors.U.size() == 0)
+          row_factors = unknowns.multipliers.factorise(&scale());
+        lambda  = unknowns.multipliers.remove(dst, row_factors);
         sums[4] = free_dot(dst, dst);
       }
     ResidualReport report;
@@ -313,6 +315,42 @@ namespace geocone
     if (mass != nullptr)
       elastic_diagonal.add(1. / h, *mass);
     return elastic_diagonal;
+  }
+
+  double
+  IncrementalProblem::rounding_floor(const Vector &v) const
+  {
+    double              sum = 0.;
+    const unsigned int  n   = points.n_nodes;
+    std::vector<double> speed(n);
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      {
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            const unsigned int dof = dim * points.nodes[c * n + i];
+            speed[i] =
+              std::hypot(v.local_element(dof), v.local_element(dof + 1));
+          }
+        for (unsigned int p = points.first_point[c];
+             p < points.first_point[c + 1];
+             ++p)
+          {
+            const double *gx = &points.gradients[2 * n * p], *gy = gx + n;
+            double        terms = 0., squares = 0.;
+            for (unsigned int i = 0; i < n; ++i)
+              {
+                const double square = gx[i] * gx[i] + gy[i] * gy[i];
+                squares += square;
+                terms += std::sqrt(square) * speed[i];
+              }
+            const double stress =
+              materials[points.material[p]].elasticity().normal_stiffness() *
+              h * terms;
+            sum += squares * std::pow(points.weight[p] * stress, 2);
+          }
+      }
+    return std::numeric_limits<double>::epsilon() *
+           std::sqrt(Utilities::MPI::sum(sum, layout->get_mpi_communicator()));
   }
 
   double

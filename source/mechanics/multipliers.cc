@@ -18,8 +18,16 @@ namespace geocone
 
   namespace
   {
-    /** Rows below this part of the largest pivot depend on the others. */
-    constexpr double rank_tolerance = 1e-6;
+    /**
+     * Rows whose pivot is below this part of the largest one depend on the
+     * others, and what they ask for must agree with them to this part of the
+     * largest velocity. Kept, they would be fulfilled to the last digit, by
+     * multipliers as large as their pivots are small.
+     */
+    constexpr double rank_tolerance = 1e-4;
+
+    /** A row with less than this part on free functions is on prescribed ones. */
+    constexpr double rounding = 1e-6;
 
     VectorXd
     sum_over_ranks(VectorXd x, const MPI_Comm comm)
@@ -150,7 +158,7 @@ namespace geocone
         target[r] = row.target;
         scale     = std::max(scale, std::abs(row.target));
         // On prescribed nodes but for a rounding.
-        const bool is_fixed = free < rank_tolerance * supported;
+        const bool is_fixed = free < rounding * supported;
         for (const auto &[dof, coefficient] : row.coefficients)
           {
             const unsigned int j = place[dof];
@@ -196,7 +204,7 @@ namespace geocone
               const double left =
                 rank > 0 ? VectorXd(basis.solve(full.row(i).transpose())).dot(q)
                          : 0.;
-              if (std::abs(left - target[i]) > 1e-4 * scale)
+              if (std::abs(left - target[i]) > rank_tolerance * scale)
                 throw InputError(
                   scene.dirichlet.list[names[i][0]]->parameter(
                     names[i][1] == 0 ? "Velocity x" : "Velocity y"),
@@ -249,22 +257,63 @@ namespace geocone
       f.local_element(touched[j]) += own[j];
   }
 
-  VectorXd
-  Multipliers::fit(const Vector &residual, const Vector *scale) const
+  Multipliers::Factors
+  Multipliers::factorise(const Vector *scale) const
   {
-    MatrixXd weighted(H.rows(), H.cols());
+    // By Householder reflections on each rank, U_r, and once more for the U_r of
+    // all ranks one below the other.
+    Factors            result;
+    const unsigned int n = H.rows(), m = touched.size(), k = std::min(n, m);
+    result.root.resize(m);
+    for (unsigned int j = 0; j < m; ++j)
+      result.root[j] =
+        scale != nullptr ? std::sqrt(scale->local_element(touched[j])) : 1.;
+    const MatrixXd own =
+      result.root.cwiseInverse().asDiagonal() * H.transpose();
+    result.Q   = MatrixXd::Zero(m, k);
+    MatrixXd U = MatrixXd::Zero(k, n);
+    if (k > 0)
+      {
+        const Eigen::HouseholderQR<MatrixXd> qr(own);
+        result.Q = qr.householderQ() * MatrixXd::Identity(m, k);
+        U        = qr.matrixQR().topRows(k).triangularView<Eigen::Upper>();
+      }
+    const auto all = Utilities::MPI::all_gather(
+      comm, std::vector<double>(U.data(), U.data() + U.size()));
+    const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
+    std::size_t        size = 0, before = 0;
+    for (unsigned int r = 0; r < all.size(); ++r)
+      {
+        before += r < rank ? all[r].size() / n : 0;
+        size += all[r].size() / n;
+      }
+    MatrixXd    stacked(size, n);
+    std::size_t first = 0;
+    for (const std::vector<double> &values : all)
+      {
+        const std::size_t rows = values.size() / n;
+        stacked.middleRows(first, rows) =
+          Eigen::Map<const MatrixXd>(values.data(), rows, n);
+        first += rows;
+      }
+    const Eigen::HouseholderQR<MatrixXd> qr(stacked);
+    const MatrixXd Q = qr.householderQ() * MatrixXd::Identity(size, n);
+    result.Q         = MatrixXd(result.Q * Q.middleRows(before, k));
+    result.U         = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
+    return result;
+  }
+
+  VectorXd
+  Multipliers::remove(Vector &residual, const Factors &factors) const
+  {
     VectorXd own(touched.size());
     for (unsigned int j = 0; j < touched.size(); ++j)
-      {
-        weighted.col(j) =
-          H.col(j) / (scale != nullptr ? scale->local_element(touched[j]) : 1.);
-        own[j] = residual.local_element(touched[j]);
-      }
-    const unsigned int n = H.rows();
-    VectorXd           sums(n * n + n);
-    sums << (weighted * H.transpose()).reshaped(), weighted * own;
-    sums = sum_over_ranks(sums, comm);
-    return sums.head(n * n).reshaped(n, n).ldlt().solve(sums.tail(n));
+      own[j] = residual.local_element(touched[j]) / factors.root[j];
+    const VectorXd along = sum_over_ranks(factors.Q.transpose() * own, comm);
+    const VectorXd force = factors.Q * along;
+    for (unsigned int j = 0; j < touched.size(); ++j)
+      residual.local_element(touched[j]) -= factors.root[j] * force[j];
+    return factors.U.triangularView<Eigen::Upper>().solve(along);
   }
 
   double

@@ -12,17 +12,40 @@ namespace geocone
   using Eigen::MatrixXd;
   using Eigen::VectorXd;
 
-  namespace
+  void
+  Reduction::check(const IncrementalProblem &problem,
+                   const std::string        &parameter,
+                   const std::string        &value)
   {
-    [[noreturn]] void
-    refuse(const std::string &what, const std::string &remedy)
-    {
-      throw InputError(
-        "The stresses alone are no unknowns (Newton/Formulation, "
-        "Newton/First iterate): " +
-        what + "\n  remedy:  " + remedy);
-    }
-  } // namespace
+    const MaterialPoints &points    = problem.points;
+    const Materials      &materials = problem.materials;
+    const MPI_Comm        comm      = problem.layout->get_mpi_communicator();
+    const auto            refuse    = [&](const std::string &allowed,
+                            const std::string &remedy) {
+      throw InputError(parameter, value, allowed, remedy);
+    };
+    if (dealii::Utilities::MPI::n_mpi_processes(comm) > 1)
+      refuse("another one on several ranks",
+             "run it on one rank, or take automatic");
+    if (problem.mass == nullptr)
+      refuse("another one without inertia",
+             "the stresses alone determine the velocities by the mass: set "
+             "Time stepping/Inertia = true, or take automatic");
+    if (problem.consistent_part > 0.)
+      refuse("another one with a consistent mass",
+             "set Material point method/Consistent mass part = 0, or take "
+             "automatic");
+    if (points.n_points() > max_cones)
+      refuse(format("another one for more than %u points, and there are %u",
+                    max_cones,
+                    points.n_points()),
+             "take a coarser mesh, or automatic");
+    for (const unsigned int material : points.material)
+      if (!materials[material].flow_cone())
+        refuse("another one with the material '" + materials.name(material) +
+                 "', which has no yield surface",
+               "take Mohr-Coulomb or Tresca, or automatic");
+  }
 
   Reduction::Reduction(const IncrementalProblem &problem)
     : incremental(problem)
@@ -32,26 +55,8 @@ namespace geocone
     const Unknowns       &unknowns  = problem.unknowns;
     const double          h         = problem.h;
     const unsigned int    n         = points.n_points();
-    if (dealii::Utilities::MPI::n_mpi_processes(
-          problem.layout->get_mpi_communicator()) > 1)
-      refuse("there are several ranks", "run it on one rank");
-    if (problem.mass == nullptr)
-      refuse("there is no mass", "set Time stepping/Inertia = true");
-    if (problem.consistent_part > 0.)
-      refuse("the mass is not lumped",
-             "set Material point method/Consistent mass part = 0");
-    if (n > max_cones)
-      refuse(format("there are %u points, more than %u", n, max_cones),
-             "take a coarser mesh, or the return map");
     for (unsigned int p = 0; p < n; ++p)
-      {
-        const unsigned int material = points.material[p];
-        const auto         cone     = materials[material].flow_cone();
-        if (!cone)
-          refuse("'" + materials.name(material) + "' has no cone",
-                 "take Mohr-Coulomb or Tresca, or the return map");
-        reduced.cones.push_back(*cone);
-      }
+      reduced.cones.push_back(*materials[points.material[p]].flow_cone());
 
     velocity = problem.velocity_L;
     problem.set_prescribed(velocity);
@@ -83,9 +88,10 @@ namespace geocone
     for (unsigned int p = 0; p < n; ++p)
       {
         const Elasticity &e = materials[points.material[p]].elasticity();
-        reduced.S.segment<3>(3 * p) = Mandel(points.weight[p] / e.normal_stiffness(),
-                                     points.weight[p] / e.two_G,
-                                     points.weight[p] / e.two_G);
+        reduced.S.segment<3>(3 * p) =
+          Mandel(points.weight[p] / e.normal_stiffness(),
+                 points.weight[p] / e.two_G,
+                 points.weight[p] / e.two_G);
       }
     ReducedProblem::Matrix transposed = VB.transpose();
     transposed = VectorXd(h * mobility).asDiagonal() * transposed;

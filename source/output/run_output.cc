@@ -233,7 +233,7 @@ namespace geocone
     std::vector<LoadPoint> curve;
     double                 offset     = 0.;
     unsigned int           iterations = 0, most = 0, substeps = 0, failures = 0,
-                 regularised = 0, lagging = 0;
+                 regularised = 0, lagging = 0, at_floor = 0;
     Quality quality;
     double  residual = 0., identity = 0., lag = 0.;
     for (const StepRecord &record : records)
@@ -251,6 +251,7 @@ namespace geocone
         residual = std::max(residual, record.last.newton.residual);
         lag      = std::max(lag, record.last.newton.friction_lag);
         lagging += record.last.newton.friction_lag > 0.;
+        at_floor += record.last.newton.at_rounding_floor;
         identity = std::max(identity, record.last.identity_error);
       }
 
@@ -289,6 +290,7 @@ namespace geocone
       {"failures", failures},
       {"regularised", regularised},
       {"residual_max", residual},
+      {"steps_at_rounding_floor", at_floor},
       {"steps_with_friction_lag", lagging},
       {"friction_lag_max", lag}};
     json["quality"] = {{"natural_map_error_max", quality.natural_map},
@@ -384,6 +386,12 @@ namespace geocone
                      summary["quality"]["natural_map_error_max"].get<double>(),
                      summary["quality"]["complementarity_max"].get<double>(),
                      summary["quality"]["cone_violation_max"].get<double>()));
+    if (const auto n = newton_part["steps_at_rounding_floor"].get<unsigned>())
+      log.print(format("%u of %zu steps are solved up to rounding, which is "
+                       "above 'Newton/Tolerance' (residual <= %.1e)",
+                       n,
+                       records.size(),
+                       newton_part["residual_max"].get<double>()));
     if (const auto n = newton_part["steps_with_friction_lag"].get<unsigned>())
       log.print(format("friction lags in %u of %zu steps (by at most %.2g of a "
                        "step), the exact cone is exceeded by up to %.3g Pa",

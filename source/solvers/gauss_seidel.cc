@@ -51,6 +51,11 @@ namespace geocone
         if (constrained)
           lambda = factors.solve(problem.C.transpose() * s - problem.d);
         report.errors.push_back(error > 0. ? error / size : 0.);
+        if (!s.allFinite()) // which no further sweep mends
+          {
+            report.errors.back() = std::nan("");
+            break;
+          }
         if (report.errors.back() <= tolerance ||
             report.iterations == max_sweeps)
           report.errors.back() = problem.natural_map_error(s);

@@ -16,6 +16,10 @@ namespace geocone
 {
   namespace
   {
+    /** Where a factorisation ends for want of memory, or for no known reason. */
+    const std::string remedy = "\n  remedy:  take fewer cells, more memory or "
+                               "more ranks, or another 'Linear solver/Name'";
+
     /** SuiteSparse's supernodal Cholesky factorisation. */
     class Cholmod : public LinearSolver
     {
@@ -54,7 +58,7 @@ namespace geocone
         cholmod_sparse A = view(matrix);
         cholmod_factorize(&A, factor, &common);
         if (common.status == CHOLMOD_OUT_OF_MEMORY)
-          throw RunError("Cholmod: out of memory");
+          throw RunError("Cholmod: out of memory" + remedy);
         return common.status == CHOLMOD_OK && factor->minor == factor->n;
       }
 
@@ -212,9 +216,10 @@ namespace geocone
       check(const int status)
       {
         if (status < 0)
-          throw RunError(status == UMFPACK_ERROR_out_of_memory
-                           ? std::string("Umfpack: out of memory")
-                           : "Umfpack: error " + std::to_string(status));
+          throw RunError((status == UMFPACK_ERROR_out_of_memory
+                            ? std::string("Umfpack: out of memory")
+                            : "Umfpack: error " + std::to_string(status)) +
+                         remedy);
       }
 
       const SparseMatrix *matrix   = nullptr;
@@ -271,7 +276,7 @@ namespace geocone
         call(1);
         if (id.infog[0] < 0)
           throw RunError("Mumps: analysis failed with error " +
-                         std::to_string(id.infog[0]));
+                         std::to_string(id.infog[0]) + remedy);
 
         const int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
         counts.resize(n_ranks);
@@ -299,7 +304,7 @@ namespace geocone
               icntl(14) *= 2; // workspace too small
             else
               throw RunError("Mumps: factorisation failed with error " +
-                             std::to_string(error));
+                             std::to_string(error) + remedy);
           }
       }
 
@@ -325,7 +330,7 @@ namespace geocone
         call(3);
         if (id.infog[0] < 0)
           throw RunError("Mumps: solve failed with error " +
-                         std::to_string(id.infog[0]));
+                         std::to_string(id.infog[0]) + remedy);
         for (unsigned int c = 0; c < n_columns; ++c)
           MPI_Scatterv(rhs.data() + c * std::size_t(id.n),
                        counts.data(),
@@ -384,11 +389,6 @@ namespace geocone
                                : !serial           ? "Mumps"
                                : symmetric         ? "Cholmod"
                                                    : "Umfpack";
-    if (chosen != "Cholmod" && chosen != "Umfpack" && chosen != "Mumps")
-      throw InputError("Linear solver/Name",
-                       name,
-                       "automatic | Cholmod | Umfpack | Mumps in this build",
-                       "take automatic");
     if (chosen != "Mumps" && !serial)
       throw InputError("Linear solver/Name",
                        name,

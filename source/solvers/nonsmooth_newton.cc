@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/mechanics/reduction.h>
 #include <geocone/solvers/first_iterate.h>
 #include <geocone/solvers/gauss_seidel.h>
 #include <geocone/solvers/line_search.h>
@@ -15,6 +16,9 @@
 namespace geocone
 {
   using dealii::TimerOutput;
+  using dealii::Patterns::Double;
+  using dealii::Patterns::Integer;
+  using dealii::Patterns::Selection;
 
   namespace
   {
@@ -37,12 +41,13 @@ namespace geocone
   NonsmoothNewton::SolverName::SolverName()
     : dealii::ParameterAcceptor("/Linear solver")
   {
-    add_parameter(
-      "Name",
-      value,
-      "automatic | Cholmod | Umfpack | Mumps. Automatic: Cholmod "
-      "for associated flow and Umfpack otherwise on one rank, Mumps "
-      "on several.");
+    add_parameter("Name",
+                  value,
+                  "automatic | Cholmod | Umfpack | Mumps. Automatic: Cholmod "
+                  "for associated flow and Umfpack otherwise on one rank, "
+                  "Mumps on several.",
+                  prm,
+                  Selection("automatic|Cholmod|Umfpack|Mumps"));
   }
 
   NonsmoothNewton::Friction::Friction()
@@ -57,11 +62,15 @@ namespace geocone
       "which makes steps without dilatancy as cheap as associated ones, at an "
       "error of first order in the step. Automatic: exact, but single steps "
       "that are not solved keep the least lag that is, and are counted. "
-      "Nothing changes for associated flow.");
+      "Nothing changes for associated flow.",
+      prm,
+      Selection("automatic|exact|delayed"));
     add_parameter("Friction lag",
                   lag,
                   "The part for delayed friction, 0 to 1: 0 is exact, 1 takes "
-                  "all of it from the start.");
+                  "all of it from the start.",
+                  prm,
+                  Double(0., 1.));
   }
 
   NonsmoothNewton::NonsmoothNewton()
@@ -75,17 +84,20 @@ namespace geocone
       "map: the velocities, with the closed-form law. Natural map: velocities, "
       "stresses and plastic strains with the natural map of the law, which "
       "each iteration linearises. Automatic: the return map for theta >= "
-      "phi/2, "
-      "and the natural map otherwise and where that fails. Reduced: the "
+      "phi/2, and the natural map otherwise and where that fails. Reduced: the "
       "stresses alone, by Newton's method; constraints on particles are "
       "eliminated or kept with multipliers. Gauss-Seidel: the stresses alone, "
       "point by point. What is reduced needs a lumped mass, one rank and at "
-      "most 3000 points. All but the first are there to be compared with it.");
-    add_parameter(
-      "Rho",
-      rho,
-      "Rho of the formulation 'natural map', in units of 2G of each "
-      "point, > 0.");
+      "most 3000 points. All but the first are there to be compared with it.",
+      prm,
+      Selection("automatic|return map|natural map|reduced|"
+                "reduced with multipliers|Gauss-Seidel"));
+    add_parameter("Rho",
+                  rho,
+                  "Rho of the formulation 'natural map', in units of 2G of "
+                  "each point, 1e-6 to 1e6.",
+                  prm,
+                  Double(1e-6, 1e6));
     add_parameter(
       "First iterate",
       first_iterate,
@@ -93,101 +105,57 @@ namespace geocone
       "formulations 'return map' and 'natural map' from the velocities of t_n. "
       "Fixed point: iterations with the elastic stiffness, factorised once. "
       "Gauss-Seidel: sweeps over the stresses, under the conditions of the "
-      "formulation of that name.");
+      "formulation of that name.",
+      prm,
+      Selection("none|fixed point|Gauss-Seidel"));
     add_parameter("First iterate sweeps",
                   first_iterate_sweeps,
-                  "Number of these iterations or sweeps, > 0.");
+                  "Number of these iterations or sweeps, 1 to 10000.",
+                  prm,
+                  Integer(1, 10000));
     add_parameter(
       "Tolerance",
       relative_tolerance,
-      "A step is solved when the norm of the free residual is below "
-      "this times the norm of the internal (or external) forces.");
+      "A step is solved when the norm of the free residual is below this times "
+      "the norm of the internal (or external) forces, 1e-15 to 0.1; or when "
+      "the rest is rounding alone; 'newton/steps_at_rounding_floor' in "
+      "summary.json counts such steps.",
+      prm,
+      Double(1e-15, 0.1));
     add_parameter("Absolute tolerance",
                   absolute_tolerance,
-                  "... or below this (N/m), which ends steps without load.");
+                  "... or below this (N/m), 0 to 1, which ends steps without "
+                  "load.",
+                  prm,
+                  Double(0., 1.));
     add_parameter(
       "Maximum iterations",
       max_iterations,
-      "Linear systems to solve before an attempt at a step is given up; twice "
-      "as many where it converges. 0: 30 for the elastic blend with the return "
-      "map, 150 for the line search and associated flow (slow starts are worth "
-      "waiting for), 100 for the natural map where nothing would follow and "
-      "otherwise 40, and 60 for all else.");
+      "Linear systems to solve before an attempt at a step is given up, at "
+      "most 1000000; twice as many where it converges. 0: 30 for the elastic "
+      "blend with the return map, 150 for the line search and associated flow "
+      "(slow starts are worth waiting for), 100 for the natural map where "
+      "nothing would follow and otherwise 40, and 60 for all else.",
+      prm,
+      Integer(0, 1000000));
     add_parameter(
       "Globalisation",
       globalisation,
       "automatic | line search | elastic blend | merit search | "
       "lag continuation | none. Automatic: the line search for the return map "
       "and theta >= phi/2, otherwise the elastic blend; and the lag "
-      "continuation for what is not solved so. None: plastic steps often fail. "
-      "Those with a search are for the return map, which they stand for where "
-      "the formulation is automatic.");
+      "continuation for what is not solved so. Lag continuation: where flow is "
+      "associated nothing can lag, and this is the line search. None: plastic "
+      "steps often fail. Line search, merit search and lag continuation need "
+      "the return map; choosing one of them selects it.",
+      prm,
+      Selection("automatic|line search|elastic blend|merit search|"
+                "lag continuation|none"));
   }
 
   void
   NonsmoothNewton::prepare()
   {
-    if (!(relative_tolerance > 0. && relative_tolerance < 1.))
-      throw InputError("Newton/Tolerance",
-                       relative_tolerance,
-                       "between 0 and 1",
-                       "1e-10 is reached in all scenes");
-    if (globalisation != "automatic" && globalisation != "line search" &&
-        globalisation != "elastic blend" && globalisation != "merit search" &&
-        globalisation != "lag continuation" && globalisation != "none")
-      throw InputError("Newton/Globalisation",
-                       globalisation,
-                       "automatic | line search | elastic blend | merit "
-                       "search | lag continuation | none",
-                       "take automatic");
-    prepare_formulation();
-    if (!(absolute_tolerance >= 0.))
-      throw InputError("Newton/Absolute tolerance",
-                       absolute_tolerance,
-                       ">= 0 N/m",
-                       "1e-12 is usual");
-    if (friction.kind != "automatic" && friction.kind != "exact" &&
-        friction.kind != "delayed")
-      throw InputError("Time stepping/Friction",
-                       friction.kind,
-                       "automatic | exact | delayed",
-                       "take automatic");
-    if (!(friction.lag >= 0. && friction.lag <= 1.))
-      throw InputError(
-        "Time stepping/Friction lag", friction.lag, "0 to 1", "1/2 is usual");
-  }
-
-  void
-  NonsmoothNewton::prepare_formulation() const
-  {
-    const auto is_one_of = [](const std::string              &name,
-                              const std::vector<std::string> &names) {
-      return std::find(names.begin(), names.end(), name) != names.end();
-    };
-    if (!is_one_of(formulation,
-                   {"automatic",
-                    "return map",
-                    "natural map",
-                    "reduced",
-                    "reduced with multipliers",
-                    "Gauss-Seidel"}))
-      throw InputError("Newton/Formulation",
-                       formulation,
-                       "automatic | return map | natural map | reduced | "
-                       "reduced with multipliers | Gauss-Seidel",
-                       "take automatic");
-    if (!is_one_of(first_iterate, {"none", "fixed point", "Gauss-Seidel"}))
-      throw InputError("Newton/First iterate",
-                       first_iterate,
-                       "none | fixed point | Gauss-Seidel",
-                       "take none");
-    if (!(rho > 0.))
-      throw InputError("Newton/Rho", rho, "> 0", "0.03 is usual");
-    if (first_iterate_sweeps == 0)
-      throw InputError("Newton/First iterate sweeps",
-                       first_iterate_sweeps,
-                       "> 0",
-                       "for none set Newton/First iterate = none");
     if (formulation == "automatic" || formulation == "return map")
       return;
     const bool natural = formulation == "natural map";
@@ -213,6 +181,22 @@ namespace geocone
                        "'natural map'");
   }
 
+  bool
+  NonsmoothNewton::is_reduced() const
+  {
+    return formulation != "automatic" && formulation != "return map" &&
+           formulation != "natural map";
+  }
+
+  void
+  NonsmoothNewton::check(const IncrementalProblem &problem) const
+  {
+    if (is_reduced())
+      Reduction::check(problem, "Newton/Formulation", formulation);
+    else if (first_iterate == "Gauss-Seidel")
+      Reduction::check(problem, "Newton/First iterate", first_iterate);
+  }
+
   SolverReport
   NonsmoothNewton::solve(IncrementalProblem &problem,
                          SparseMatrix       &matrix,
@@ -233,8 +217,7 @@ namespace geocone
 
     problem.set_friction_lag(0.);
     problem.use_return_map();
-    if (formulation != "automatic" && formulation != "return map" &&
-        formulation != "natural map")
+    if (is_reduced())
       {
         using Solver        = ReducedFormulation::Solver;
         const bool   sweeps = formulation == "Gauss-Seidel";
@@ -280,10 +263,15 @@ namespace geocone
                                       : &first_stress;
       run(attempt, work);
     };
-    if (globalisation != "automatic" && globalisation != "lag continuation")
+    // Where flow is associated, friction does not lag: the first point of the
+    // path is its end.
+    const bool nothing_lags = globalisation == "lag continuation" && associated;
+    if (nothing_lags ||
+        (globalisation != "automatic" && globalisation != "lag continuation"))
       {
         const Globalisation name =
-          globalisation == "line search"     ? Globalisation::line_search
+          nothing_lags || globalisation == "line search"
+            ? Globalisation::line_search
           : globalisation == "elastic blend" ? Globalisation::elastic_blend
           : globalisation == "merit search"  ? Globalisation::merit_search
                                              : Globalisation::none;
@@ -472,16 +460,16 @@ namespace geocone
       {
         if (!std::isfinite(state.norm))
           {
-            report.reason =
-              "the residual is not a number" + problem.not_a_number();
+            work.report_not_a_number();
             return;
           }
         if (!(first && (jumps || attempt.moves)) &&
-            state.norm <= std::max(attempt.tolerance * state.force_norm,
-                                   absolute_tolerance) &&
-            state.natural_map <= attempt.tolerance)
+            state.natural_map <= attempt.tolerance &&
+            work.is_balanced(state, attempt.tolerance, absolute_tolerance))
           {
             report.converged = true;
+            report.reason.clear();
+            report.remedy.clear();
             return;
           }
         if (report.iterations >=
@@ -495,6 +483,16 @@ namespace geocone
               state.n_cone,
               state.n_apex,
               state.n_switched);
+            report.remedy =
+              state.n_cone + state.n_apex > 0
+                ? ""
+                : format(
+                    "no point flows, so that the step is linear and smaller "
+                    "ones do not help: its equations are solved to %.1e "
+                    "only, by rounding. Stiffnesses differ too much: take a "
+                    "Poisson ratio farther from 0.5, or materials or cells "
+                    "that differ less; or a 'Newton/Tolerance' above that",
+                    report.residual);
             return;
           }
 
@@ -522,6 +520,10 @@ namespace geocone
         if (!regular)
           {
             report.reason = "the Jacobian is singular";
+            report.remedy =
+              "a part of the body is not held, or its soil has no strength "
+              "left: hold it, set 'Time stepping/Inertia' = true, or take "
+              "smaller steps; check whether the body can carry its loads";
             return;
           }
 

@@ -40,8 +40,13 @@ namespace geocone
         reduction.recover_velocity(s, work.v);
         const ResidualReport state = work.evaluate();
         work.record(state, 1., 0., 0.);
-        report.converged = state.norm <= std::max(tolerance * state.force_norm,
-                                                  absolute_tolerance);
+        if (!std::isfinite(state.norm))
+          {
+            work.report_not_a_number();
+            return;
+          }
+        report.converged =
+          work.is_balanced(state, tolerance, absolute_tolerance);
         if (report.converged)
           return;
         if (!found.converged)

@@ -16,6 +16,9 @@ namespace geocone
 
   namespace
   {
+    /** Of a restart: where so many do not lead on, more do not either. */
+    constexpr unsigned int most_sweeps = 3200;
+
     /** F_p, and with dz = W ds its differential dF_p = A ds_p + B dz_p. */
     struct PointMap
     {
@@ -212,7 +215,8 @@ namespace geocone
         report.error = problem.natural_map_error(s);
         report.errors.push_back(report.error);
         report.converged = report.error <= tolerance;
-        if (report.converged || report.iterations == max_iterations)
+        if (report.converged || report.iterations == max_iterations ||
+            !s.allFinite())
           break;
 
         ++report.iterations;
@@ -249,9 +253,9 @@ namespace geocone
 
         s = s0;
         sweeper.solve(problem, s);
-        sweeper.max_sweeps *= 2;
-        lambda = problem.multipliers(s);
-        before = system.evaluate(s, lambda);
+        sweeper.max_sweeps = std::min(2 * sweeper.max_sweeps, most_sweeps);
+        lambda             = problem.multipliers(s);
+        before             = system.evaluate(s, lambda);
         ++report.restarts;
       }
     report.cpu_seconds = double(std::clock() - start) / CLOCKS_PER_SEC;

@@ -12,6 +12,13 @@ namespace geocone
   namespace
   {
     /**
+     * c of c N, twice of what was measured after one linear solve (doc/theory.md,
+     * section "Newton's method"), and the largest residual relative to the forces
+     * that is taken for rounding.
+     */
+    constexpr double floor_factor = 0.5, largest_floor = 1e-6;
+
+    /**
      * Solves [K -H'; H 0] (dv, dlambda) = (rhs, defect) for dv.
      * @param[in,out] rhs owned rows in, dv out
      */
@@ -89,6 +96,32 @@ namespace geocone
                             state.n_cone,
                             state.n_apex,
                             state.n_switched});
+  }
+
+  bool
+  StepWorkspace::is_balanced(const ResidualReport &state,
+                             const double          tolerance,
+                             const double          absolute) const
+  {
+    report.at_rounding_floor = false;
+    if (state.norm <= std::max(tolerance * state.force_norm, absolute))
+      return true;
+    // The pass over the points is worth its time near a solution only.
+    if (!(state.norm <= largest_floor * state.force_norm))
+      return false;
+    report.at_rounding_floor =
+      state.norm <= floor_factor * problem.rounding_floor(v);
+    return report.at_rounding_floor;
+  }
+
+  void
+  StepWorkspace::report_not_a_number() const
+  {
+    report.reason = "the residual is not a number" + problem.not_a_number();
+    report.remedy =
+      "values of the scene overflow or are not numbers: check formulas, the "
+      "initial stress, stiffnesses, loads and velocities there, and 'Newton/"
+      "Rho'; or take smaller steps";
   }
 
   StepWorkspace::Jump

@@ -55,16 +55,22 @@ namespace geocone
                   "MUSL (velocities of points first, stress from their mean; "
                   "tolerates small nodal masses) | USL (stress last, one pass "
                   "over the points: the fastest; for splines) | USF (stress "
-                  "first).");
+                  "first).",
+                  prm,
+                  Patterns::Selection("MUSL|USL|USF"));
     add_parameter("Transfer",
                   transfer_name,
                   "FLIP: points take the change of the nodes' velocities. "
                   "APIC: they take the velocity and its affine part, which "
-                  "keeps angular momentum and damps vibrations.");
+                  "keeps angular momentum and damps vibrations.",
+                  prm,
+                  Patterns::Selection("FLIP|APIC"));
     add_parameter("FLIP part",
                   flip_part,
                   "For FLIP: the part of the new velocity that FLIP gives, the "
-                  "rest is PIC (interpolated, damps); 0 to 1.");
+                  "rest is PIC (interpolated, damps); 0 to 1.",
+                  prm,
+                  Patterns::Double(0., 1.));
     add_parameter("Courant number",
                   courant,
                   "C of the step C h/(c + v), with the cell size h, the "
@@ -73,7 +79,9 @@ namespace geocone
     add_parameter("Time step",
                   fixed_step,
                   "A step of this size (s); 0: the one that the Courant number "
-                  "gives, anew in each step.");
+                  "gives, anew in each step.",
+                  prm,
+                  Patterns::Double(0.));
     add_parameter("Allow unstable step",
                   allow_unstable,
                   "Whether a given step may exceed h/(c + v).");
@@ -81,7 +89,9 @@ namespace geocone
                   largest_strain,
                   "Steps are kept so small that no displacement gradient "
                   "changes by more than about this, by its rate in the step "
-                  "before; 0: no such limit.");
+                  "before; 0: no such limit.",
+                  prm,
+                  Patterns::Double(0.));
     add_parameter("Fast path",
                   fast_path,
                   "Whether a uniform grid is treated as such; false: like any "
@@ -90,39 +100,23 @@ namespace geocone
     add_parameter("Sort every",
                   sort_every,
                   "Points are sorted by cell, and shared out among the ranks, "
-                  "every so many steps (20 to 100 are fastest).");
+                  "every so many steps (20 to 100 are fastest).",
+                  prm,
+                  Patterns::Integer(1));
   }
 
   void
   ExplicitMPM::check_parameters() const
   {
     const std::string section = "Explicit/";
-    check_choice(section + "Order", order_name, {"MUSL", "USL", "USF"});
-    check_choice(section + "Transfer", transfer_name, {"FLIP", "APIC"});
     if (transfer_name == "APIC" && flip_part != 1.)
       throw InputError(section + "FLIP part",
                        flip_part,
                        "1 (not given) where Transfer = APIC",
                        "leave it out, or set Transfer = FLIP");
-    if (!(flip_part >= 0. && flip_part <= 1.))
-      throw InputError(
-        section + "FLIP part", flip_part, "0 to 1", "1 is FLIP, 0 is PIC");
     if (!(courant > 0. && courant <= 1.))
       throw InputError(
         section + "Courant number", courant, "0 < C <= 1", "0.3 is usual");
-    if (!(fixed_step >= 0.))
-      throw InputError(section + "Time step",
-                       fixed_step,
-                       ">= 0 s",
-                       "0 lets the Courant number choose");
-    if (!(largest_strain >= 0.))
-      throw InputError(section + "Largest strain increment",
-                       largest_strain,
-                       ">= 0",
-                       "0 is no limit");
-    if (sort_every == 0)
-      throw InputError(
-        section + "Sort every", sort_every, ">= 1", "50 is usual");
 
     for (const auto &condition : scene->dirichlet.list)
       if (condition->moves())
@@ -353,7 +347,10 @@ namespace geocone
           {
             if (obstacle.empty() && p < end)
               obstacle =
-                format("the velocity of point %u is not a number", group.id[p]);
+                format("the velocity of point %u is not a number\n"
+                       "  remedy:  take a smaller 'Explicit/Courant number' "
+                       "or 'Explicit/Time step', splines, or the order MUSL",
+                       group.id[p]);
             group[Field::vx][p] = group[Field::vy][p] = 0.;
             nearest = transfer->a_stored_place();
             for (unsigned int d = 0; d < dim; ++d)
@@ -367,7 +364,9 @@ namespace geocone
             if (obstacle.empty() && p < end)
               obstacle =
                 format("point %u at (%g, %g) moved through more than a cell "
-                       "in one step",
+                       "in one step\n"
+                       "  remedy:  take a smaller 'Explicit/Courant number' "
+                       "or 'Explicit/Time step'",
                        group.id[p],
                        place[0],
                        place[1]);

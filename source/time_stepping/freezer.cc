@@ -23,9 +23,11 @@ namespace geocone
   {
     add_parameter("Freeze steps",
                   steps,
-                  "Numbers of steps whose incremental problems are written to "
-                  "frozen-STEP.h5, to be solved again with other options by "
-                  "geocone --replay. The first substep counts.");
+                  "Numbers of steps, from 1, whose incremental problems are "
+                  "written to frozen-STEP.h5, to be solved again with other "
+                  "options by geocone --replay. The first substep counts.",
+                  prm,
+                  dealii::Patterns::List(dealii::Patterns::Integer(1)));
     add_parameter("Freeze failures",
                   failures,
                   "Whether problems that were not solved are written to "
@@ -33,14 +35,23 @@ namespace geocone
   }
 
   void
+  Freezer::check(const LoadingProgramme &loading) const
+  {
+    std::size_t n_steps = 0;
+    for (const auto &stage : loading.stages)
+      n_steps += stage->step_sizes().size();
+    for (const unsigned int number : steps)
+      if (number > n_steps)
+        throw InputError("Output/Freeze steps",
+                         number,
+                         format("1 to %zu, the steps of this run", n_steps),
+                         "name steps that the run has");
+  }
+
+  void
   Freezer::prepare(const std::string &folder)
   {
     path = folder;
-    if (std::find(steps.begin(), steps.end(), 0U) != steps.end())
-      throw InputError("Output/Freeze steps",
-                       0,
-                       "numbers from 1",
-                       "the first step has the number 1");
   }
 
   void

@@ -71,6 +71,7 @@ namespace geocone
                                            *constraints,
                                            space.partitioner(),
                                            inertia ? &lumped_mass : nullptr);
+    newton.check(*problem);
     matrix = problem->make_pattern(linear_solver->wants_one_triangle());
     TimerOutput::Scope scope(timer, "analyse");
     linear_solver->analyse(matrix);

@@ -39,31 +39,44 @@ namespace geocone
                   transfer_name,
                   "FLIP: particles take the change of the nodes' velocities. "
                   "APIC: they take the velocity and its affine part, which "
-                  "keeps angular momentum and damps vibrations.");
+                  "keeps angular momentum and damps vibrations.",
+                  prm,
+                  Patterns::Selection("FLIP|APIC"));
     add_parameter("FLIP part",
                   flip_part,
                   "For FLIP: the part of the new velocity that FLIP gives, the "
-                  "rest is PIC (interpolated, damps); 0 to 1.");
+                  "rest is PIC (interpolated, damps); 0 to 1.",
+                  prm,
+                  Patterns::Double(0., 1.));
     add_parameter("Advection",
                   advection,
                   "grid velocity | particle velocity | none: what moves the "
                   "particles. The second lets loads drift with FLIP. None: "
                   "they stay, as do supports, for limit loads by small "
-                  "strains.");
+                  "strains.",
+                  prm,
+                  Patterns::Selection("grid velocity|particle velocity|none"));
     add_parameter("Consistent mass part",
                   consistent_mass,
                   "M = (1 - c) lumped + c consistent; 0 to 1. Up to 0.999 is "
                   "safe; 1 is singular where a cell has fewer particles than "
-                  "functions.");
+                  "functions.",
+                  prm,
+                  Patterns::Double(0., 1.));
     add_parameter("Integration",
                   integration,
-                  "backward Euler | midpoint, which loses less energy.");
-    add_parameter("Start",
-                  start_name,
-                  "Where Newton's method starts: grid velocity (of the last "
-                  "step; best for slow loading) | particle velocity (vL, with "
-                  "the elastic tangent first) | automatic: the former, and "
-                  "the latter if it fails.");
+                  "backward Euler | midpoint, which loses less energy.",
+                  prm,
+                  Patterns::Selection("backward Euler|midpoint"));
+    add_parameter(
+      "Start",
+      start_name,
+      "Where Newton's method starts: grid velocity (of the last "
+      "step; best for slow loading) | particle velocity (vL, with "
+      "the elastic tangent first) | automatic: the former, and "
+      "the latter if it fails.",
+      prm,
+      Patterns::Selection("grid velocity|particle velocity|automatic"));
     add_parameter("Largest move",
                   largest_move,
                   "A step in which a particle would move farther than so many "
@@ -74,25 +87,6 @@ namespace geocone
   ImplicitMPM::check_parameters()
   {
     const std::string section = "Material point method/";
-    const auto        part    = [&](const std::string &entry,
-                          const double       value,
-                          const std::string &remedy) {
-      if (!(value >= 0. && value <= 1.))
-        throw InputError(section + entry, value, "0 to 1", remedy);
-    };
-    check_choice(section + "Transfer", transfer_name, {"FLIP", "APIC"});
-    check_choice(section + "Advection",
-                 advection,
-                 {"grid velocity", "particle velocity", "none"});
-    check_choice(
-      section + "Integration", integration, {"backward Euler", "midpoint"});
-    check_choice(section + "Start",
-                 start_name,
-                 {"automatic", "grid velocity", "particle velocity"});
-    part("FLIP part", flip_part, "1 is FLIP, 0 is PIC");
-    part("Consistent mass part",
-         consistent_mass,
-         "0 (lumped) is usual; up to 0.999 is safe");
     if (transfer_name == "APIC" && consistent_mass > 0.)
       throw InputError(section + "Consistent mass part",
                        consistent_mass,
@@ -154,6 +148,7 @@ namespace geocone
         points.affine[p] = scene->initial_velocity.gradient(
           points.position[p], std::sqrt(points.weight[p]));
     begin(points, timer);
+    newton.check(*problem);
     moving->check_held_particles(points);
     Vector v = problem->make_vector();
     constraints->set_values(v, 0.);
@@ -429,6 +424,10 @@ namespace geocone
                             v,
                             (sums[0] + sums[1]) * (solved_h / h));
 
+    // Particles that stay keep their potential energy, whatever moves the nodes:
+    // as with FEM, the work of the weight is that of an external force.
+    const double work_of_weight = advection == "none" ? sums[0] : 0.;
+
     // Gravity that changes works on points at rest.
     const Tensor<1, dim> change =
       scene->gravity.at(t + h) - scene->gravity.at(t);
@@ -510,7 +509,7 @@ namespace geocone
     report.energies               = state_energies(kinematics, points, t + h);
     report.largest_plastic_strain = largest_plastic_strain(points, comm);
     report.energies.external_work =
-      sums[1] + Utilities::MPI::sum(work_of_change, comm);
+      sums[1] + work_of_weight + Utilities::MPI::sum(work_of_change, comm);
     report.energies.dissipation = Utilities::MPI::sum(dissipation, comm);
     return report;
   }

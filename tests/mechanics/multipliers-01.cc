@@ -160,11 +160,10 @@ check(const std::string        &name,
   for (const Vector *scale :
        {static_cast<const Vector *>(nullptr), static_cast<const Vector *>(&D)})
     {
-      const Eigen::VectorXd lambda = rows.fit(R, scale);
+      Vector                left   = R;
+      const Eigen::VectorXd lambda = rows.remove(left, rows.factorise(scale));
       Vector                force(space.partitioner());
       rows.add_transposed(force, 1., lambda);
-      Vector left = R;
-      left -= force;
       if (scale != nullptr)
         for (unsigned int dof = 0; dof < dim * n; ++dof)
           left.local_element(dof) /= D.local_element(dof);

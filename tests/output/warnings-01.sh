@@ -31,3 +31,21 @@ slope --set 'Material point method/Integration = midpoint' --output particles \
   --set 'Gravity/Ramp duration = 1'
 [ "$(grep -c 'lets the total energy grow' log)" = 1 ]
 grep -q '"released_potential_J_per_m": null' particles/summary.json
+
+# A body without cohesion that begins outside of its strength fails by name of that
+# cause; the automatic K0 of its friction angle is inside.
+ground() {
+  "$program" "$root/tests/footing_coarse.prm" --set 'Output/Report for tests = none' \
+    --set 'Materials/soil/Friction angle = 15' --set 'Materials/soil/Cohesion = 0' \
+    --set 'Materials/soil/Dilatancy angle = 15' --set 'Mesh/Cell size = 0.5' \
+    --set 'Boundary conditions/footing/Box = 0, -0.1; 0.5, 0.1' \
+    --set 'Observation/Reference = none' --set 'Gravity/Acceleration = 0, -10' \
+    --set 'Initial stress/Type = geostatic' --set 'Loading/push/Duration = 0.02' \
+    --set 'Loading/push/Step size = 1e-5' \
+    --set 'Newton/Maximum iterations = 2' --set 'Time stepping/Maximum halvings = 0' \
+    "$@" >log 2>&1
+}
+if ground --output k0; then exit 1; fi
+grep -q "cause: .*initial stress of .* points is outside .*'Initial stress/K0' = automatic" log
+ground --set 'Initial stress/K0 = automatic' --output automatic || true
+! grep -q 'outside of the strength' log

@@ -203,6 +203,18 @@ namespace geocone
     double
     merit(const Vector &residual);
 
+    /**
+     * The size N of the rounding in the residual's norm at a velocity (N/m),
+     *   N^2 = eps^2 sum_p sum_i |grad N_i|^2 (V_p K_p h sum_j |grad N_j| |v_j|)^2
+     * with K_p = 2 (lambda + G): the terms of the strain e_p = h B_p v have the
+     * relative error eps, but their sum is smaller by the size of the cell over
+     * that of the body, and K_p is much larger than the stiffness to shear where
+     * volume hardly changes. Collective.
+     * @param v with its ghosts, as for residual()
+     */
+    double
+    rounding_floor(const Vector &v) const;
+
     /** Scalar product over the free dofs. */
     double
     free_dot(const Vector &a, const Vector &b) const;
@@ -342,6 +354,9 @@ namespace geocone
     bool             one_triangle = false;
     /** Place of the diagonal entry of each free row. */
     std::vector<int> diagonal;
+
+    /** Of H in the metric of scale(), for the present step, or empty. */
+    Multipliers::Factors row_factors;
   };
 } // namespace geocone
 

@@ -100,12 +100,30 @@ namespace geocone
                    const Eigen::VectorXd &lambda) const;
 
     /**
-     * The multipliers that leave the least residual,
-     *   min_lambda sum_i (R - H' lambda)_i^2 / D_i over the touched dofs.
-     * @param scale D, or null for 1. Collective.
+     * D^{-1/2} H' = Q U of all ranks, Q with orthonormal columns, U upper
+     * triangular. Rows that nearly depend on each other make U ill-conditioned,
+     * but not Q: H D^{-1} H' = U'U would lose twice as many digits.
+     */
+    struct Factors
+    {
+      Eigen::VectorXd root; ///< D^{1/2} of the touched dofs
+      Eigen::MatrixXd Q;    ///< rows of the touched dofs
+      Eigen::MatrixXd U;
+    };
+
+    /** @param scale D, or null for 1. Collective. */
+    Factors
+    factorise(const Vector *scale) const;
+
+    /**
+     * Takes the forces H' lambda that leave the least residual,
+     *   min_lambda sum_i (R - H' lambda)_i^2 / D_i over the touched dofs,
+     * out of a residual R. What is left is accurate to the rounding of R, however
+     * large the lambda of rows are that nearly depend on each other.
+     * @return lambda. Collective.
      */
     Eigen::VectorXd
-    fit(const Vector &residual, const Vector *scale) const;
+    remove(Vector &residual, const Factors &factors) const;
 
     /** Sum of the forces H' lambda of a condition along a component (N/m). */
     double

@@ -25,10 +25,18 @@ namespace geocone
     static constexpr unsigned int max_cones = 3000;
 
     /**
-     * @throws InputError where there is no such problem: on several ranks, without
-     * inertia, for a consistent mass, for materials without a cone, and for more
-     * than max_cones points
+     * Whether there is such a problem: not on several ranks, without inertia, for
+     * a consistent mass, for materials without a cone, and for more than
+     * max_cones points. Collective.
+     * @param parameter what asks for it, and its value
+     * @throws InputError
      */
+    static void
+    check(const IncrementalProblem &problem,
+          const std::string        &parameter,
+          const std::string        &value);
+
+    /** @param problem one that check() has passed */
     explicit Reduction(const IncrementalProblem &problem);
 
     const ReducedProblem &

@@ -54,9 +54,17 @@ namespace geocone
   public:
     NonsmoothNewton();
 
-    /** Checks the parameters. */
+    /** Checks the parameters with each other. */
     void
     prepare();
+
+    /**
+     * Checks whether the formulation can be that of this problem, before a step
+     * is tried. Collective.
+     * @throws InputError
+     */
+    void
+    check(const IncrementalProblem &problem) const;
 
     /** What a time stepper knows of its problem. */
     struct Hints
@@ -116,9 +124,9 @@ namespace geocone
       const std::vector<Mandel> *natural_map_start = nullptr;
     };
 
-    /** Checks what concerns formulations and first iterates. */
-    void
-    prepare_formulation() const;
+    /** Whether the stresses alone are the unknowns. */
+    bool
+    is_reduced() const;
 
     /** Runs an attempt from v; what it spends is added to the report. */
     void

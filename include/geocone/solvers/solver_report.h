@@ -30,8 +30,13 @@ namespace geocone
     unsigned int regularised    = 0;  ///< systems made regular by a blend
     double       residual       = 0.; ///< relative, at the end
     double       friction_lag   = 0.; ///< of the law that was solved; 0: exact
+
+    /** Solved up to rounding, which is above the tolerance. */
+    bool at_rounding_floor = false;
+
     std::vector<NewtonIteration> table;
     std::string                  reason; ///< why it did not converge
+    std::string                  remedy; ///< what may help, if it is known
 
     /** Puts what was tried before in front. */
     void

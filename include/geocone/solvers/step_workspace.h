@@ -38,6 +38,20 @@ namespace geocone
            const double          blend,
            const double          friction_lag) const;
 
+    /**
+     * Whether |R_free| <= max(tolerance x force norm, absolute, c N), with N the
+     * estimate IncrementalProblem::rounding_floor() of what rounding leaves. The
+     * last counts only where it is small itself, and is told in the report.
+     */
+    bool
+    is_balanced(const ResidualReport &state,
+                const double          tolerance,
+                const double          absolute) const;
+
+    /** Says in the report that R or the law is not a number, and what may help. */
+    void
+    report_not_a_number() const;
+
     /** What the prescribed velocities and H v = q still ask of the iterate. */
     struct Jump
     {

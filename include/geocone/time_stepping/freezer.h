@@ -5,6 +5,7 @@
 #define geocone_time_stepping_freezer_h
 
 #include <geocone/mechanics/frozen_problem.h>
+#include <geocone/scene/loading.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
@@ -21,6 +22,10 @@ namespace geocone
   {
   public:
     Freezer();
+
+    /** @throws InputError for steps that the programme does not have */
+    void
+    check(const LoadingProgramme &loading) const;
 
     /** @param folder of the run, which exists */
     void
