@@ -31,7 +31,13 @@ namespace geocone
   {
     state = stepper.state();
     explicit_output.add_record(
-      {step, t, step_loop.last_cpu_time(), report, state, stepper.balance()});
+      {step,
+       t,
+       step_loop.last_cpu_time(),
+       report,
+       state,
+       stepper.balance(),
+       observed_points.displacements(stepper.points())});
     if (explicit_output.verbosity >= 1)
       log.progress(
         format("step %u/%u  t = %.4g s  %lu explicit steps  kinetic energy = "
@@ -51,6 +57,7 @@ namespace geocone
     scene.prepare();
     method.prepare();
     const std::vector<std::string> remarks = stepper.prepare(scene, method);
+    observed_points.prepare_points(scene, stepper.points(), comm);
     explicit_output.prepare(name, folder, scene);
 
     state = stepper.state();

@@ -101,6 +101,15 @@ namespace geocone
       stepper = &implicit_fem;
     const std::string warning =
       stepper->prepare(scene, mesh, space, newton, timer, kinematics, points);
+    if (method.is_mpm())
+      observed_points.prepare_points(scene, points, comm);
+    else
+      observed_points.prepare_field(scene, mesh, space);
+    if (freezer.is_used())
+      for (const auto &condition : scene.dirichlet.list)
+        condition->refuse_normal("free where problems are frozen",
+                                 "give Velocity x and y, or leave 'Output/"
+                                 "Freeze steps' and 'Freeze failures' out");
     run_output.prepare(name, folder, scene);
     freezer.prepare(run_output.folder());
     for (const std::string &text :
@@ -239,8 +248,14 @@ namespace geocone
                 t += sizes[i];
 
                 for (const unsigned int c : observation.conditions)
-                  for (unsigned int d = 0; d < dim; ++d)
-                    record.reactions.push_back(record.last.reactions[c][d]);
+                  {
+                    const Reaction &reaction = record.last.reactions[c];
+                    for (unsigned int d = 0; d < dim; ++d)
+                      record.reactions.push_back(reaction.force[d]);
+                    record.moments.push_back(reaction.moment);
+                  }
+                record.displacements = observed_points.displacements(
+                  points, kinematics.displacement);
                 if (!observation.conditions.empty())
                   {
                     record.displacement =

@@ -4,6 +4,7 @@
 #ifndef geocone_simulation_h
 #define geocone_simulation_h
 
+#include <geocone/discretisation/observed_points.h>
 #include <geocone/output/exact_solution.h>
 #include <geocone/output/run_output.h>
 #include <geocone/time_stepping/implicit_fem.h>
@@ -88,6 +89,7 @@ namespace geocone
     StepControl     step_control;
     Freezer         freezer;
     ExactSolution   exact_solution;
+    ObservedPoints  observed_points;
     RunOutput       run_output;
 
     dealii::TimerOutput timer;

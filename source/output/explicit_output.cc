@@ -58,6 +58,7 @@ namespace geocone
     for (const auto &condition : scene->dirichlet.list)
       for (const char *direction : {" x", " y"})
         columns.push_back("force " + condition->name + direction + " (N/m)");
+    add_observation_columns(scene->observation, scene->dirichlet, columns);
     statistics.open(path + "/statistics.csv", columns);
   }
 
@@ -128,9 +129,13 @@ namespace geocone
                                 r[1],
                                 s.angular_momentum,
                                 b.removed_mass};
-    for (const Tensor<1, dim> &reaction : record.report.reactions)
+    for (const Reaction &reaction : record.report.reactions)
       for (unsigned int d = 0; d < dim; ++d)
-        line.push_back(reaction[d]);
+        line.push_back(reaction.force[d]);
+    std::vector<double> moments;
+    for (const unsigned int c : scene->observation.conditions)
+      moments.push_back(record.report.reactions[c].moment);
+    add_observations(moments, record.displacements, line);
     statistics.add_line(line);
   }
 
@@ -235,6 +240,7 @@ namespace geocone
               std::abs(record.state.kinetic + record.balance.stress_work -
                        record.balance.gravity_work - initial.kinetic));
           }
+        add_points(last.displacements, summary);
         summary["explicit"] = {{"time_s", last.time},
                                {"steps", n},
                                {"smallest_step_s", least},

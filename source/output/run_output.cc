@@ -54,6 +54,7 @@ namespace geocone
                                "numerical loss (J/m)",
                                "energy identity error (-)"})
       columns.push_back(column);
+    add_observation_columns(scene->observation, scene->dirichlet, columns);
     statistics.open(path + "/statistics.csv", columns);
     newton.open(path + "/newton.csv",
                 {"step",
@@ -159,6 +160,7 @@ namespace geocone
                                loss,
                                report.identity_error})
       line.push_back(value);
+    add_observations(record.moments, record.displacements, line);
     statistics.add_line(line);
   }
 
@@ -223,6 +225,8 @@ namespace geocone
         topic["peak"]  = limit.peak;
         topic["last"]  = curve.empty() ? nothing : Json(curve.back().load);
       }
+    if (!records.empty())
+      add_points(records.back().displacements, json);
     json["newton"] = {
       {"steps", records.size()},
       {"substeps", substeps},

@@ -7,6 +7,7 @@
 #include <geocone/base/files.h>
 #include <geocone/base/log.h>
 #include <geocone/output/expectations.h>
+#include <geocone/scene/observation.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
@@ -15,6 +16,22 @@
 
 namespace geocone
 {
+  /** @name What both kinds of runs report of Scene::observation: columns of
+   *  statistics.csv, their values, and a topic of summary.json */
+  /** @{ */
+  void
+  add_observation_columns(const Observation        &observation,
+                          const BoundaryConditions &conditions,
+                          std::vector<std::string> &columns);
+  void
+  add_observations(const std::vector<double>                 &moments,
+                   const std::vector<dealii::Tensor<1, dim>> &displacements,
+                   std::vector<double>                       &line);
+  void
+  add_points(const std::vector<dealii::Tensor<1, dim>> &displacements,
+             Json                                      &summary);
+  /** @} */
+
   /**
    * What the outputs of all runs have in common: the folder with parameters.prm
    * (as used) and log.txt, statistics.csv, summary.json, and the expectations that
