@@ -5,6 +5,7 @@
 #include <geocone/base/stop_request.h>
 #include <geocone/explicit_simulation.h>
 #include <geocone/output/run_status.h>
+#include <geocone/run_estimate.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -33,7 +34,13 @@ namespace geocone
   {
     state = stepper.state();
     explicit_output.add_record(
-      {step, t, step_loop.last_cpu_time(), report, state, stepper.balance()});
+      {step,
+       t,
+       step_loop.last_cpu_time(),
+       report,
+       state,
+       stepper.balance(),
+       observed_points.displacements(stepper.points())});
     if (explicit_output.verbosity >= 1)
       log.progress(
         format("step %u/%u  t = %.4g s  %lu explicit steps  kinetic energy = "
@@ -52,7 +59,15 @@ namespace geocone
   {
     scene.prepare();
     method.prepare();
+    const RunEstimate estimate = estimate_run(scene,
+                                              method,
+                                              stepper.background_mesh(),
+                                              &stepper.seeds(),
+                                              explicit_output.fields_asked());
+    log.print(options.name + ": " + estimate.text());
+    estimate.check(options.force);
     const std::vector<std::string> remarks = stepper.prepare(scene, method);
+    observed_points.prepare_points(scene, stepper.points(), comm);
     if (options.dry_run)
       return true;
     explicit_output.prepare(options.name, options.folder, scene);

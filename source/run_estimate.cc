@@ -145,7 +145,8 @@ namespace geocone
         e.memory  = 160e6;
       }
     e.memory += of_points + of_nodes;
-    if (seeding != nullptr && of_points > of_nodes && !seeding->follows_cells())
+    if (seeding != nullptr && of_points > of_nodes &&
+        !seeding->size_parameter().empty())
       e.driver = seeding->size_parameter();
     if (fields.are_written)
       {

@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/stop_request.h>
 #include <geocone/output/run_status.h>
+#include <geocone/run_estimate.h>
 #include <geocone/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -96,6 +97,11 @@ namespace geocone
     newton.prepare();
     step_control.prepare();
     exact_solution.prepare();
+    Seeding *seeding = method.is_mpm() ? &implicit_mpm.seeding() : nullptr;
+    const RunEstimate estimate =
+      estimate_run(scene, method, mesh, seeding, run_output.fields_asked());
+    log.print(options.name + ": " + estimate.text());
+    estimate.check(options.force);
     mesh.prepare(scene, method);
     space.prepare(mesh, method);
     if (method.is_mpm())
@@ -104,6 +110,15 @@ namespace geocone
       stepper = &implicit_fem;
     const std::string warning =
       stepper->prepare(scene, mesh, space, newton, timer, kinematics, points);
+    if (method.is_mpm())
+      observed_points.prepare_points(scene, points, comm);
+    else
+      observed_points.prepare_field(scene, mesh, space);
+    if (freezer.is_used())
+      for (const auto &condition : scene.dirichlet.list)
+        condition->refuse_normal("free where problems are frozen",
+                                 "give Velocity x and y, or leave 'Output/"
+                                 "Freeze steps' and 'Freeze failures' out");
     freezer.check(scene.loading);
     if (options.dry_run)
       return false;
@@ -278,8 +293,14 @@ namespace geocone
                 t += sizes[i];
 
                 for (const unsigned int c : observation.conditions)
-                  for (unsigned int d = 0; d < dim; ++d)
-                    record.reactions.push_back(record.last.reactions[c][d]);
+                  {
+                    const Reaction &reaction = record.last.reactions[c];
+                    for (unsigned int d = 0; d < dim; ++d)
+                      record.reactions.push_back(reaction.force[d]);
+                    record.moments.push_back(reaction.moment);
+                  }
+                record.displacements = observed_points.displacements(
+                  points, kinematics.displacement);
                 if (!observation.conditions.empty())
                   {
                     record.displacement =

@@ -7,6 +7,7 @@
 #include <geocone/base/log.h>
 #include <geocone/base/parameter_file.h>
 #include <geocone/discretisation/method.h>
+#include <geocone/discretisation/observed_points.h>
 #include <geocone/output/explicit_output.h>
 #include <geocone/run_options.h>
 #include <geocone/scene/scene.h>
@@ -63,6 +64,7 @@ namespace geocone
     Scene          scene;
     Method         method;
     ExplicitMPM    stepper;
+    ObservedPoints observed_points;
     ExplicitOutput explicit_output;
 
     ExplicitState state; ///< at the last record

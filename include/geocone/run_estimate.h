@@ -6,6 +6,7 @@
 
 #include <geocone/discretisation/background_mesh.h>
 #include <geocone/discretisation/seeding.h>
+#include <geocone/output/output_base.h>
 #include <geocone/scene/scene.h>
 
 #include <string>
@@ -42,23 +43,16 @@ namespace geocone
     check(const bool force) const;
   };
 
-  /** What the fields of a run are written as. */
-  struct FieldsAsked
-  {
-    bool   are_written = false;
-    double n_formats   = 1.;
-  };
-
   /**
-   * The estimate. The scene and the method must be prepared.
+   * The estimate. The scene and the method must be prepared; the
+   * seeding is here.
    * @param seeding of the particles, or nullptr for FEM
    */
   RunEstimate
   estimate_run(const Scene       &scene,
                const Method      &method,
                BackgroundMesh    &mesh,
-               const std::string &element,
-               const Seeding     *seeding,
+               Seeding           *seeding,
                const FieldsAsked &fields);
 } // namespace geocone
 

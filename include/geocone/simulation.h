@@ -4,6 +4,7 @@
 #ifndef geocone_simulation_h
 #define geocone_simulation_h
 
+#include <geocone/discretisation/observed_points.h>
 #include <geocone/output/exact_solution.h>
 #include <geocone/output/run_output.h>
 #include <geocone/run_options.h>
@@ -94,6 +95,7 @@ namespace geocone
     StepControl     step_control;
     Freezer         freezer;
     ExactSolution   exact_solution;
+    ObservedPoints  observed_points;
     RunOutput       run_output;
 
     double reached = 0.; ///< time of the last substep that was solved (s)

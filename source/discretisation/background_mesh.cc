@@ -13,6 +13,7 @@
 #include <deal.II/fe/mapping_fe.h>
 #include <deal.II/fe/mapping_q1.h>
 
+#include <filesystem>
 #include <numeric>
 
 namespace geocone
@@ -60,6 +61,52 @@ namespace geocone
         parameters.type != "uniform" || parameters.cells != "quadrilaterals")
       return {};
     return grid_lines(parameters);
+  }
+
+  BackgroundMesh::Expected
+  BackgroundMesh::expect(const Scene &scene, const Method &method)
+  {
+    parameters.prepare(scene.geometry, method);
+    Expected expected;
+    if (scene.geometry.shape == Geometry::Shape::file)
+      {
+        // About 80 bytes for a cell and its part of the nodes, as text.
+        std::error_code error;
+        const double    size =
+          std::filesystem::file_size(scene.geometry.file, error);
+        const double n = error ? 1. : std::max(1., size / 80.);
+        return {n, {{n, 1.}}, 1., !method.is_mpm(), false, "Geometry/File"};
+      }
+    const bool is_box      = parameters.type != "unstructured";
+    expected.is_simplicial = parameters.cells == "triangles";
+    expected.is_grid       = is_box && !expected.is_simplicial;
+    if (is_box)
+      {
+        expected.intervals = grid_size(parameters);
+        expected.n_cells   = expected.intervals[0] * expected.intervals[1];
+        if (expected.is_simplicial)
+          expected.n_cells *= parameters.diagonals == "crossed" ? 4. : 2.;
+      }
+    else
+      {
+        expected.n_cells   = unstructured_size(parameters);
+        expected.intervals = {{expected.n_cells, 1.}};
+      }
+    expected.area          = 0.;
+    const Polygon &outline = parameters.outline;
+    for (std::size_t i = 0; i < outline.size(); ++i)
+      {
+        const Point<dim> &a = outline[i],
+                         &b = outline[(i + 1) % outline.size()];
+        expected.area += (a[0] * b[1] - b[0] * a[1]) / 2.;
+      }
+    expected.area = std::abs(expected.area);
+    expected.parameter =
+      parameters.type == "graded" || (parameters.type == "unstructured" &&
+                                      !parameters.grading_points.empty())
+        ? "Mesh/Smallest size"
+        : "Mesh/Cell size";
+    return expected;
   }
 
   void

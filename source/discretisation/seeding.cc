@@ -258,6 +258,16 @@ namespace geocone
            std::min(1., area / area_of_mesh);
   }
 
+  std::string
+  Seeding::size_parameter() const
+  {
+    return layout == "lattice" ? "Particles/Spacing" :
+           layout == "random"  ? "Particles/Number" :
+           layout == "file"    ? "Particles/File" :
+           k > 4               ? "Particles/Points per direction" :
+                                 "";
+  }
+
   void
   Seeding::for_each(const Scene          &scene,
                     const BackgroundMesh &mesh,

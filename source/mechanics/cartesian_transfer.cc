@@ -53,6 +53,7 @@ namespace geocone
                              "background mesh",
                              "choose among them");
         unsigned int n_found = 0;
+        Point<dim>   lower(1e300, 1e300), upper(-1e300, -1e300);
         for (const auto &[side, place] : sides)
           if (condition.is_on_side(side))
             {
@@ -69,6 +70,11 @@ namespace geocone
                     continue;
                   ++n_found;
                   for (unsigned int d = 0; d < dim; ++d)
+                    {
+                      lower[d] = std::min(lower[d], p.place[d]);
+                      upper[d] = std::max(upper[d], p.place[d]);
+                    }
+                  for (unsigned int d = 0; d < dim; ++d)
                     if (condition.components[d])
                       {
                         p.component                                       = d;
@@ -77,6 +83,7 @@ namespace geocone
                 }
             }
         condition.check_selection(n_found);
+        centres.push_back(lower + (upper - lower) / 2.);
       }
     for (const auto &entry : of_component)
       prescribed_functions.push_back(entry.second);

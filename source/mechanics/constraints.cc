@@ -4,16 +4,44 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/mechanics/constraints.h>
+#include <geocone/mechanics/face_points.h>
+#include <geocone/mechanics/moving_boundary.h>
 
 #include <Eigen/Eigenvalues>
 
 #include <deal.II/base/mpi.h>
 
-#include <map>
+#include <algorithm>
+#include <cmath>
+#include <set>
 
 namespace geocone
 {
   using namespace dealii;
+
+  namespace
+  {
+    /** Two conditions whose directions differ by less hold one (10 degrees). */
+    const double least_sine = std::sin(radians(10.));
+
+    /** Sides of one condition that meet in a sharper corner (60 degrees) have no
+     *  common normal there: |sum of n dA| over the sum of dA. */
+    const double least_mean_normal = std::cos(radians(30.));
+
+    double
+    cross(const Tensor<1, dim> &a, const Tensor<1, dim> &b)
+    {
+      return a[0] * b[1] - a[1] * b[0];
+    }
+
+    Tensor<1, dim>
+    axis(const unsigned int component)
+    {
+      Tensor<1, dim> e;
+      e[component] = 1.;
+      return e;
+    }
+  } // namespace
 
   Constraints::Constraints(const Scene          &scene,
                            const BackgroundMesh &mesh,
@@ -22,30 +50,232 @@ namespace geocone
     , space(space)
     , comm(mesh.triangulation().get_communicator())
   {
-    // The last condition in the list that prescribes a dof holds it.
-    const auto                        &list = scene.dirichlet.list;
-    std::map<unsigned int, Prescribed> of_dof;
+    // Per local dof the conditions that prescribe it; the last one holds it.
+    const auto &list = scene.dirichlet.list;
+    std::map<unsigned int, std::vector<unsigned int>> of_dof;
+    std::vector<std::vector<unsigned int>>            nodes(list.size());
     for (unsigned int c = 0; c < list.size(); ++c)
       {
         owned_nodes.emplace_back();
         n_nodes.push_back(0);
-        if (list[c]->moves())
-          continue;
-        for (const unsigned int node :
-             space.nodes_on_sides(mesh.side_ids(*list[c])))
-          if (list[c]->in_box(space.node_positions()[node]))
+        // Least x, y and largest, with its sign changed.
+        std::array<double, 4> bounds = {{1e300, 1e300, 1e300, 1e300}};
+        const auto            extend = [&](const Point<dim> &x) {
+          for (unsigned int d = 0; d < dim; ++d)
             {
-              if (node < space.n_owned_nodes())
-                owned_nodes[c].push_back(node);
-              for (unsigned int i = 0; i < dim; ++i)
-                if (list[c]->components[i])
-                  of_dof[dim * node + i] = {node, i, c};
+              bounds[d]       = std::min(bounds[d], x[d]);
+              bounds[dim + d] = std::min(bounds[dim + d], -x[d]);
             }
-        n_nodes[c] = Utilities::MPI::sum(owned_nodes[c].size(), comm);
-        list[c]->check_selection(n_nodes[c]);
+        };
+        if (list[c]->moves())
+          for (const auto &line : lines_of_body(*list[c], scene.geometry))
+            {
+              extend(line.a);
+              extend(line.b);
+            }
+        else
+          {
+            for (const unsigned int node :
+                 space.nodes_on_sides(mesh.side_ids(*list[c])))
+              if (list[c]->in_box(space.node_positions()[node]))
+                {
+                  nodes[c].push_back(node);
+                  extend(space.node_positions()[node]);
+                  if (node < space.n_owned_nodes())
+                    owned_nodes[c].push_back(node);
+                  for (unsigned int i = 0; i < dim; ++i)
+                    if (list[c]->components[i])
+                      of_dof[dim * node + i].push_back(c);
+                }
+            n_nodes[c] = Utilities::MPI::sum(owned_nodes[c].size(), comm);
+            list[c]->check_selection(n_nodes[c]);
+          }
+        Utilities::MPI::min(ArrayView<const double>(bounds.data(), 4),
+                            comm,
+                            ArrayView<double>(bounds.data(), 4));
+        centres.emplace_back((bounds[0] - bounds[2]) / 2.,
+                             (bounds[1] - bounds[3]) / 2.);
+        if (const auto given = scene.observation.moment_centre())
+          centres.back() = *given;
       }
-    for (const auto &entry : of_dof)
-      prescribed.push_back(entry.second);
+    find_oblique_nodes(mesh, nodes, of_dof);
+    find_shared(mesh, of_dof);
+    for (const auto &[dof, conditions] : of_dof)
+      prescribed.push_back({dof / dim, dof % dim, conditions.back()});
+  }
+
+  void
+  Constraints::find_oblique_nodes(
+    const BackgroundMesh                              &mesh,
+    const std::vector<std::vector<unsigned int>>      &nodes,
+    std::map<unsigned int, std::vector<unsigned int>> &of_dof)
+  {
+    const auto                                    &list = scene.dirichlet.list;
+    std::map<unsigned int, std::vector<Direction>> of_node;
+    for (unsigned int c = 0; c < list.size(); ++c)
+      {
+        if (!list[c]->normal)
+          continue;
+        // The sums of N_i n dA, and of N_i dA.
+        const auto ids = mesh.side_ids(*list[c]);
+        Vector     normal(space.partitioner()), size(space.partitioner());
+        for (const auto &cell : mesh.own_cells())
+          for (const unsigned int f : cell->face_indices())
+            if (cell->face(f)->at_boundary() &&
+                ids.count(cell->face(f)->boundary_id()) > 0 &&
+                list[c]->in_box(cell->face(f)->center()))
+              for (const FacePoint &point :
+                   points_on_face(mesh, space, cell, f))
+                for (unsigned int i = 0; i < point.nodes.size(); ++i)
+                  for (unsigned int d = 0; d < dim; ++d)
+                    {
+                      const unsigned int dof  = dim * point.nodes[i] + d;
+                      const double       part = point.weight * point.values[i];
+                      normal.local_element(dof) += part * point.normal[d];
+                      size.local_element(dof) += part;
+                    }
+        for (Vector *sum : {&normal, &size})
+          {
+            sum->compress(VectorOperation::add);
+            sum->update_ghost_values();
+          }
+        std::string corner;
+        for (const unsigned int node : nodes[c])
+          {
+            const Tensor<1, dim> n({normal.local_element(dim * node),
+                                    normal.local_element(dim * node + 1)});
+            if (n.norm() > least_mean_normal * size.local_element(dim * node))
+              of_node[node].push_back({c, dim, n / n.norm()});
+            else
+              corner = format("(%g, %g)",
+                              space.node_positions()[node][0],
+                              space.node_positions()[node][1]);
+          }
+        corner = text_of_any_rank(comm, corner);
+        if (!corner.empty())
+          throw InputError(
+            list[c]->parameter("Velocity normal"),
+            list[c]->formula(dim),
+            "sides that have a normal at each node: they meet in corners of "
+            "less than 60 degrees, and a box holds whole faces",
+            "give the sides that meet at " + corner +
+              " conditions of their own, or enlarge the box");
+      }
+
+    for (auto &[node, directions] : of_node)
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          if (const auto held = of_dof.find(dim * node + d);
+              held != of_dof.end())
+            for (const unsigned int c : held->second)
+              directions.push_back({c, d, axis(d)});
+        std::stable_sort(directions.begin(),
+                         directions.end(),
+                         [](const Direction &a, const Direction &b) {
+                           return a.condition < b.condition;
+                         });
+        // Later ones hold, as long as they are independent.
+        std::vector<Direction> kept;
+        for (auto i = directions.rbegin(); i != directions.rend(); ++i)
+          if (kept.empty() || (kept.size() == 1 &&
+                               std::abs(cross(kept[0].d, i->d)) > least_sine))
+            kept.push_back(*i);
+        if (std::all_of(kept.begin(), kept.end(), [](const Direction &k) {
+              return k.component < dim;
+            }))
+          continue; // of x and y only
+        for (unsigned int d = 0; d < dim; ++d)
+          of_dof.erase(dim * node + d);
+        oblique.push_back({node, kept});
+        if (kept.size() == 1)
+          turned_nodes.push_back({node, kept[0].d[0], kept[0].d[1]});
+      }
+  }
+
+  void
+  Constraints::find_shared(
+    const BackgroundMesh                                    &mesh,
+    const std::map<unsigned int, std::vector<unsigned int>> &of_dof)
+  {
+    // Of each shared component its dof and the conditions, on all ranks.
+    std::vector<std::vector<types::global_dof_index>> own;
+    for (const auto &[dof, conditions] : of_dof)
+      if (conditions.size() > 1)
+        {
+          own.emplace_back(1, space.partitioner()->local_to_global(dof));
+          own.back().insert(
+            own.back().end(), conditions.begin(), conditions.end());
+        }
+    if (Utilities::MPI::sum(own.size(), comm) == 0)
+      return;
+    for (const auto &of_rank : Utilities::MPI::all_gather(comm, own))
+      for (const auto &entry : of_rank)
+        shared[entry[0]].conditions.assign(entry.begin() + 1, entry.end());
+    for (auto &entry : shared)
+      {
+        entry.second.first = n_shares;
+        n_shares += entry.second.conditions.size();
+      }
+
+    // A face belongs to the last condition that holds the component there.
+    const auto                               &list = scene.dirichlet.list;
+    std::vector<std::set<types::boundary_id>> ids(list.size());
+    std::vector<double>                       sizes(n_shares, 0.);
+    std::map<unsigned int,
+             std::map<std::array<unsigned int, 2>, Tensor<1, dim>>>
+      of_cell;
+    for (unsigned int c = 0; c < list.size(); ++c)
+      if (!list[c]->moves())
+        ids[c] = mesh.side_ids(*list[c]);
+    for (const auto &cell : mesh.own_cells())
+      for (const unsigned int f : cell->face_indices())
+        if (cell->face(f)->at_boundary())
+          for (const FacePoint &point : points_on_face(mesh, space, cell, f))
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                unsigned int holder = list.size();
+                for (unsigned int c = 0; c < list.size(); ++c)
+                  if (list[c]->components[d] &&
+                      ids[c].count(cell->face(f)->boundary_id()) > 0 &&
+                      list[c]->in_box(point.position))
+                    holder = c;
+                if (holder == list.size())
+                  continue;
+                for (unsigned int i = 0; i < point.nodes.size(); ++i)
+                  {
+                    const auto found =
+                      shared.find(space.partitioner()->local_to_global(
+                        dim * point.nodes[i] + d));
+                    if (found == shared.end() || point.values[i] == 0.)
+                      continue;
+                    const auto &conditions = found->second.conditions;
+                    const auto  at =
+                      std::find(conditions.begin(), conditions.end(), holder);
+                    if (at == conditions.end())
+                      continue;
+                    const unsigned int place =
+                      found->second.first + (at - conditions.begin());
+                    const double part = point.weight * point.values[i];
+                    sizes[place] += part;
+                    of_cell[cell->active_cell_index()][{{place, d}}] +=
+                      part * point.normal;
+                  }
+              }
+    Utilities::MPI::sum(
+      ArrayView<const double>(sizes), comm, ArrayView<double>(sizes));
+    for (auto &entry : shared)
+      entry.second.size.assign(sizes.begin() + entry.second.first,
+                               sizes.begin() + entry.second.first +
+                                 entry.second.conditions.size());
+    const unsigned int n_cells = mesh.triangulation().n_active_cells();
+    for (unsigned int c = 0; c < n_cells; ++c)
+      {
+        first_part.push_back(parts.size());
+        if (const auto found = of_cell.find(c); found != of_cell.end())
+          for (const auto &[key, weight] : found->second)
+            parts.push_back({key[0], key[1], weight});
+      }
+    first_part.push_back(parts.size());
   }
 
   void
@@ -65,6 +295,9 @@ namespace geocone
           }
     for (const Prescribed &p : prescribed)
       free_row[dim * p.node + p.component] = prescribed_row;
+    for (const Oblique &o : oblique)
+      for (unsigned int d = 0; d < o.directions.size(); ++d)
+        free_row[dim * o.node + d] = prescribed_row;
 
     // Owned dofs first, numbered through the ranks; a ghost's number comes from
     // its owner.
@@ -140,21 +373,22 @@ namespace geocone
         size[p]         = std::sqrt(
           std::max(1e-300, s[3] / s[0] - xc[p] * xc[p] - yc[p] * yc[p]));
       }
+    const auto hold = [&](const unsigned int node, const Tensor<1, dim> &d) {
+      if (node >= space.n_owned_nodes())
+        return;
+      const int         p      = part_of_node[node];
+      const Point<dim> &x      = space.node_positions()[node];
+      const double      row[3] = {
+             d[0], d[1], (d[1] * (x[0] - xc[p]) - d[0] * (x[1] - yc[p])) / size[p]};
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j < 3; ++j)
+          gram[9 * p + 3 * i + j] += row[i] * row[j];
+    };
     for (const Prescribed &dof : prescribed)
-      {
-        const unsigned int node = dof.node;
-        if (node >= space.n_owned_nodes())
-          continue;
-        const int         p      = part_of_node[node];
-        const Point<dim> &x      = space.node_positions()[node];
-        const double      row[3] = {
-               dof.component == 0 ? 1. : 0.,
-          dof.component == 0 ? 0. : 1.,
-          (dof.component == 0 ? -(x[1] - yc[p]) : x[0] - xc[p]) / size[p]};
-        for (unsigned int i = 0; i < 3; ++i)
-          for (unsigned int j = 0; j < 3; ++j)
-            gram[9 * p + 3 * i + j] += row[i] * row[j];
-      }
+      hold(dof.node, axis(dof.component));
+    for (const Oblique &o : oblique)
+      for (const Direction &direction : o.directions)
+        hold(o.node, direction.d);
     Utilities::MPI::sum(
       ArrayView<const double>(gram), comm, ArrayView<double>(gram));
     for (unsigned int p = 0; p < n_parts; ++p)
@@ -195,26 +429,187 @@ namespace geocone
       }
   }
 
+  double
+  Constraints::value(const unsigned int condition,
+                     const unsigned int component,
+                     const unsigned int node,
+                     const double       t) const
+  {
+    const BoundaryCondition &c = *scene.dirichlet.list[condition];
+    return (component < dim ? c.components[component] : c.normal)
+      ->value(space.node_positions()[node], t);
+  }
+
   void
   Constraints::set_values(Vector &v, const double t) const
   {
     for (const Prescribed &p : prescribed)
       v.local_element(dim * p.node + p.component) =
-        scene.dirichlet.list[p.condition]->components[p.component]->value(
-          space.node_positions()[p.node], t);
+        value(p.condition, p.component, p.node, t);
+    for (const Oblique &o : oblique)
+      {
+        double      *at = &v.local_element(dim * o.node);
+        const auto  &k  = o.directions;
+        const double q  = value(k[0].condition, k[0].component, o.node, t);
+        if (k.size() == 1)
+          {
+            at[0] = q;
+            continue;
+          }
+        // d_0 v = q, d_1 v = q_1
+        const double q_1 = value(k[1].condition, k[1].component, o.node, t);
+        const double det = cross(k[0].d, k[1].d);
+        at[0]            = (q * k[1].d[1] - q_1 * k[0].d[1]) / det;
+        at[1]            = (q_1 * k[0].d[0] - q * k[1].d[0]) / det;
+      }
   }
 
-  double
-  Constraints::resultant(const Vector      &residual,
-                         const unsigned int condition,
-                         const unsigned int component) const
+  void
+  Constraints::turn(Vector &v) const
   {
-    double sum = 0.;
+    for (const TurnedNode &turned : turned_nodes)
+      if (turned.node < space.n_owned_nodes())
+        {
+          double      *at = &v.local_element(dim * turned.node);
+          const double x = at[0], y = at[1];
+          at[0] = turned.n_x * x + turned.n_y * y;
+          at[1] = turned.n_x * y - turned.n_y * x;
+        }
+    if (!turned_nodes.empty() && v.has_ghost_elements())
+      v.update_ghost_values();
+  }
+
+  void
+  Constraints::turn_back(Vector &v) const
+  {
+    for (const TurnedNode &turned : turned_nodes)
+      if (turned.node < space.n_owned_nodes())
+        {
+          double      *at = &v.local_element(dim * turned.node);
+          const double n = at[0], t = at[1];
+          at[0] = turned.n_x * n - turned.n_y * t;
+          at[1] = turned.n_y * n + turned.n_x * t;
+        }
+    if (!turned_nodes.empty() && v.has_ghost_elements())
+      v.update_ghost_values();
+  }
+
+  std::vector<Reaction>
+  Constraints::reactions(const Vector              &residual,
+                         const MaterialPoints      &points,
+                         const std::vector<Mandel> &stress,
+                         const double               t) const
+  {
+    // What the stress exerts on the faces of those who share.
+    std::vector<double> exerted(n_shares, 0.);
+    if (n_shares > 0)
+      {
+        for (unsigned int c = 0; c < points.n_cells(); ++c)
+          {
+            const unsigned int cell = points.cells[c]->active_cell_index();
+            if (first_part[cell] == first_part[cell + 1])
+              continue;
+            Mandel mean = Mandel::Zero();
+            for (unsigned int p = points.first_point[c];
+                 p < points.first_point[c + 1];
+                 ++p)
+              mean += points.weight[p] * stress[p];
+            mean /= points.cells[c]->measure();
+            for (unsigned int i = first_part[cell]; i < first_part[cell + 1];
+                 ++i)
+              {
+                const Part  &part  = parts[i];
+                const double shear = mean[2] / sqrt2;
+                exerted[part.place] +=
+                  part.component == 0
+                    ? mean[0] * part.weight[0] + shear * part.weight[1]
+                    : shear * part.weight[0] + mean[1] * part.weight[1];
+              }
+          }
+        Utilities::MPI::sum(
+          ArrayView<const double>(exerted), comm, ArrayView<double>(exerted));
+      }
+
+    const unsigned int  n = scene.dirichlet.list.size();
+    std::vector<double> sums(3 * n, 0.);
+    const auto          add = [&](const unsigned int c,
+                         const unsigned int node,
+                         const unsigned int component,
+                         const double       f) {
+      const Tensor<1, dim> r = space.node_positions()[node] - centres[c];
+      sums[3 * c + component] += f;
+      sums[3 * c + 2] += component == 0 ? -r[1] * f : r[0] * f;
+    };
     for (const Prescribed &p : prescribed)
-      if (p.condition == condition && p.component == component &&
-          p.node < space.n_owned_nodes())
-        sum += residual.local_element(dim * p.node + component);
-    return Utilities::MPI::sum(sum, comm);
+      {
+        if (p.node >= space.n_owned_nodes())
+          continue;
+        const unsigned int dof = dim * p.node + p.component;
+        const double       f   = residual.local_element(dof);
+        const auto         found =
+          n_shares > 0 ? shared.find(space.partitioner()->local_to_global(dof))
+                               : shared.end();
+        if (found == shared.end() || !(found->second.size.back() > 0.))
+          {
+            add(p.condition, p.node, p.component, f);
+            continue;
+          }
+        // Those that ask for another velocity than the node has bear nothing.
+        const Shared       &s = found->second;
+        std::vector<double> size(s.size.size(), 0.);
+        double              whole = 0., left = f;
+        for (unsigned int k = 0; k < s.conditions.size(); ++k)
+          {
+            double largest = 0.;
+            for (const unsigned int c : {s.conditions[k], p.condition})
+              for (unsigned int d = 0; d < dim; ++d)
+                if (scene.dirichlet.list[c]->components[d])
+                  largest = std::max(largest, std::abs(value(c, d, p.node, t)));
+            if (s.size[k] > 0. &&
+                std::abs(value(s.conditions[k], p.component, p.node, t) -
+                         value(p.condition, p.component, p.node, t)) <=
+                  1e-9 * largest)
+              {
+                size[k] = s.size[k];
+                whole += size[k];
+                left -= exerted[s.first + k];
+              }
+          }
+        for (unsigned int k = 0; k < s.conditions.size(); ++k)
+          if (size[k] > 0.)
+            add(s.conditions[k],
+                p.node,
+                p.component,
+                exerted[s.first + k] + left * size[k] / whole);
+      }
+    for (const Oblique &o : oblique)
+      {
+        if (o.node >= space.n_owned_nodes())
+          continue;
+        const double *f        = residual.begin() + dim * o.node;
+        const auto   &k        = o.directions;
+        double        along[2] = {f[0], 0.};
+        if (k.size() == 2)
+          {
+            // f = along_0 d_0 + along_1 d_1
+            const Tensor<1, dim> force({f[0], f[1]});
+            const double         det = cross(k[0].d, k[1].d);
+            along[0]                 = cross(force, k[1].d) / det;
+            along[1]                 = cross(k[0].d, force) / det;
+          }
+        for (unsigned int i = 0; i < k.size(); ++i)
+          for (unsigned int d = 0; d < dim; ++d)
+            add(k[i].condition, o.node, d, along[i] * k[i].d[d]);
+      }
+    Utilities::MPI::sum(
+      ArrayView<const double>(sums), comm, ArrayView<double>(sums));
+    std::vector<Reaction> result(n);
+    for (unsigned int c = 0; c < n; ++c)
+      {
+        result[c].force  = Tensor<1, dim>({sums[3 * c], sums[3 * c + 1]});
+        result[c].moment = sums[3 * c + 2];
+      }
+    return result;
   }
 
   double

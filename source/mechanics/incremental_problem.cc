@@ -8,6 +8,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <map>
 
 namespace geocone
 {
@@ -38,6 +39,85 @@ namespace geocone
         runs.push_back({p, p + 1, points.material[p]});
       else
         ++runs.back().end;
+    if (unknowns.turned_nodes.empty())
+      return;
+    std::map<unsigned int, const Unknowns::TurnedNode *> turned;
+    for (const Unknowns::TurnedNode &node : unknowns.turned_nodes)
+      turned[node.node] = &node;
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      {
+        first_turn.push_back(turns.size());
+        for (unsigned int i = 0; i < points.n_nodes; ++i)
+          if (const auto found =
+                turned.find(points.nodes[c * points.n_nodes + i]);
+              found != turned.end())
+            turns.push_back({i, found->second->n_x, found->second->n_y});
+      }
+    first_turn.push_back(turns.size());
+  }
+
+  const IncrementalProblem::Turn *
+  IncrementalProblem::turn_of(const unsigned int c, const unsigned int i) const
+  {
+    if (!turns.empty())
+      for (unsigned int k = first_turn[c]; k < first_turn[c + 1]; ++k)
+        if (turns[k].node == i)
+          return &turns[k];
+    return nullptr;
+  }
+
+  void
+  IncrementalProblem::velocities_to_xy(const unsigned int c,
+                                       double            *cell_v) const
+  {
+    if (turns.empty())
+      return;
+    for (unsigned int i = first_turn[c]; i < first_turn[c + 1]; ++i)
+      {
+        double      *v = cell_v + dim * turns[i].node;
+        const double n = v[0], t = v[1];
+        v[0] = turns[i].n_x * n - turns[i].n_y * t;
+        v[1] = turns[i].n_y * n + turns[i].n_x * t;
+      }
+  }
+
+  void
+  IncrementalProblem::forces_to_dofs(const unsigned int c, double *cell_f) const
+  {
+    if (turns.empty())
+      return;
+    for (unsigned int i = first_turn[c]; i < first_turn[c + 1]; ++i)
+      {
+        double      *f = cell_f + dim * turns[i].node;
+        const double x = f[0], y = f[1];
+        f[0] = turns[i].n_x * x + turns[i].n_y * y;
+        f[1] = turns[i].n_x * y - turns[i].n_y * x;
+      }
+  }
+
+  void
+  IncrementalProblem::matrix_to_dofs(const unsigned int c,
+                                     const unsigned int n_dofs,
+                                     const bool         upper,
+                                     double            *K) const
+  {
+    if (turns.empty() || first_turn[c] == first_turn[c + 1])
+      return;
+    if (upper)
+      for (unsigned int i = 0; i < n_dofs; ++i)
+        for (unsigned int j = 0; j < i; ++j)
+          K[n_dofs * i + j] = K[n_dofs * j + i];
+    std::vector<double> column(n_dofs);
+    for (unsigned int j = 0; j < n_dofs; ++j)
+      {
+        for (unsigned int i = 0; i < n_dofs; ++i)
+          column[i] = K[n_dofs * i + j];
+        forces_to_dofs(c, column.data());
+        for (unsigned int i = 0; i < n_dofs; ++i)
+          K[n_dofs * i + j] = column[i];
+      }
+    for (unsigned int i = 0; i < n_dofs; ++i)
+      forces_to_dofs(c, K + n_dofs * i);
   }
 
   void
@@ -146,6 +226,7 @@ namespace geocone
         {
           double cell_v[2 * n];
           gather<n>(v.begin(), &points.nodes[c * n], cell_v);
+          velocities_to_xy(c, cell_v);
           strains_of_cell<n>(c, cell_v, h, strain);
         }
     });
@@ -169,6 +250,7 @@ namespace geocone
               return points.weight[p] * stress[p];
             },
             cell_f);
+          forces_to_dofs(c, cell_f);
           scatter_add<n>(cell_f, &points.nodes[c * n], dst.begin());
         }
     });
@@ -302,13 +384,19 @@ namespace geocone
           const double      factor = h * points.weight[p];
           for (unsigned int i = 0; i < n; ++i)
             {
-              const double gx        = points.gradients[2 * n * p + i],
-                           gy        = points.gradients[2 * n * p + n + i];
+              double g[dim] = {points.gradients[2 * n * p + i],
+                               points.gradients[2 * n * p + n + i]};
+              if (const Turn *turn = turn_of(c, i))
+                {
+                  const double gx = g[0], gy = g[1];
+                  g[0] = turn->n_x * gx + turn->n_y * gy;
+                  g[1] = turn->n_x * gy - turn->n_y * gx;
+                }
               const unsigned int dof = dim * points.nodes[c * n + i];
               elastic_diagonal.local_element(dof) +=
-                factor * (direct * gx * gx + shear * gy * gy);
+                factor * (direct * g[0] * g[0] + shear * g[1] * g[1]);
               elastic_diagonal.local_element(dof + 1) +=
-                factor * (direct * gy * gy + shear * gx * gx);
+                factor * (direct * g[1] * g[1] + shear * g[0] * g[0]);
             }
         }
     elastic_diagonal.compress(VectorOperation::add);
@@ -489,6 +577,7 @@ namespace geocone
                     for (int d = 0; d < 2; ++d)
                       K[2 * n * (2 * i + d) + 2 * j + d] += m * N[i] * N[j];
               }
+          matrix_to_dofs(c, 2 * n, one_triangle, K);
           for (int i = 0; i < 2 * n; ++i)
             for (int j = one_triangle ? i : 0; j < 2 * n; ++j, ++place)
               if (*place >= 0)
@@ -520,6 +609,7 @@ namespace geocone
         {
           double cell_v[2 * n], cell_f[2 * n] = {};
           gather<n>(dv.begin(), &points.nodes[c * n], cell_v);
+          velocities_to_xy(c, cell_v);
           strains_of_cell<n>(c, cell_v, h, rate);
           add_forces_of_cell<n>(
             c,
@@ -527,6 +617,7 @@ namespace geocone
               return points.weight[p] * (tangent[p] * rate[p]);
             },
             cell_f);
+          forces_to_dofs(c, cell_f);
           scatter_add<n>(cell_f, &points.nodes[c * n], dst.begin());
         }
     });
@@ -548,6 +639,7 @@ namespace geocone
           {
             double cell_v[2 * n] = {};
             cell_v[j]            = 1.;
+            velocities_to_xy(c, cell_v);
             strains_of_cell<n>(c, cell_v, 1., column);
             for (unsigned int p = points.first_point[c];
                  p < points.first_point[c + 1];

@@ -66,16 +66,6 @@ namespace geocone
                const Space          &space)
     : scene(scene)
   {
-    // Unit vertices of the faces, in the numbering of the reference cells.
-    const std::vector<std::array<Point<dim>, 2>> faces_triangle = {
-      {{{0., 0.}, {1., 0.}}}, {{{1., 0.}, {0., 1.}}}, {{{0., 1.}, {0., 0.}}}};
-    const std::vector<std::array<Point<dim>, 2>> faces_square = {
-      {{{0., 0.}, {0., 1.}}},
-      {{{1., 0.}, {1., 1.}}},
-      {{{0., 0.}, {1., 0.}}},
-      {{{0., 1.}, {1., 1.}}}};
-    const QGauss<1>                      rule(space.degree() + 2);
-    std::vector<types::global_dof_index> nodes;
     for (unsigned int c = 0; c < scene.tractions.list.size(); ++c)
       {
         const BoundaryCondition &condition = *scene.tractions.list[c];
@@ -88,25 +78,9 @@ namespace geocone
                 condition.in_box(cell->face(f)->center()))
               {
                 ++n_faces;
-                space.cell_nodes(cell, nodes);
-                const auto &ends =
-                  mesh.is_simplicial() ? faces_triangle[f] : faces_square[f];
-                const double length = cell->face(f)->measure();
-                for (unsigned int q = 0; q < rule.size(); ++q)
-                  {
-                    const Point<dim> unit =
-                      ends[0] + rule.point(q)[0] * (ends[1] - ends[0]);
-                    FacePoint point;
-                    point.condition = c;
-                    point.position =
-                      mesh.mapping().transform_unit_to_real_cell(cell, unit);
-                    point.weight = rule.weight(q) * length;
-                    point.values.resize(nodes.size());
-                    space.evaluate(cell, unit, point.values.data(), nullptr);
-                    for (const types::global_dof_index node : nodes)
-                      point.nodes.push_back(space.local_node(node));
-                    face_points.push_back(point);
-                  }
+                for (const FacePoint &point :
+                     points_on_face(mesh, space, cell, f))
+                  loaded.push_back({c, point});
               }
         if (Utilities::MPI::sum(n_faces,
                                 mesh.triangulation().get_communicator()) == 0)
@@ -124,16 +98,25 @@ namespace geocone
                   const double  t) const
   {
     force = 0.;
-    for (const FacePoint &point : face_points)
-      for (unsigned int c = 0; c < dim; ++c)
-        if (const auto &traction =
-              scene.tractions.list[point.condition]->components[c])
+    for (const auto &[c, point] : loaded)
+      {
+        const BoundaryCondition &condition = *scene.tractions.list[c];
+        Tensor<1, dim>           traction;
+        for (unsigned int d = 0; d < dim; ++d)
+          if (condition.components[d])
+            traction[d] = condition.components[d]->value(point.position, t);
+        if (condition.normal || condition.tangential)
+          traction = condition.vector_on_side(point.position, point.normal, t);
+        for (unsigned int d = 0; d < dim; ++d)
           {
-            const double f = traction->value(point.position, t) * point.weight;
+            if (traction[d] == 0.)
+              continue;
+            const double f = traction[d] * point.weight;
             for (unsigned int i = 0; i < point.nodes.size(); ++i)
-              force.local_element(dim * point.nodes[i] + c) +=
+              force.local_element(dim * point.nodes[i] + d) +=
                 f * point.values[i];
           }
+      }
     force.compress(VectorOperation::add);
     if (scene.gravity.acts())
       {

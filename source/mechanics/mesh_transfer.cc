@@ -77,6 +77,8 @@ namespace geocone
                             p.condition,
                             space.node_positions()[p.node],
                             p.node < space.n_owned_nodes()});
+    for (unsigned int c = 0; c < scene.dirichlet.list.size(); ++c)
+      centres.push_back(constraints.centre(c));
   }
 
   bool

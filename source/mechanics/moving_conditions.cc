@@ -99,20 +99,39 @@ namespace geocone
       for (const MovingBoundary::Line &line : side.boundary.lines)
         for (const BoundaryPoint &point :
              points_on_line(mesh, space, line.a, line.b))
-          for (unsigned int d = 0; d < dim; ++d)
-            if (const auto &traction =
-                  scene.tractions.list[side.condition]->components[d])
+          {
+            if (const BoundaryCondition &load =
+                  *scene.tractions.list[side.condition];
+                load.normal || load.tangential)
               {
-                // A dead load: per length at the start.
-                const double f = traction->value(point.position, t) *
-                                 point.weight * line.length;
+                // Pressure acts on the side as it is now; the body is to its left.
+                const Tensor<1, dim> along = line.b - line.a;
+                const Tensor<1, dim> f =
+                  load.vector_on_side(point.position,
+                                      Tensor<1, dim>({along[1], -along[0]}) /
+                                        along.norm(),
+                                      t) *
+                  (point.weight * along.norm());
                 for (unsigned int i = 0; i < point.nodes.size(); ++i)
-                  {
-                    const unsigned int dof =
-                      dim * space.local_node(point.nodes[i]) + d;
-                    force.local_element(dof) += f * point.values[i];
-                  }
+                  for (unsigned int d = 0; d < dim; ++d)
+                    force.local_element(dim * space.local_node(point.nodes[i]) +
+                                        d) += f[d] * point.values[i];
               }
+            for (unsigned int d = 0; d < dim; ++d)
+              if (const auto &traction =
+                    scene.tractions.list[side.condition]->components[d])
+                {
+                  // A dead load: per length at the start.
+                  const double f = traction->value(point.position, t) *
+                                   point.weight * line.length;
+                  for (unsigned int i = 0; i < point.nodes.size(); ++i)
+                    {
+                      const unsigned int dof =
+                        dim * space.local_node(point.nodes[i]) + d;
+                      force.local_element(dof) += f * point.values[i];
+                    }
+                }
+          }
     if (!loads.empty())
       force.compress(VectorOperation::add);
   }

@@ -329,6 +329,25 @@ namespace geocone
   }
 
   double
+  Multipliers::moment(const VectorXd    &lambda,
+                      const unsigned int condition,
+                      const Point<dim>  &centre,
+                      const Space       &space) const
+  {
+    double sum = 0.;
+    for (unsigned int j = 0; j < touched.size(); ++j)
+      {
+        const Tensor<1, dim> r =
+          space.node_positions()[touched[j] / dim] - centre;
+        const double arm = touched[j] % dim == 0 ? -r[1] : r[0];
+        for (unsigned int k = 0; k < n_rows(); ++k)
+          if (keys[k].condition == condition)
+            sum += arm * lambda[k] * H(k, j);
+      }
+    return Utilities::MPI::sum(sum, comm);
+  }
+
+  double
   Multipliers::mean_target(const unsigned int condition,
                            const unsigned int component) const
   {

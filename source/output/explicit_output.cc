@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/output/observation_columns.h>
 #include <geocone/output/explicit_output.h>
 
 #include <algorithm>
@@ -66,6 +67,7 @@ namespace geocone
     for (const auto &condition : scene->dirichlet.list)
       for (const char *direction : {" x", " y"})
         columns.push_back("force " + condition->name + direction + " (N/m)");
+    add_observation_columns(scene->observation, scene->dirichlet, columns);
     if (writes)
       statistics.open(path + "/statistics.csv", columns);
   }
@@ -134,10 +136,14 @@ namespace geocone
                                 r[1],
                                 s.angular_momentum,
                                 b.removed_mass};
-    for (const Tensor<1, dim> &reaction : record.report.reactions)
+    for (const Reaction &reaction : record.report.reactions)
       for (unsigned int d = 0; d < dim; ++d)
-        line.push_back(reaction[d]);
+        line.push_back(reaction.force[d]);
     check_finite(columns, line);
+    std::vector<double> moments;
+    for (const unsigned int c : scene->observation.conditions)
+      moments.push_back(record.report.reactions[c].moment);
+    add_observations(moments, record.displacements, line);
     records.push_back(record);
     if (writes)
       statistics.add_line(line);
@@ -293,6 +299,7 @@ namespace geocone
               std::abs(record.state.kinetic + record.balance.stress_work -
                        record.balance.gravity_work - initial.kinetic));
           }
+        add_points(last.displacements, summary);
         summary["explicit"] = {{"time_s", last.time},
                                {"steps", n},
                                {"smallest_step_s", least},

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/output/observation_columns.h>
 #include <geocone/output/run_output.h>
 
 #include <deal.II/base/mpi.h>
@@ -56,6 +57,7 @@ namespace geocone
                                "numerical loss (J/m)",
                                "energy identity error (-)"})
       columns.push_back(column);
+    add_observation_columns(scene->observation, scene->dirichlet, columns);
     if (!writes)
       return;
     statistics.open(path + "/statistics.csv", columns);
@@ -159,6 +161,7 @@ namespace geocone
                                report.identity_error})
       line.push_back(value);
     check_finite(columns, line);
+    add_observations(record.moments, record.displacements, line);
     records.push_back(record);
     records.back().last.newton.table.clear(); // only the numbers are kept
     if (writes)
@@ -281,6 +284,8 @@ namespace geocone
       }
     if (!scene->observation.conditions.empty())
       json["limit_load"]["load_jumps"] = n_load_jumps;
+    if (!records.empty())
+      add_points(records.back().displacements, json);
     json["newton"] = {
       {"steps", records.size()},
       {"substeps", substeps},

@@ -31,6 +31,19 @@ namespace geocone
       unit + " as a formula in x, y (m) and t (s); '" + unset + "': none.";
     add_parameter(quantity + " x", texts[0], documentation);
     add_parameter(quantity + " y", texts[1], documentation);
+    add_parameter(quantity + " normal",
+                  texts[2],
+                  quantity == "Velocity"
+                    ? "FEM: velocity (m/s) along the outward normal of the "
+                      "sides, instead of x and y; the tangential one is free."
+                    : "Traction (Pa) along the outward normal of the sides, -p "
+                      "for a pressure p; with tangential instead of x and y. "
+                      "MPM: it follows the side as it turns and stretches.");
+    if (quantity == "Traction")
+      add_parameter(
+        quantity + " tangential",
+        texts[3],
+        "Traction (Pa) along the sides, with the body to the left.");
     if (quantity == "Velocity")
       {
         add_parameter("Imposed on",
@@ -108,12 +121,46 @@ namespace geocone
           components[c]->prepare(texts[c],
                                  parameter(quantity + (c == 0 ? " x" : " y")));
         }
-    if (!components[0] && !components[1])
+    if (texts[2] != unset)
+      normal.emplace().prepare(texts[2], parameter(quantity + " normal"));
+    if (texts[3] != unset)
+      tangential.emplace().prepare(texts[3],
+                                   parameter(quantity + " tangential"));
+    if ((normal || tangential) && (components[0] || components[1]))
+      throw InputError(
+        parameter(quantity + (normal ? " normal" : " tangential")),
+        texts[normal ? 2 : 3],
+        "'" + unset + "' beside " + quantity + " x or y",
+        "give one of the two pairs of components, or two "
+        "conditions");
+    if (!components[0] && !components[1] && !normal && !tangential)
       throw InputError(parameter(quantity + " x"),
                        unset,
                        "a formula for at least one component",
                        "give " + quantity + " x or " + quantity +
                          " y, or take the condition out of the list");
+  }
+
+  dealii::Tensor<1, dim>
+  BoundaryCondition::vector_on_side(const dealii::Point<dim>     &x,
+                                    const dealii::Tensor<1, dim> &n,
+                                    const double                  t) const
+  {
+    dealii::Tensor<1, dim> result;
+    if (normal)
+      result += normal->value(x, t) * n;
+    if (tangential)
+      result += tangential->value(x, t) * dealii::Tensor<1, dim>({-n[1], n[0]});
+    return result;
+  }
+
+  void
+  BoundaryCondition::refuse_normal(const std::string &allowed,
+                                   const std::string &remedy) const
+  {
+    if (normal)
+      throw InputError(
+        parameter(quantity + " normal"), texts[2], allowed, remedy);
   }
 
   std::string

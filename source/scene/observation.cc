@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
 #include <geocone/materials/mohr_coulomb.h>
 #include <geocone/scene/observation.h>
 
+#include <cmath>
 #include <cstdlib>
 
 namespace geocone
@@ -53,6 +55,17 @@ namespace geocone
     add_parameter("Reference surcharge",
                   surcharge,
                   "Pressure beside the footing (Pa), for Prandtl.");
+    add_parameter(
+      "Points",
+      points,
+      "Places x, y; x, y; ... (m) in the body at the start whose "
+      "displacements are reported. FEM: that of the field there; "
+      "MPM: that of the nearest material point, which is followed.");
+    add_parameter("Moment centre",
+                  centre,
+                  "Point x, y (m) that the moments of the reactions are about, "
+                  "counterclockwise positive. Empty: for each condition the "
+                  "centre of the bounding box of what it holds at the start.");
     add_parameter("Plateau tolerance",
                   plateau_tolerance,
                   "The limit load is the mean over the last part of the curve "
@@ -61,7 +74,8 @@ namespace geocone
 
   void
   Observation::prepare(const BoundaryConditions &all,
-                       const Materials          &materials)
+                       const Materials          &materials,
+                       const Gravity            &gravity)
   {
     conditions.clear();
     for (const std::string &name : names)
@@ -78,6 +92,28 @@ namespace geocone
       }
     check_choice("Observation/Component", component_name, {"x", "y"});
     component = component_name == "x" ? 0 : 1;
+    if (!std::isfinite(factor) || factor == 0. || std::abs(factor) > 1e6)
+      throw InputError("Observation/Factor",
+                       factor,
+                       "a number other than zero, of 1e6 at most",
+                       "-1 makes a downward load positive, -2 where only half "
+                       "of a symmetric body is modelled");
+    if (centre.size() > 1)
+      throw InputError("Observation/Moment centre",
+                       dealii::Patterns::Tools::to_string(centre),
+                       "one point x, y, or nothing",
+                       "all observed conditions share one; leave it empty for "
+                       "the centre of each");
+    for (const auto &[entry, list] :
+         {std::pair<const char *, const std::vector<dealii::Point<dim>> *>(
+            "Points", &points),
+          {"Moment centre", &centre}})
+      for (const dealii::Point<dim> &x : *list)
+        if (!std::isfinite(x.square()))
+          throw InputError(std::string("Observation/") + entry,
+                           dealii::Patterns::Tools::to_string(*list),
+                           "finite numbers (m)",
+                           "give coordinates x, y");
     if (!(plateau_tolerance > 0.))
       throw InputError("Observation/Plateau tolerance",
                        plateau_tolerance,
@@ -95,29 +131,7 @@ namespace geocone
                        "name the loaded part in 'Observation/Conditions'");
     if (value == "Prandtl")
       {
-        unsigned int index = materials.size();
-        for (unsigned int i = 0; i < materials.size(); ++i)
-          if (materials.name(i) == material || (material.empty() && i == 0))
-            index = i;
-        const auto *law =
-          index < materials.size()
-            ? dynamic_cast<const MohrCoulomb *>(&materials.law(index))
-            : nullptr;
-        if (law == nullptr)
-          throw InputError("Observation/Reference material",
-                           material,
-                           "the name of a Mohr-Coulomb or Tresca material",
-                           "Prandtl's load needs c and phi");
-        if (!(width > 0.))
-          throw InputError("Observation/Reference width",
-                           width,
-                           "> 0 m",
-                           "give the width of the whole footing");
-        reference =
-          width *
-          (law->cohesion() * bearing_capacity_factor_c(law->friction_angle()) +
-           surcharge * bearing_capacity_factor_q(law->friction_angle()));
-        reference_name = "Prandtl";
+        take_prandtl(materials, gravity);
         return;
       }
     char        *end    = nullptr;
@@ -129,5 +143,55 @@ namespace geocone
                        "choose one of them");
     reference      = number;
     reference_name = "reference";
+  }
+
+  void
+  Observation::take_prandtl(const Materials &materials, const Gravity &gravity)
+  {
+    unsigned int index = materials.size();
+    for (unsigned int i = 0; i < materials.size(); ++i)
+      if (materials.name(i) == material || (material.empty() && i == 0))
+        index = i;
+    const auto *law =
+      index < materials.size()
+        ? dynamic_cast<const MohrCoulomb *>(&materials.law(index))
+        : nullptr;
+    if (law == nullptr)
+      throw InputError("Observation/Reference material",
+                       material,
+                       "the name of a Mohr-Coulomb or Tresca material",
+                       "Prandtl's load needs c and phi");
+    if (!(width > 0. && std::isfinite(width)))
+      throw InputError("Observation/Reference width",
+                       width,
+                       "> 0 m, finite",
+                       "give the width of the whole footing");
+    if (!(surcharge >= 0. && std::isfinite(surcharge)))
+      throw InputError("Observation/Reference surcharge",
+                       surcharge,
+                       ">= 0 Pa, finite",
+                       "give the pressure beside the footing");
+    const double phi = law->friction_angle();
+    // Weight adds to the load of a soil with friction, and to none other.
+    if (phi > 0. && law->density() > 0. && gravity.acts())
+      throw InputError(
+        "Observation/Reference",
+        value,
+        "none or a number (N/m), where gravity acts on soil with "
+        "friction: Prandtl's load is that of weightless soil",
+        "set Reference = none or give the load of the soil with "
+        "its weight, or set Gravity/Acceleration = 0, 0");
+    const double load =
+      width * (law->cohesion() * bearing_capacity_factor_c(phi) +
+               surcharge * bearing_capacity_factor_q(phi));
+    if (!(load > 0. && std::isfinite(load)))
+      throw InputError("Observation/Reference",
+                       value,
+                       "none or a number (N/m), where Prandtl's load, here " +
+                         format("%g", load) + " N/m, is not > 0 and finite",
+                       "give the soil cohesion or the ground a surcharge "
+                       "('Reference surcharge'), or set Reference = none");
+    reference      = load;
+    reference_name = "Prandtl";
   }
 } // namespace geocone

@@ -42,6 +42,6 @@ namespace geocone
     dirichlet.prepare();
     tractions.prepare();
     loading.prepare();
-    observation.prepare(dirichlet, materials);
+    observation.prepare(dirichlet, materials, gravity);
   }
 } // namespace geocone

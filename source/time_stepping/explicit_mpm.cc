@@ -119,12 +119,17 @@ namespace geocone
         section + "Courant number", courant, "0 < C <= 1", "0.3 is usual");
 
     for (const auto &condition : scene->dirichlet.list)
-      if (condition->moves())
-        throw InputError(condition->parameter("Imposed on"),
-                         condition->imposed_on,
-                         "nodes with explicit MPM",
-                         "prescribe velocities on sides of the background "
-                         "mesh, or set Discretisation/Method = MPM");
+      {
+        condition->refuse_normal("free with explicit MPM",
+                                 "give Velocity x and y, or set "
+                                 "Discretisation/Method = FEM");
+        if (condition->moves())
+          throw InputError(condition->parameter("Imposed on"),
+                           condition->imposed_on,
+                           "nodes with explicit MPM",
+                           "prescribe velocities on sides of the background "
+                           "mesh, or set Discretisation/Method = MPM");
+      }
     if (!scene->tractions.list.empty())
       throw InputError("Tractions/Names",
                        scene->tractions.list[0]->name,
@@ -180,6 +185,8 @@ namespace geocone
                        "take splines for APIC: with Q1 the noise of nodes with "
                        "little mass grows from step to step");
 
+    if (const auto given = scene->observation.moment_centre())
+      std::fill(transfer->centres.begin(), transfer->centres.end(), *given);
     nodes = std::make_unique<NodalUpdate>(
       *transfer, scene->dirichlet, flip_part, least_mass, sum);
     refresh();
@@ -600,8 +607,10 @@ namespace geocone
       refresh();
     report.unbalanced_force =
       Utilities::MPI::max(nodes->unbalanced_force(), comm);
-    for (const Tensor<1, dim> &impulse : nodes->take_support_impulses())
-      report.reactions.push_back(Utilities::MPI::sum(impulse, comm) / h);
+    for (const Reaction &impulse : nodes->take_support_impulses())
+      report.reactions.push_back(
+        {Utilities::MPI::sum(impulse.force, comm) / h,
+         Utilities::MPI::sum(impulse.moment, comm) / h});
     return report;
   }
 } // namespace geocone

@@ -130,6 +130,10 @@ namespace geocone
       loads->evaluate(force, weight_per_g, t + h);
     Vector prescribed = problem->make_vector();
     constraints->set_values(prescribed, t + h);
+    // Where dofs are turned, the problem has its vectors along them.
+    if (loads->exist())
+      constraints->turn(force);
+    constraints->turn(kinematics.velocity);
     problem->begin_step(
       h, loads->exist() ? &force : nullptr, kinematics.velocity, prescribed);
 
@@ -141,7 +145,10 @@ namespace geocone
     report.converged = report.newton.converged;
     freezer.take(*problem, kinematics.velocity, false, report.converged);
     if (!report.converged)
-      return report;
+      {
+        constraints->turn_back(kinematics.velocity);
+        return report;
+      }
 
     TimerOutput::Scope scope(timer, "commit");
     report.unknowns = constraints->n_rows;
@@ -171,18 +178,15 @@ namespace geocone
         points.cumulative_plastic_strain[p] += plastic.norm();
         points.plastic_strain_rate[p] = plastic.norm() / h;
       }
-    points.stress       = problem->trial_stress();
+    points.stress = problem->trial_stress();
+    constraints->turn_back(v);
     kinematics.velocity = v;
     kinematics.displacement.add(h, v);
+    report.reactions =
+      constraints->reactions(residual, points, points.stress, t + h);
     for (unsigned int c = 0; c < kinematics.supports.size(); ++c)
-      {
-        report.reactions.emplace_back();
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            kinematics.supports[c][d] += h * constraints->mean(v, c, d);
-            report.reactions[c][d] = constraints->resultant(residual, c, d);
-          }
-      }
+      for (unsigned int d = 0; d < dim; ++d)
+        kinematics.supports[c][d] += h * constraints->mean(v, c, d);
     report.energies = state_energies(kinematics, points, t + h);
     report.largest_plastic_strain =
       largest_plastic_strain(points, v.get_mpi_communicator());

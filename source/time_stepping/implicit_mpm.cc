@@ -127,6 +127,10 @@ namespace geocone
     space = &space_;
     check_parameters();
 
+    for (const auto &condition : scene->dirichlet.list)
+      condition->refuse_normal("free with MPM",
+                               "give Velocity x and y, or set "
+                               "Discretisation/Method = FEM");
     moving = std::make_unique<MovingConditions>(*scene, *mesh, *space);
 
     std::string warning = particles.prepare(*scene, *mesh, *space);
@@ -395,6 +399,8 @@ namespace geocone
     report.converged = true;
 
     // From here on the step is accepted.
+    report.reactions =
+      constraints->reactions(residual, points, problem->trial_stress(), end);
     report.quality                = problem->quality();
     const MPI_Comm         comm   = v.get_mpi_communicator();
     const Eigen::VectorXd &lambda = problem->multipliers();
@@ -485,14 +491,15 @@ namespace geocone
     for (unsigned int c = 0; c < kinematics.supports.size(); ++c)
       {
         const bool moves = scene->dirichlet.list[c]->moves();
-        report.reactions.emplace_back();
+        if (moves)
+          report.reactions[c].moment =
+            rows.moment(lambda, c, constraints->centre(c), *space);
         for (unsigned int d = 0; d < dim; ++d)
           {
             kinematics.supports[c][d] +=
               h * (moves ? rows.mean_target(c, d) : constraints->mean(v, c, d));
-            report.reactions[c][d] = moves
-                                       ? rows.resultant(lambda, c, d)
-                                       : constraints->resultant(residual, c, d);
+            if (moves)
+              report.reactions[c].force[d] = rows.resultant(lambda, c, d);
           }
       }
     if (advection != "none")

@@ -101,8 +101,7 @@ namespace geocone
           continue;
         // PIC gives the points what the condition has changed.
         const double impulse = (1. - flip_part) * m * (v - before);
-        support_impulse[node.condition][node.component] += impulse;
-        sum.impulse[node.component] += impulse;
+        add_impulse(node, impulse);
         sum.support_work += impulse * v;
       }
     clear(true);
@@ -168,8 +167,7 @@ namespace geocone
         const double impulse =
           m * (after - before) - dt * write[4 * i + 2 + d] +
           (1. - flip_part) * m * (before - read[4 * i + d]);
-        support_impulse[node.condition][d] += impulse;
-        sum.impulse[d] += impulse;
+        add_impulse(node, impulse);
         sum.support_work += impulse * (before + after) / 2.;
       }
     for (const auto &range : transfer.mine)
@@ -251,10 +249,20 @@ namespace geocone
         write[4 * i + 2 + d] += force(i, d);
   }
 
-  std::vector<Tensor<1, dim>>
+  void
+  NodalUpdate::add_impulse(const PrescribedNode &node, const double impulse)
+  {
+    const Tensor<1, dim> r = node.place - transfer.centres[node.condition];
+    Reaction            &reaction = support_impulse[node.condition];
+    reaction.force[node.component] += impulse;
+    reaction.moment += node.component == 0 ? -r[1] * impulse : r[0] * impulse;
+    sum.impulse[node.component] += impulse;
+  }
+
+  std::vector<Reaction>
   NodalUpdate::take_support_impulses()
   {
-    std::vector<Tensor<1, dim>> taken(support_impulse.size());
+    std::vector<Reaction> taken(support_impulse.size());
     taken.swap(support_impulse);
     return taken;
   }

@@ -16,6 +16,7 @@
 #include <array>
 #include <memory>
 #include <set>
+#include <string>
 
 namespace geocone
 {
@@ -32,6 +33,21 @@ namespace geocone
   {
   public:
     BackgroundMesh(const MPI_Comm comm);
+
+    /** What a mesh will be, as far as parameters tell. */
+    struct Expected
+    {
+      double                  n_cells;
+      std::array<double, dim> intervals; ///< of a grid; else their product counts
+      double                  area;      ///< that the cells cover (m^2)
+      bool                    is_simplicial, is_grid;
+      std::string             parameter; ///< that the number comes from
+    };
+
+    /** Without creating the mesh; of a file, from its size. @throws InputError as
+     *  prepare() */
+    Expected
+    expect(const Scene &scene, const Method &method);
 
     /** Creates the mesh. @throws InputError */
     void

@@ -94,6 +94,11 @@ namespace geocone
                     const std::array<double, dim> &n_cells,
                     const double                   area_of_mesh) const;
 
+    /** The parameter that the number of seeds comes from; empty: that of the
+     *  cells. */
+    std::string
+    size_parameter() const;
+
   private:
     /** @throws InputError if a lattice or random points would take for ever */
     void

@@ -4,17 +4,38 @@
 #ifndef geocone_mechanics_constraints_h
 #define geocone_mechanics_constraints_h
 
+#include <geocone/discretisation/material_points.h>
 #include <geocone/mechanics/unknowns.h>
 
+#include <array>
+#include <map>
 #include <vector>
 
 namespace geocone
 {
+  /** Of the nodal forces of a support on the body. */
+  struct Reaction
+  {
+    dealii::Tensor<1, dim> force;       ///< sum f_i (N/m)
+    double                 moment = 0.; ///< sum (x_i - c) x f_i (N m/m)
+  };
+
   /**
    * Prescribed velocities of nodes. These dofs are eliminated; the others, the
    * free dofs, are the unknowns. A multiplier, the reaction of the support on
    * the body, is the residual in the row of its dof. Linear constraints on free
    * dofs stand beside them, as rows with multipliers.
+   *
+   * A normal velocity turns the dofs of its nodes to the normal n of the side,
+   * the mean over its faces at the node weighted by int N_i, or, where another
+   * condition holds another direction, prescribes both of their dofs.
+   *
+   * Where several conditions prescribe the same component of a node, the last of
+   * them in the list holds it. Those whose value there is the same share its
+   * force: each bears what the stress beside it exerts on its own faces,
+   *   f_c = int_c N_i (s n) dA,  s the mean over each cell,
+   * and of what is left a part that goes as int_c N_i dA. So each nodal force
+   * counts once, and a support has no part of what another one beside it bears.
    */
   class Constraints : public Unknowns
   {
@@ -48,20 +69,38 @@ namespace geocone
     number_unknowns(const Vector *mass);
 
     /**
-     * Resultant of a nodal force over the nodes whose component the condition
-     * prescribes (N/m); where several do, the last of them in the list.
+     * The reaction of each condition. Collective.
      * @param residual residual of the momentum balance in all rows
+     * @param stress of the points, to divide the forces of shared nodes
+     * @param t time of the values
      */
-    double
-    resultant(const Vector      &residual,
-              const unsigned int condition,
-              const unsigned int component) const;
+    std::vector<Reaction>
+    reactions(const Vector              &residual,
+              const MaterialPoints      &points,
+              const std::vector<Mandel> &stress,
+              const double               t) const;
 
     /** Mean of a nodal field over the nodes of a condition. */
     double
     mean(const Vector      &field,
          const unsigned int condition,
          const unsigned int component) const;
+
+    /** What the moment of a condition's reaction is about. */
+    const dealii::Point<dim> &
+    centre(const unsigned int condition) const
+    {
+      return centres[condition];
+    }
+
+    /** @name From components along x and y to those of the dofs, and back, in the
+     *  owned entries of a vector */
+    /** @{ */
+    void
+    turn(Vector &v) const;
+    void
+    turn_back(Vector &v) const;
+    /** @} */
 
     /** A component of a node, which one of the conditions prescribes. */
     struct Prescribed
@@ -71,7 +110,7 @@ namespace geocone
       unsigned int condition;
     };
 
-    /** All that this rank knows, with ghosts. */
+    /** All that this rank knows, with ghosts, but those of oblique nodes. */
     const std::vector<Prescribed> &
     prescribed_components() const
     {
@@ -79,12 +118,77 @@ namespace geocone
     }
 
   private:
+    /** A direction in which a condition holds a node. */
+    struct Direction
+    {
+      unsigned int           condition;
+      unsigned int           component; ///< 0, 1, or 2 for the normal
+      dealii::Tensor<1, dim> d;
+    };
+
+    /** A node that is held along other directions than x and y: one of them, n of
+     *  a turned node, or two that are independent and hold it altogether. */
+    struct Oblique
+    {
+      unsigned int           node;
+      std::vector<Direction> directions;
+    };
+
+    /** A component that several conditions prescribe. */
+    struct Shared
+    {
+      std::vector<unsigned int> conditions; ///< the last one holds it
+      std::vector<double>       size;       ///< int N_i over their faces (m)
+      unsigned int              first = 0;  ///< of all conditions, see Part
+    };
+
+    /** int N_i n dA over the faces of a condition on a cell. */
+    struct Part
+    {
+      unsigned int           place; ///< among the conditions of all shared ones
+      unsigned int           component;
+      dealii::Tensor<1, dim> weight; ///< (m)
+    };
+
+    /** Finds the nodes with normal velocities.
+     *  @param of_dof what conditions along x and y prescribe */
+    void
+    find_oblique_nodes(
+      const BackgroundMesh                              &mesh,
+      const std::vector<std::vector<unsigned int>>      &nodes,
+      std::map<unsigned int, std::vector<unsigned int>> &of_dof);
+
+    /** Finds the faces around shared components. Collective. */
+    void
+    find_shared(
+      const BackgroundMesh                                    &mesh,
+      const std::map<unsigned int, std::vector<unsigned int>> &of_dof);
+
+    /** The velocity that a condition asks for at a node. */
+    double
+    value(const unsigned int condition,
+          const unsigned int component,
+          const unsigned int node,
+          const double       t) const;
+
     const Scene                           &scene;
     const Space                           &space;
     const MPI_Comm                         comm;
     std::vector<Prescribed>                prescribed;
+    std::vector<Oblique>                   oblique;
     std::vector<std::vector<unsigned int>> owned_nodes; ///< per condition
     std::vector<unsigned int>              n_nodes;     ///< of all ranks
+    std::vector<dealii::Point<dim>>        centres;     ///< per condition
+
+    /** Shared components by their global dof, the same on all ranks, and the
+     *  number of their conditions in all. */
+    std::map<dealii::types::global_dof_index, Shared> shared;
+    unsigned int                                      n_shares = 0;
+
+    /** Parts by the active index of their cell: those of cell c begin at
+     *  first_part[c]. */
+    std::vector<unsigned int> first_part;
+    std::vector<Part>         parts;
   };
 } // namespace geocone
 

@@ -129,6 +129,9 @@ namespace geocone
 
     std::vector<PrescribedNode> prescribed;
 
+    /** Per condition the centre of the bounding box of all nodes it selects. */
+    std::vector<dealii::Point<dim>> centres;
+
     /** Points (group, number) that refresh() has found outside the mesh. */
     std::vector<std::array<unsigned int, 2>> lost;
 

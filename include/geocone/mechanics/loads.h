@@ -4,7 +4,7 @@
 #ifndef geocone_mechanics_loads_h
 #define geocone_mechanics_loads_h
 
-#include <geocone/discretisation/space.h>
+#include <geocone/mechanics/face_points.h>
 #include <geocone/scene/scene.h>
 
 #include <vector>
@@ -47,17 +47,14 @@ namespace geocone
 
   private:
     /** A quadrature point of a loaded face. */
-    struct FacePoint
+    struct LoadedPoint
     {
-      unsigned int              condition;
-      dealii::Point<dim>        position;
-      double                    weight; ///< JxW (m)
-      std::vector<unsigned int> nodes;
-      std::vector<double>       values; ///< N at the point, per node
+      unsigned int condition;
+      FacePoint    point;
     };
 
-    const Scene           &scene;
-    std::vector<FacePoint> face_points;
+    const Scene             &scene;
+    std::vector<LoadedPoint> loaded;
   };
 } // namespace geocone
 

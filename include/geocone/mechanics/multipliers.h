@@ -131,6 +131,14 @@ namespace geocone
               const unsigned int     condition,
               const unsigned int     component) const;
 
+    /** Moment of the forces H' lambda of a condition about a point (N m/m),
+     *  counterclockwise positive. Collective. */
+    double
+    moment(const Eigen::VectorXd    &lambda,
+           const unsigned int        condition,
+           const dealii::Point<dim> &centre,
+           const Space              &space) const;
+
     /** Mean of the velocities that a condition asks for, or 0. */
     double
     mean_target(const unsigned int condition,

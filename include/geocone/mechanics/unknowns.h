@@ -52,6 +52,17 @@ namespace geocone
 
     /** Constraints on the free dofs. */
     Multipliers multipliers;
+
+    /**
+     * Nodes whose two dofs are not along x and y: vectors of the incremental
+     * problem have there the components along n and (-n_y, n_x).
+     */
+    struct TurnedNode
+    {
+      unsigned int node; ///< local
+      double       n_x, n_y;
+    };
+    std::vector<TurnedNode> turned_nodes;
   };
 } // namespace geocone
 

@@ -24,6 +24,7 @@ namespace geocone
     ExplicitReport report;
     ExplicitState  state;
     Balance        balance;
+    std::vector<dealii::Tensor<1, dim>> displacements; ///< of observed points
   };
 
   /**

@@ -30,7 +30,9 @@ namespace geocone
     double              displacement = 0.;
     double              load         = 0.;
     std::vector<double> reactions; ///< of the observed conditions
-    StepReport          last; ///< of the last substep; works are of the step
+    std::vector<double> moments;   ///< of the same
+    std::vector<dealii::Tensor<1, dim>> displacements; ///< of observed points
+    StepReport last; ///< of the last substep; works are of the step
   };
 
   /** How a stage ended that was to go on until failure. */

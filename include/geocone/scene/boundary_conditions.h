@@ -8,6 +8,7 @@
 #include <geocone/scene/expression.h>
 
 #include <deal.II/base/parameter_acceptor.h>
+#include <deal.II/base/tensor.h>
 
 #include <array>
 #include <memory>
@@ -56,7 +57,7 @@ namespace geocone
     void
     check_selection(const unsigned int n_nodes) const;
 
-    /** The formula of a component as text, for messages. */
+    /** The formula of x, y, normal or tangential (0 to 3), for messages. */
     const std::string &
     formula(const unsigned int component) const
     {
@@ -110,10 +111,26 @@ namespace geocone
     /** Per component: the value as a function of (x, y, t), or nothing. */
     std::array<std::optional<Expression>, dim> components;
 
+    /** The same along the outward normal n of the side and, for tractions, along
+     *  its tangent (-n_y, n_x), which has the body to its left. */
+    std::optional<Expression> normal, tangential;
+
+    /** The vector of the normal and the tangential one at time t, where the
+     *  outward normal is n. */
+    dealii::Tensor<1, dim>
+    vector_on_side(const dealii::Point<dim>     &x,
+                   const dealii::Tensor<1, dim> &n,
+                   const double                  t) const;
+
+    /** @throws InputError if there is a normal velocity, with what holds where
+     *  none can be: @p allowed, @p remedy */
+    void
+    refuse_normal(const std::string &allowed, const std::string &remedy) const;
+
   private:
     const std::string               quantity;
     const std::string               unset;
-    std::array<std::string, dim>    texts;
+    std::array<std::string, 4>      texts;
     std::vector<dealii::Point<dim>> box;
   };
 

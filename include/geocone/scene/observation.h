@@ -6,6 +6,7 @@
 
 #include <geocone/materials/material_library.h>
 #include <geocone/scene/boundary_conditions.h>
+#include <geocone/scene/loading.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
@@ -38,7 +39,9 @@ namespace geocone
     Observation();
 
     void
-    prepare(const BoundaryConditions &conditions, const Materials &materials);
+    prepare(const BoundaryConditions &conditions,
+            const Materials          &materials,
+            const Gravity            &gravity);
 
     /** Indices of the observed conditions. */
     std::vector<unsigned int> conditions;
@@ -49,6 +52,17 @@ namespace geocone
     /** Load = factor x reaction, e.g. -2 for a downward load on a half. */
     double factor = -1.;
 
+    /** Places whose displacement is reported. */
+    std::vector<dealii::Point<dim>> points;
+
+    /** What the moments of the reactions are about, or nothing: the centre of
+     *  the bounding box of what each condition holds at the start. */
+    std::optional<dealii::Point<dim>>
+    moment_centre() const
+    {
+      return centre.empty() ? std::nullopt : std::make_optional(centre[0]);
+    }
+
     /** The load to compare with (N/m). */
     std::optional<double> reference;
     std::string           reference_name;
@@ -57,6 +71,12 @@ namespace geocone
     double plateau_tolerance = 0.01;
 
   private:
+    /** Sets the reference to Prandtl's load. @throws InputError if it is none */
+    void
+    take_prandtl(const Materials &materials, const Gravity &gravity);
+
+    std::vector<dealii::Point<dim>> centre;
+
     std::vector<std::string> names;
     std::string              component_name = "y";
     std::string              value          = "none";

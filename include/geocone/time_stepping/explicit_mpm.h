@@ -53,8 +53,8 @@ namespace geocone
     /** Largest unbalanced force of a free node in the last step (N/m). */
     double unbalanced_force = 0.;
 
-    /** Mean force on the body per condition (N/m). */
-    std::vector<dealii::Tensor<1, dim>> reactions;
+    /** Mean force on the body per condition, and mean moment. */
+    std::vector<Reaction> reactions;
   };
 
   /**

@@ -31,6 +31,13 @@ namespace geocone
     void
     prepare(const std::string &folder);
 
+    /** Whether any problem may be written. */
+    bool
+    is_used() const
+    {
+      return failures || !steps.empty();
+    }
+
     /** The step of the programme whose problems come next. */
     void
     set_step(const unsigned int number);

@@ -4,6 +4,7 @@
 #ifndef geocone_time_stepping_nodal_update_h
 #define geocone_time_stepping_nodal_update_h
 
+#include <geocone/mechanics/constraints.h>
 #include <geocone/mechanics/grid_transfer.h>
 #include <geocone/scene/boundary_conditions.h>
 
@@ -96,8 +97,9 @@ namespace geocone
       return unbalanced;
     }
 
-    /** Impulses of this rank per condition since the last call (N s/m). */
-    std::vector<dealii::Tensor<1, dim>>
+    /** Impulses of this rank per condition since the last call (N s/m), and
+     *  their moments about GridTransfer::centres (N m s/m). */
+    std::vector<Reaction>
     take_support_impulses();
 
   private:
@@ -107,6 +109,10 @@ namespace geocone
 
     double
     prescribed_velocity(const PrescribedNode &node, const double t) const;
+
+    /** Books an impulse to the condition of a node. */
+    void
+    add_impulse(const PrescribedNode &node, const double impulse);
 
     /** Adds the work of gravity on points that move by `read`. */
     void
@@ -134,9 +140,9 @@ namespace geocone
       unsigned int node, component;
       double       velocity, change;
     };
-    std::vector<Held>                   held;
-    std::vector<unsigned char>          is_held; ///< per node and component
-    std::vector<dealii::Tensor<1, dim>> support_impulse; ///< per condition
+    std::vector<Held>          held;
+    std::vector<unsigned char> is_held;         ///< per node and component
+    std::vector<Reaction>      support_impulse; ///< per condition
     std::vector<double> constant_value; ///< per condition and component, or NaN
     double              unbalanced = 0.;
   };

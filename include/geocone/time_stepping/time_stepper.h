@@ -4,6 +4,7 @@
 #ifndef geocone_time_stepping_time_stepper_h
 #define geocone_time_stepping_time_stepper_h
 
+#include <geocone/mechanics/constraints.h>
 #include <geocone/solvers/nonsmooth_newton.h>
 #include <geocone/time_stepping/freezer.h>
 
@@ -47,8 +48,9 @@ namespace geocone
     Quality      quality;
     Energies     energies;
 
-    /** Forces on the body of each condition of the scene (N/m). */
-    std::vector<dealii::Tensor<1, dim>> reactions;
+    /** Forces on the body of each condition of the scene (N/m), and their
+     *  moments (N m/m). */
+    std::vector<Reaction> reactions;
 
     unsigned int unknowns    = 0;
     unsigned int multipliers = 0; ///< independent rows of H

@@ -1,0 +1,238 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/discretisation/observed_points.h>
+
+#include <deal.II/base/geometry_info.h>
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <limits>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    const char *const parameter = "Observation/Points";
+
+    std::string
+    text(const Point<dim> &x)
+    {
+      return format("%g, %g", x[0], x[1]);
+    }
+
+    /** Whether a is nearer to x than b; points that are equally near, up to
+     *  rounding, are told apart by their places, the same on all ranks. */
+    bool
+    is_nearer(const Point<dim> &a, const Point<dim> &b, const Point<dim> &x)
+    {
+      const double to_a = a.distance(x), to_b = b.distance(x);
+      const double rounding = 1e-9 * (to_a + to_b);
+      if (std::abs(to_a - to_b) > rounding)
+        return to_a < to_b;
+      return std::abs(a[0] - b[0]) > rounding ? a[0] < b[0] : a[1] < b[1];
+    }
+  } // namespace
+
+  void
+  ObservedPoints::prepare_field(const Scene          &scene,
+                                const BackgroundMesh &mesh,
+                                const Space          &space)
+  {
+    comm = mesh.triangulation().get_communicator();
+    const std::vector<Point<dim>> &places = scene.observation.points;
+    in_cell.resize(places.size());
+    // A place on the border of cells belongs to the first rank that has it.
+    std::vector<unsigned int> rank(places.size(),
+                                   Utilities::MPI::n_mpi_processes(comm));
+    const unsigned int this_rank = Utilities::MPI::this_mpi_process(comm);
+    constexpr double   tolerance = 1e-8;
+    for (unsigned int i = 0; i < places.size(); ++i)
+      for (const auto &cell : mesh.own_cells())
+        {
+          const Point<dim> &x = places[i];
+          if (rank[i] == this_rank ||
+              cell->center().distance(x) > cell->diameter())
+            continue;
+          Point<dim> unit;
+          try
+            {
+              unit = mesh.mapping().transform_real_to_unit_cell(cell, x);
+            }
+          catch (const Mapping<dim>::ExcTransformationFailed &)
+            {
+              continue; // far outside
+            }
+          if (!cell->reference_cell().contains_point(unit, tolerance))
+            continue;
+          rank[i] = this_rank;
+          std::vector<types::global_dof_index> nodes;
+          space.cell_nodes(cell, nodes);
+          in_cell[i].values.resize(nodes.size());
+          space.evaluate(cell, unit, in_cell[i].values.data(), nullptr);
+          for (const types::global_dof_index node : nodes)
+            in_cell[i].nodes.push_back(space.local_node(node));
+        }
+    for (unsigned int i = 0; i < places.size(); ++i)
+      {
+        const unsigned int first = Utilities::MPI::min(rank[i], comm);
+        if (first == Utilities::MPI::n_mpi_processes(comm))
+          throw InputError(parameter,
+                           text(places[i]),
+                           "places in the body, here in a cell of the mesh",
+                           "move the point into the body");
+        if (first != this_rank)
+          in_cell[i] = InCell();
+      }
+  }
+
+  void
+  ObservedPoints::prepare_points(const Scene          &scene,
+                                 const MaterialPoints &points,
+                                 const MPI_Comm        communicator)
+  {
+    comm = communicator;
+    std::vector<std::optional<Candidate>> own;
+    for (const Point<dim> &x : scene.observation.points)
+      {
+        own.emplace_back();
+        for (unsigned int p = 0; p < points.n_points(); ++p)
+          if (!own.back() ||
+              is_nearer(points.position[p], own.back()->position, x))
+            own.back() = {points.position[p], points.weight[p], points.id[p]};
+      }
+    choose(scene, own);
+  }
+
+  void
+  ObservedPoints::prepare_points(const Scene                    &scene,
+                                 const std::vector<PointArrays> &groups,
+                                 const MPI_Comm                  communicator)
+  {
+    comm = communicator;
+    std::vector<std::optional<Candidate>> own;
+    for (const Point<dim> &x : scene.observation.points)
+      {
+        own.emplace_back();
+        for (const PointArrays &group : groups)
+          for (unsigned int p = 0; p < group.n_points(); ++p)
+            if (!own.back() ||
+                is_nearer(group.position(p), own.back()->position, x))
+              own.back() = {group.position(p),
+                            group[PointArrays::Field::volume][p],
+                            group.id[p]};
+      }
+    choose(scene, own);
+  }
+
+  void
+  ObservedPoints::choose(const Scene                                 &scene,
+                         const std::vector<std::optional<Candidate>> &own)
+  {
+    for (unsigned int i = 0; i < own.size(); ++i)
+      {
+        const Point<dim> &x = scene.observation.points[i];
+        // x, y, volume, id
+        std::vector<double> mine;
+        if (own[i])
+          mine = {own[i]->position[0],
+                  own[i]->position[1],
+                  own[i]->volume,
+                  double(own[i]->id)};
+        std::optional<Candidate> nearest;
+        for (const auto &other : Utilities::MPI::all_gather(comm, mine))
+          if (const Candidate candidate =
+                other.empty() ? Candidate()
+                              : Candidate{{other[0], other[1]},
+                                          other[2],
+                                          static_cast<unsigned int>(other[3])};
+              !other.empty() &&
+              (!nearest || is_nearer(candidate.position, nearest->position, x)))
+            nearest = candidate;
+        // Points of a regular layout are within 0.71 of their size of any place
+        // in the body, those at its border or in slender cells farther away.
+        const double size = nearest ? std::sqrt(nearest->volume) : 0.;
+        if (!nearest || nearest->position.distance(x) > 1.5 * size)
+          throw InputError(parameter,
+                           text(x),
+                           "places in the body, near to a material point",
+                           "move the point into the body" +
+                             (nearest ? "; the nearest material point is at " +
+                                          text(nearest->position)
+                                      : std::string()));
+        id.push_back(nearest->id);
+      }
+  }
+
+  std::vector<Tensor<1, dim>>
+  ObservedPoints::gather(std::vector<double> &sums) const
+  {
+    Utilities::MPI::sum(
+      ArrayView<const double>(sums), comm, ArrayView<double>(sums));
+    std::vector<Tensor<1, dim>> result(sums.size() / 3);
+    for (unsigned int i = 0; i < result.size(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        result[i][d] = sums[3 * i + 2] > 0.
+                         ? sums[3 * i + d]
+                         : std::numeric_limits<double>::quiet_NaN();
+    return result;
+  }
+
+  std::vector<Tensor<1, dim>>
+  ObservedPoints::displacements(const MaterialPoints &points,
+                                const Vector         &nodal) const
+  {
+    if (in_cell.empty() && id.empty())
+      return {};
+    std::vector<double> sums(3 * std::max(in_cell.size(), id.size()), 0.);
+    if (!in_cell.empty())
+      {
+        Vector displacement = nodal;
+        displacement.update_ghost_values();
+        for (unsigned int i = 0; i < in_cell.size(); ++i)
+          if (!in_cell[i].nodes.empty())
+            {
+              sums[3 * i + 2] = 1.;
+              for (unsigned int k = 0; k < in_cell[i].nodes.size(); ++k)
+                for (unsigned int d = 0; d < dim; ++d)
+                  sums[3 * i + d] +=
+                    in_cell[i].values[k] *
+                    displacement.local_element(dim * in_cell[i].nodes[k] + d);
+            }
+      }
+    else
+      for (unsigned int p = 0; p < points.n_points(); ++p)
+        for (unsigned int i = 0; i < id.size(); ++i)
+          if (points.id[p] == id[i])
+            {
+              sums[3 * i + 2] = 1.;
+              for (unsigned int d = 0; d < dim; ++d)
+                sums[3 * i + d] = points.displacement[p][d];
+            }
+    return gather(sums);
+  }
+
+  std::vector<Tensor<1, dim>>
+  ObservedPoints::displacements(const std::vector<PointArrays> &groups) const
+  {
+    if (id.empty())
+      return {};
+    using Field = PointArrays::Field;
+    std::vector<double> sums(3 * id.size(), 0.);
+    for (const PointArrays &group : groups)
+      for (unsigned int p = 0; p < group.n_points(); ++p)
+        for (unsigned int i = 0; i < id.size(); ++i)
+          if (group.id[p] == id[i] && group[Field::mass][p] > 0.)
+            {
+              sums[3 * i + 2] = 1.;
+              for (unsigned int d = 0; d < dim; ++d)
+                sums[3 * i + d] =
+                  group[Field::x + d][p] - group[Field::x_start + d][p];
+            }
+    return gather(sums);
+  }
+} // namespace geocone
