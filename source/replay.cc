@@ -76,9 +76,9 @@ namespace geocone
 
       ThawedProblem thawed(frozen, materials);
       folder.make();
-      IncrementalProblem &problem       = thawed.problem();
+      IncrementalProblem &problem = thawed.problem();
       newton.check(problem);
-      const auto          linear_solver = make_linear_solver(
+      const auto linear_solver = make_linear_solver(
         newton.linear_solver_name(), MPI_COMM_SELF, problem.is_symmetric());
       dealii::TimerOutput timer(
         std::cout, dealii::TimerOutput::never, dealii::TimerOutput::cpu_times);

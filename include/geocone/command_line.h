@@ -54,9 +54,7 @@ namespace geocone
    * 128 + its number after a signal
    */
   int
-  run_program(int                                   argc,
-              char                                **argv,
-              const std::function<int(Drawing &)> &run);
+  run_program(int argc, char **argv, const std::function<int(Drawing &)> &run);
 } // namespace geocone
 
 #endif

@@ -6,10 +6,10 @@
 
 #include <geocone/base/log.h>
 #include <geocone/base/parameter_file.h>
+#include <geocone/base/run_options.h>
 #include <geocone/discretisation/method.h>
 #include <geocone/discretisation/observed_points.h>
 #include <geocone/output/explicit_output.h>
-#include <geocone/run_options.h>
 #include <geocone/scene/scene.h>
 #include <geocone/time_stepping/explicit_mpm.h>
 

@@ -4,10 +4,10 @@
 #ifndef geocone_simulation_h
 #define geocone_simulation_h
 
+#include <geocone/base/run_options.h>
 #include <geocone/discretisation/observed_points.h>
 #include <geocone/output/exact_solution.h>
 #include <geocone/output/run_output.h>
-#include <geocone/run_options.h>
 #include <geocone/time_stepping/implicit_fem.h>
 #include <geocone/time_stepping/implicit_mpm.h>
 

@@ -261,11 +261,11 @@ namespace geocone
   std::string
   Seeding::size_parameter() const
   {
-    return layout == "lattice" ? "Particles/Spacing" :
-           layout == "random"  ? "Particles/Number" :
-           layout == "file"    ? "Particles/File" :
-           k > 4               ? "Particles/Points per direction" :
-                                 "";
+    return layout == "lattice"  ? "Particles/Spacing"
+           : layout == "random" ? "Particles/Number"
+           : layout == "file"   ? "Particles/File"
+           : k > 4              ? "Particles/Points per direction"
+                                : "";
   }
 
   void

@@ -187,8 +187,8 @@ namespace geocone
       throw InputError(
         parameter("Increments"), n_increments, "> 0", "100 is usual");
     if (4. * n_increments * std::max(1U, n_cycles) > 1e8)
-      throw InputError(n_cycles > n_increments ? parameter("Cycles") :
-                                                 parameter("Increments"),
+      throw InputError(n_cycles > n_increments ? parameter("Cycles")
+                                               : parameter("Increments"),
                        std::max(n_cycles, n_increments),
                        "at most 2.5e7 increments, of all cycles",
                        "take fewer increments or cycles, or more stages");

@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/output/observation_columns.h>
 #include <geocone/output/explicit_output.h>
+#include <geocone/output/observation_columns.h>
 
 #include <algorithm>
 #include <limits>

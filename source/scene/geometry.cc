@@ -210,7 +210,8 @@ namespace geocone
                   "A gmsh .msh file (relative to the folder of the parameter "
                   "file, or else to that of the call) of version 2.2 or 4.1, "
                   "ASCII or binary, up to 512 MB, in the plane z = 0 and "
-                  "with triangles or quadrilaterals of first order. Sides have the numbers or "
+                  "with triangles or quadrilaterals of first order. Sides have "
+                  "the numbers or "
                   "names of its physical curves. It is read as data: nothing "
                   "in it is run. For geo scripts see 'Run gmsh script'.");
     add_parameter("Run gmsh script",

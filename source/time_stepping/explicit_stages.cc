@@ -159,11 +159,12 @@ namespace geocone
                               seed.position[1]));
       if (start.is_refused())
         return;
-      start.set(law, stress, seed.position, &values[group.first_history()]);
-      sums.wave_speed2 =
-        std::max(sums.wave_speed2,
-                 law.wave_modulus(stress, &values[group.first_history()]) /
-                   law.density());
+      start.set(
+        law, stress, seed.position, values.data() + group.first_history());
+      sums.wave_speed2 = std::max(
+        sums.wave_speed2,
+        law.wave_modulus(stress, values.data() + group.first_history()) /
+          law.density());
       sums.speed2 = std::max(sums.speed2, seed.velocity.norm_square());
       if (affine)
         {

@@ -37,11 +37,12 @@ namespace geocone
     /** What a mesh will be, as far as parameters tell. */
     struct Expected
     {
-      double                  n_cells;
-      std::array<double, dim> intervals; ///< of a grid; else their product counts
-      double                  area;      ///< that the cells cover (m^2)
-      bool                    is_simplicial, is_grid;
-      std::string             parameter; ///< that the number comes from
+      double n_cells;
+      std::array<double, dim>
+                  intervals; ///< of a grid; else their product counts
+      double      area;      ///< that the cells cover (m^2)
+      bool        is_simplicial, is_grid;
+      std::string parameter; ///< that the number comes from
     };
 
     /** Without creating the mesh; of a file, from its size. @throws InputError as

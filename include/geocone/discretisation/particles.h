@@ -51,6 +51,13 @@ namespace geocone
       return n_lost_all;
     }
 
+    /** Where they come from. */
+    Seeding &
+    seeds()
+    {
+      return seeding;
+    }
+
   private:
     /** A particle without a cell. */
     struct Lost

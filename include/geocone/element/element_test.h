@@ -6,11 +6,11 @@
 
 #include <geocone/base/log.h>
 #include <geocone/base/parameter_file.h>
+#include <geocone/base/run_options.h>
 #include <geocone/element/element_output.h>
 #include <geocone/element/element_path.h>
 #include <geocone/element/mixed_control.h>
 #include <geocone/materials/material_library.h>
-#include <geocone/run_options.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 

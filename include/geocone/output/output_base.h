@@ -18,6 +18,13 @@
 
 namespace geocone
 {
+  /** Which fields a run writes. */
+  struct FieldsAsked
+  {
+    bool         are_written;
+    unsigned int n_formats;
+  };
+
   /**
    * What the outputs of all runs have in common: the folder with parameters.prm
    * (as used), log.txt and files.txt (what the run has written), a table that
@@ -55,6 +62,12 @@ namespace geocone
     wants_pictures() const
     {
       return pictures;
+    }
+
+    FieldsAsked
+    fields_asked() const
+    {
+      return {with_fields, fields_format == "both" ? 2U : 1U};
     }
 
     /** Whether a sign of life is due: a summary of a run that goes on. */

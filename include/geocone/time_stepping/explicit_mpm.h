@@ -164,6 +164,18 @@ namespace geocone
     unsigned long n_steps       = 0;
     double        n_point_steps = 0.;
 
+    /** The mesh that points move through, and where they come from. */
+    BackgroundMesh &
+    background_mesh()
+    {
+      return mesh;
+    }
+    Seeding &
+    seeds()
+    {
+      return seeding;
+    }
+
   private:
     enum class Order
     {

@@ -84,6 +84,13 @@ namespace geocone
       return particles.n_lost();
     }
 
+    /** Where its particles come from. */
+    Seeding &
+    seeding()
+    {
+      return particles.seeds();
+    }
+
   private:
     /** How velocities go from particles to nodes and back. */
     enum class Transfer

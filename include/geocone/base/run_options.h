@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef geocone_run_options_h
-#define geocone_run_options_h
+#ifndef geocone_base_run_options_h
+#define geocone_base_run_options_h
 
 #include <string>
 
