@@ -32,24 +32,26 @@ namespace geocone
         : dealii::ParameterAcceptor("/Output")
         , path(path)
       {
-        add_parameter("If folder exists", if_exists);
+        add_choice(*this,
+                   "If folder exists",
+                   if_exists,
+                   if_exists_choices,
+                   "What to do if it is not empty.");
       }
 
       /** Makes it, if there is to be one. @throws InputError */
       void
       make()
       {
-        check_choice("Output/If folder exists",
-                     if_exists,
-                     {"number", "refuse", "overwrite"});
         if (!path.empty())
-          path = make_run_folder(MPI_COMM_SELF, path, if_exists);
+          path =
+            make_run_folder(MPI_COMM_SELF, path, if_exists_of(if_exists, true));
       }
 
       std::string path; ///< empty: nowhere
 
     private:
-      std::string if_exists = "number";
+      std::string if_exists = "automatic";
     };
 
     /** What is left of a replay: numbers to compare, and stresses (Pa). */

@@ -51,7 +51,7 @@ namespace geocone
     add_choice(*this,
                "If folder exists",
                if_exists,
-               {"automatic", "number", "refuse", "overwrite"},
+               if_exists_choices,
                "What to do if it is not empty. Number: take NAME-2, NAME-3, "
                "... Overwrite: delete the files that the files.txt of the run "
                "before names. Automatic: refuse a folder that was named, "
@@ -103,13 +103,7 @@ namespace geocone
     const bool was_named = !path.empty();
     if (!was_named)
       path = "results/" + default_name;
-    path = make_run_folder(comm,
-                           path,
-                           if_exists == "overwrite" ? IfExists::overwrite
-                           : if_exists == "number" ||
-                               (if_exists == "automatic" && !was_named)
-                             ? IfExists::number
-                             : IfExists::refuse);
+    path = make_run_folder(comm, path, if_exists_of(if_exists, was_named));
     if (writes)
       {
         Watcher::watch(path);

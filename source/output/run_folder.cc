@@ -135,6 +135,18 @@ namespace geocone
     }
   } // namespace
 
+  const std::vector<std::string> if_exists_choices = {
+    "automatic", "number", "refuse", "overwrite"};
+
+  IfExists
+  if_exists_of(const std::string &choice, const bool was_named)
+  {
+    return choice == "overwrite" ? IfExists::overwrite
+           : choice == "number" || (choice == "automatic" && !was_named)
+             ? IfExists::number
+             : IfExists::refuse;
+  }
+
   std::string
   make_run_folder(const MPI_Comm     comm,
                   const std::string &wanted,

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/stop_request.h>
 #include <geocone/mechanics/reduction.h>
 #include <geocone/solvers/first_iterate.h>
 #include <geocone/solvers/gauss_seidel.h>
@@ -458,6 +459,7 @@ namespace geocone
     double damping = 0.; // the blend of the merit search
     for (bool first = true;; first = false)
       {
+        stop_if_asked(v.get_mpi_communicator());
         if (!std::isfinite(state.norm))
           {
             work.report_not_a_number();

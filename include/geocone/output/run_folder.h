@@ -7,6 +7,7 @@
 #include <mpi.h>
 
 #include <string>
+#include <vector>
 
 namespace geocone
 {
@@ -17,6 +18,13 @@ namespace geocone
     refuse,   ///< end
     overwrite ///< delete the files that the list of the run before names
   };
+
+  /** The choices of "Output/If folder exists"; automatic refuses a folder that was
+   *  named by the user and numbers another one. */
+  extern const std::vector<std::string> if_exists_choices;
+
+  IfExists
+  if_exists_of(const std::string &choice, const bool was_named);
 
   /**
    * Makes the folder of a run, its list of files (files.h) and parameters.prm,
