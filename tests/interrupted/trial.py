@@ -55,7 +55,7 @@ DEEDS = {"kill": (("killed",), (-signal.SIGKILL,)),
          "full-disk-vtu": (("failed",), (1,)),
          "full-disk-hdf5": (("failed",), (1,)),
          "remove": ((), (1,))}
-PATIENCE = 60.  # s, for the start and the end of a run
+PATIENCE = 120.  # s, for the start and the end of a run
 TELLS_WITHIN = 2.  # s after its end a run has told how it ended
 
 
@@ -76,20 +76,23 @@ def wait_for(condition, seconds):
 
 
 def ranks_of(child, program):
-    """The processes of the program that a call has started."""
-    found = []
-    for stat in Path("/proc").glob("[0-9]*/stat"):
+    """The processes of a call that compute: itself, or the children of mpirun. Another
+    process that a rank may have is none."""
+    def runs_program(pid):
         try:
-            pid, rest = int(stat.parent.name), stat.read_text().rsplit(")", 1)[1].split()
-            same = os.path.samefile(stat.parent / "exe", program)
-        except (OSError, ValueError):
-            continue
-        # Of the session of the call: a helper process of the run is no rank, but one's
-        # child.
-        if same and int(rest[3]) == child.pid:
-            found.append((pid, int(rest[1])))
-    pids = {pid for pid, _ in found}
-    return [pid for pid, parent in found if parent not in pids]
+            return os.path.samefile(f"/proc/{pid}/exe", program)
+        except OSError:
+            return False
+
+    def parent(pid):
+        try:
+            return int(Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[1])
+        except OSError:
+            return None
+    if runs_program(child.pid):
+        return [child.pid]
+    return [int(path.name) for path in Path("/proc").glob("[0-9]*")
+            if parent(path.name) == child.pid and runs_program(path.name)]
 
 
 def command(program, method, deed, folder, n_ranks):
@@ -121,7 +124,10 @@ def do(deed, child, program, folder):
             # What the heap still has free would last for long.
             resource.prlimit(pid, resource.RLIMIT_DATA, (1, 1))
     elif deed == "remove":
-        shutil.rmtree(folder, ignore_errors=True)
+        # At once: else a file may be written while the folder is emptied.
+        gone = folder.with_name("gone")
+        folder.rename(gone)
+        shutil.rmtree(gone)
 
 
 def check_tables(folder):
@@ -203,6 +209,7 @@ def attempt(program, method, deed, n_ranks, rng, work):
     environment = {**os.environ, "OMP_NUM_THREADS": "1", "TMPDIR": "/tmp",
                    "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
                    "OMPI_MCA_rmaps_base_oversubscribe": "1",
+                   "OMPI_MCA_mpi_yield_when_idle": "1",
                    "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
     if full:
         mount(disk, size)
@@ -251,6 +258,8 @@ def main():
     parser.add_argument("--output", type=Path, metavar="FOLDER",
                         help="is emptied; default: a new one")
     call = parser.parse_args()
+    # Runs of a job in the background would ignore it, too.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     program = call.program.resolve()
     output = (call.output or Path(tempfile.mkdtemp(prefix="interrupted-"))).resolve()
     cases = [case.split(":") for case in call.cases or ()]

@@ -15,20 +15,22 @@ run() # NAME N OPTION ...
   "$program" "$root/tests/output/ring.prm" --quiet --output "$name-$n" \
     --set "Geometry/File = $PWD/ring.msh" "${options[@]}"
 }
+bore=('Boundary conditions/bore/Sides = bore' 'Observation/Conditions = bore')
+radial=("${bore[@]}" 'Boundary conditions/bore/Velocity x = 1e-3*x'
+  'Boundary conditions/bore/Velocity y = 1e-3*y')
 for n in 8 16; do
   for element in Q1 Q2; do
-    run "$element-last" $n "Discretisation/Element = $element"
-    run "$element-first" $n "Discretisation/Element = $element" \
+    degree="Discretisation/Element = $element"
+    run "$element-last" $n "$degree" "${radial[@]}" \
+      'Boundary conditions/Names = plane_x, plane_y, bore'
+    run "$element-first" $n "$degree" "${radial[@]}" \
       'Boundary conditions/Names = bore, plane_x, plane_y'
-    run "$element-pressure" $n "Discretisation/Element = $element" \
-      'Boundary conditions/Names = plane_x, plane_y' 'Tractions/Names = bore' \
-      'Tractions/bore/Sides = bore' 'Tractions/bore/Traction normal = -1363.6363636' \
-      'Observation/Conditions = plane_x' \
-      'Observation/Points = 0.70710678118654757, 0.70710678118654746; 2, 0'
-    run "$element-normal" $n "Discretisation/Element = $element" \
-      'Boundary conditions/bore/Velocity x = free' \
-      'Boundary conditions/bore/Velocity y = free' \
+    run "$element-normal" $n "$degree" "${bore[@]}" \
+      'Boundary conditions/Names = plane_x, plane_y, bore' \
       'Boundary conditions/bore/Velocity normal = -1e-3'
+    run "$element-pressure" $n "$degree" 'Tractions/Names = bore' \
+      'Tractions/bore/Sides = bore' 'Tractions/bore/Traction normal = -1363.6363636' \
+      'Observation/Points = 0.70710678118654757, 0.70710678118654746; 2, 0'
   done
 done
 /usr/bin/python3 - <<'PYTHON'

@@ -17,7 +17,7 @@ subsection Materials
   set Names = soil
   subsection soil
     set Type          = linear elastic
-    set Density       = 2000
+    set Density       = 500
     set Young modulus = 1e6
     set Poisson ratio = 0.3
   end
@@ -34,7 +34,7 @@ subsection Boundary conditions
   end
   subsection plate
     set Sides           = top
-    set Velocity normal = -1e-3
+    set Velocity normal = -4e-3
   end
 end
 subsection Tractions
@@ -72,7 +72,7 @@ along_axes=('Boundary conditions/bottom/Velocity normal = free'
   'Boundary conditions/left/Velocity normal = free'
   'Boundary conditions/left/Velocity x = 0'
   'Boundary conditions/plate/Velocity normal = free'
-  'Boundary conditions/plate/Velocity y = -1e-3'
+  'Boundary conditions/plate/Velocity y = -4e-3'
   'Tractions/side/Traction normal = none' 'Tractions/side/Traction tangential = none'
   'Tractions/side/Traction x = -2000' 'Tractions/side/Traction y = 300')
 weak=('Materials/soil/Type = Mohr-Coulomb' 'Materials/soil/Cohesion = 1000'
