@@ -32,24 +32,29 @@ namespace geocone
         : dealii::ParameterAcceptor("/Output")
         , path(path)
       {
-        add_parameter("If folder exists", if_exists);
+        add_choice(*this,
+                   "If folder exists",
+                   if_exists,
+                   {"automatic", "number", "refuse", "overwrite"},
+                   "As of runs; automatic: refuse.");
       }
 
       /** Makes it, if there is to be one. @throws InputError */
       void
       make()
       {
-        check_choice("Output/If folder exists",
-                     if_exists,
-                     {"number", "refuse", "overwrite"});
         if (!path.empty())
-          path = make_run_folder(MPI_COMM_SELF, path, if_exists);
+          path = make_run_folder(MPI_COMM_SELF,
+                                 path,
+                                 if_exists == "overwrite" ? IfExists::overwrite
+                                 : if_exists == "number"  ? IfExists::number
+                                                          : IfExists::refuse);
       }
 
       std::string path; ///< empty: nowhere
 
     private:
-      std::string if_exists = "number";
+      std::string if_exists = "automatic";
     };
 
     /** What is left of a replay: numbers to compare, and stresses (Pa). */
@@ -74,10 +79,10 @@ namespace geocone
       materials.prepare();
       newton.prepare();
 
-      ThawedProblem thawed(frozen, materials);
-      folder.make();
+      ThawedProblem       thawed(frozen, materials);
       IncrementalProblem &problem = thawed.problem();
       newton.check(problem);
+      folder.make();
       const auto linear_solver = make_linear_solver(
         newton.linear_solver_name(), MPI_COMM_SELF, problem.is_symmetric());
       dealii::TimerOutput timer(
