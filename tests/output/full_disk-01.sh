@@ -22,7 +22,7 @@ for scene in tests/footing_coarse.prm prm/footing_mpm.prm tests/explicit/collaps
         --set 'Output/Fields = true' --set "Output/Fields format = $format" \
         --set 'Particles/Points per direction = 12' >"$name.out" 2>&1 || code=$?
       [ $code = 1 ] || { echo "$name: exit code $code"; cat "$name.out"; exit 1; }
-      grep -q "error: .*the file '$name/.*cannot be written: is the disk full?" \
+      grep -q "error: .*the file '$name/.*cannot be written: " \
         "$name.out" || { echo "$name:"; cat "$name.out"; exit 1; }
       ! grep -q 'HDF5-DIAG\|Segmentation\|signal' "$name.out"
       ! ls "$name"/*.part 2>/dev/null
