@@ -70,11 +70,11 @@ namespace geocone
 
     CoarseMesh mesh;
     if (geometry.shape == Geometry::Shape::file)
-      mesh = read_msh(geometry.file, scene.regions);
+      mesh = mesh_of_file(geometry, scene.regions, comm);
     else
       {
         mesh = parameters.type == "unstructured"
-                 ? unstructured_mesh(parameters, scene.regions)
+                 ? unstructured_mesh(parameters, scene.regions, comm)
                  : structured_mesh(parameters);
         for (auto &cell : mesh.cells)
           cell.material_id = scene.regions.material_at(mesh.centre(cell), -1);

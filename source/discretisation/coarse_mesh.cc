@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
 #include <geocone/discretisation/coarse_mesh.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace geocone
 {
@@ -37,7 +39,7 @@ namespace geocone
       edges_of_triangle      = {{{0, 1}}, {{1, 2}}, {{2, 0}}},
       edges_of_quadrilateral = {{{0, 1}}, {{1, 3}}, {{3, 2}}, {{2, 0}}};
 
-    std::map<std::array<unsigned int, 2>, unsigned int> n_cells;
+    std::vector<std::array<unsigned int, 2>> edges;
     for (const auto &cell : cells)
       for (const auto &edge : cell.vertices.size() == 3
                                 ? edges_of_triangle
@@ -45,12 +47,17 @@ namespace geocone
         {
           const unsigned int a = cell.vertices[edge[0]];
           const unsigned int b = cell.vertices[edge[1]];
-          ++n_cells[{{std::min(a, b), std::max(a, b)}}];
+          edges.push_back({{std::min(a, b), std::max(a, b)}});
         }
+    std::sort(edges.begin(), edges.end());
     std::vector<std::array<unsigned int, 2>> outer;
-    for (const auto &[edge, n] : n_cells)
-      if (n == 1)
-        outer.push_back(edge);
+    for (std::size_t i = 0, j; i < edges.size(); i = j)
+      {
+        for (j = i; j < edges.size() && edges[j] == edges[i];)
+          ++j;
+        if (j == i + 1)
+          outer.push_back(edges[i]);
+      }
     return outer;
   }
 
@@ -118,6 +125,8 @@ namespace geocone
     const auto [lower, upper] = geometry.bounding_box();
     if (box.empty())
       box = {lower, upper};
+    if (box.size() == 2)
+      check_coordinates(box, "Mesh/Box");
     const double tolerance = 1e-9 * lower.distance(upper);
     if (box.size() != 2 || box[0][0] > lower[0] + tolerance ||
         box[0][1] > lower[1] + tolerance || box[1][0] < upper[0] - tolerance ||
@@ -201,6 +210,48 @@ namespace geocone
                              "points of the domain",
                              "move it into the domain or onto its border");
         }
+    if (geometry.shape != Geometry::Shape::file)
+      check_sizes();
+  }
+
+  void
+  MeshParameters::check_sizes() const
+  {
+    const double      resolved   = resolved_length(outline);
+    const bool        by_grading = type == "graded" || !grading_points.empty();
+    const bool        uniform    = type == "uniform" || !by_grading;
+    const std::string entry = uniform ? "Mesh/Cell size" : "Mesh/Smallest size";
+    const double      size  = uniform ? cell_size : smallest;
+    if (size < resolved)
+      throw InputError(
+        entry,
+        size,
+        format(">= %g at the coordinates of the domain", resolved),
+        "take larger cells, or put the origin nearer to the "
+        "body: double precision resolves no smaller cells there");
+    double n_cells;
+    if (type == "unstructured")
+      n_cells = unstructured_size(*this);
+    else
+      {
+        const std::array<double, dim> n = grid_size(*this);
+        n_cells                         = n[0] * n[1] *
+                  (cells == "quadrilaterals" ? 1.
+                   : diagonals == "crossed"  ? 4.
+                                             : 2.);
+      }
+    if (!(n_cells <= most_cells))
+      throw InputError(entry,
+                       size,
+                       format("sizes that give up to %g cells; these would "
+                              "give about %.3g",
+                              most_cells,
+                              n_cells),
+                       uniform ? std::string("take larger cells")
+                               : "raise it, or 'Mesh/Largest size', or " +
+                                   std::string(type == "graded"
+                                                 ? "'Mesh/Growth factor'"
+                                                 : "'Mesh/Size ratio'"));
   }
 
   namespace
@@ -214,6 +265,40 @@ namespace geocone
       for (int i = 0; i <= n; ++i)
         x[i] = begin + (end - begin) * i / n;
       return x;
+    }
+
+    /** An interval between two grading points, or one and the border. */
+    struct Piece
+    {
+      double left, right;
+      bool   is_fine_left, is_fine_right;
+    };
+
+    std::vector<Piece>
+    pieces_between(const double        begin,
+                   const double        end,
+                   std::vector<double> fine)
+    {
+      const double tolerance = 1e-9 * (end - begin);
+      for (double &x : fine)
+        x = std::clamp(x, begin, end);
+      std::sort(fine.begin(), fine.end());
+      std::vector<double> knots = {begin};
+      for (const double x : fine)
+        if (x > knots.back() + tolerance)
+          knots.push_back(x);
+      if (end > knots.back() + tolerance)
+        knots.push_back(end);
+      const auto is_fine = [&](const double x) {
+        return std::any_of(fine.begin(), fine.end(), [&](const double f) {
+          return std::abs(f - x) < tolerance;
+        });
+      };
+      std::vector<Piece> pieces;
+      for (std::size_t i = 0; i + 1 < knots.size(); ++i)
+        pieces.push_back(
+          {knots[i], knots[i + 1], is_fine(knots[i]), is_fine(knots[i + 1])});
+      return pieces;
     }
 
     /**
@@ -237,30 +322,17 @@ namespace geocone
     }
 
     std::vector<double>
-    graded_coordinates(const double          begin,
-                       const double          end,
-                       std::vector<double>   fine,
-                       const MeshParameters &parameters)
+    graded_coordinates(const double               begin,
+                       const double               end,
+                       const std::vector<double> &fine,
+                       const MeshParameters      &parameters)
     {
-      std::sort(fine.begin(), fine.end());
-      std::vector<double> knots = {begin};
-      for (const double x : fine)
-        if (x > knots.back() + 1e-9 * (end - begin))
-          knots.push_back(x);
-      if (end > knots.back() + 1e-9 * (end - begin))
-        knots.push_back(end);
-      const auto is_fine = [&](const double x) {
-        return std::any_of(fine.begin(), fine.end(), [&](const double f) {
-          return std::abs(f - x) < 1e-9 * (end - begin);
-        });
-      };
-
       std::vector<double> x = {begin};
-      for (std::size_t i = 0; i + 1 < knots.size(); ++i)
+      for (const auto &[left, right, is_fine_left, is_fine_right] :
+           pieces_between(begin, end, fine))
         {
-          const double        left = knots[i], right = knots[i + 1];
           std::vector<double> sizes;
-          if (is_fine(left) && is_fine(right))
+          if (is_fine_left && is_fine_right)
             {
               const std::vector<double> half =
                 growing_sizes((right - left) / 2., parameters);
@@ -270,7 +342,7 @@ namespace geocone
           else
             {
               sizes = growing_sizes(right - left, parameters);
-              if (is_fine(right))
+              if (is_fine_right)
                 std::reverse(sizes.begin(), sizes.end());
             }
           for (const double size : sizes)
@@ -279,7 +351,121 @@ namespace geocone
         }
       return x;
     }
+
+    /** The number of sizes that growing_sizes() gives, in closed form. */
+    double
+    number_of_sizes(const double length, const MeshParameters &parameters)
+    {
+      const double s = parameters.smallest, l = parameters.largest;
+      const double d = parameters.growth - 1., log_growth = std::log1p(d);
+      const double k    = std::ceil(std::log(l / s) / log_growth);
+      const double grow = s * (std::expm1(k * log_growth) / d);
+      // The same relative tolerance as there.
+      const double L = length * (1. - 1e-9);
+      return std::max(1.,
+                      grow >= L ? std::ceil(std::log1p(L * d / s) / log_growth)
+                                : k + std::ceil((L - grow) / l));
+    }
+
+    std::vector<double>
+    coordinates_of_grading_points(const MeshParameters &parameters,
+                                  const unsigned int    c)
+    {
+      std::vector<double> x;
+      for (const Point<dim> &point : parameters.grading_points)
+        x.push_back(point[c]);
+      return x;
+    }
   } // namespace
+
+  std::array<double, dim>
+  grid_size(const MeshParameters &parameters)
+  {
+    const Point<dim> lower = parameters.outline[0],
+                     upper = parameters.outline[2];
+    std::array<double, dim> n;
+    for (unsigned int c = 0; c < dim; ++c)
+      if (parameters.type == "graded")
+        {
+          n[c] = 0.;
+          for (const Piece &piece :
+               pieces_between(lower[c],
+                              upper[c],
+                              coordinates_of_grading_points(parameters, c)))
+            {
+              const double length = piece.right - piece.left;
+              n[c] += piece.is_fine_left && piece.is_fine_right
+                        ? 2. * number_of_sizes(length / 2., parameters)
+                        : number_of_sizes(length, parameters);
+            }
+        }
+      else
+        n[c] = std::max(
+          1., std::round((upper[c] - lower[c]) / parameters.cell_size));
+    return n;
+  }
+
+  namespace
+  {
+    /** Integrates 1/h^2 over triangles, by parts in which h hardly varies. */
+    class IntegralOfSizes
+    {
+    public:
+      explicit IntegralOfSizes(const MeshParameters &parameters)
+        : parameters(parameters)
+      {}
+
+      /** The integral, with the sign of the triangle's orientation. */
+      double
+      over(const std::array<Point<dim>, 3> &corners, const int depth = 60) const
+      {
+        const auto &[a, b, c]   = corners;
+        const Point<dim> centre = a + (b - a) / 3. + (c - a) / 3.;
+        const double     radius = std::max(
+          {centre.distance(a), centre.distance(b), centre.distance(c)});
+        double distance = std::numeric_limits<double>::max();
+        for (const Point<dim> &x : parameters.grading_points)
+          distance = std::min(distance, centre.distance(x));
+        // The size is monotonic in the distance, which changes by the radius.
+        if (depth == 0 ||
+            size(distance + radius) <= 1.5 * size(distance - radius))
+          {
+            const double h = size(distance);
+            return cross_product_2d(b - a) * (c - a) / -2. / (h * h);
+          }
+        const Point<dim> ab = a + (b - a) / 2., bc = b + (c - b) / 2.,
+                         ca = c + (a - c) / 2.;
+        return over({{a, ab, ca}}, depth - 1) + over({{ab, b, bc}}, depth - 1) +
+               over({{ca, bc, c}}, depth - 1) + over({{ab, bc, ca}}, depth - 1);
+      }
+
+    private:
+      double
+      size(const double distance) const
+      {
+        return parameters.grading_points.empty()
+                 ? parameters.cell_size
+                 : std::clamp(parameters.size_ratio * distance,
+                              parameters.smallest,
+                              parameters.largest);
+      }
+
+      const MeshParameters &parameters;
+    };
+  } // namespace
+
+  double
+  unstructured_size(const MeshParameters &parameters)
+  {
+    const Polygon        &outline = parameters.outline;
+    const IntegralOfSizes integral(parameters);
+    double                sum = 0.;
+    for (std::size_t i = 1; i + 1 < outline.size(); ++i)
+      sum += integral.over({{outline[0], outline[i], outline[i + 1]}});
+    const double n_triangles =
+      std::max(4. / std::sqrt(3.) * std::abs(sum), outline.size() - 2.);
+    return (parameters.cells == "quadrilaterals" ? 2. : 1.) * n_triangles;
+  }
 
   std::array<std::vector<double>, dim>
   grid_lines(const MeshParameters &parameters)
@@ -289,14 +475,26 @@ namespace geocone
     std::array<std::vector<double>, dim> x;
     for (unsigned int c = 0; c < dim; ++c)
       if (parameters.type == "graded")
-        {
-          std::vector<double> fine;
-          for (const Point<dim> &point : parameters.grading_points)
-            fine.push_back(point[c]);
-          x[c] = graded_coordinates(lower[c], upper[c], fine, parameters);
-        }
+        x[c] = graded_coordinates(lower[c],
+                                  upper[c],
+                                  coordinates_of_grading_points(parameters, c),
+                                  parameters);
       else
         x[c] = uniform_coordinates(lower[c], upper[c], parameters.cell_size);
+    // Sizes are scaled to fill the length between two grading points.
+    const double resolved = resolved_length(parameters.outline);
+    for (unsigned int c = 0; c < dim; ++c)
+      for (std::size_t i = 0; i + 1 < x[c].size(); ++i)
+        if (!(x[c][i + 1] - x[c][i] >= 0.1 * resolved))
+          throw InputError(
+            "Mesh/Grading points",
+            dealii::Patterns::Tools::to_string(parameters.grading_points),
+            format("cells of %g m or more at the coordinates of the domain",
+                   0.1 * resolved),
+            format("there are two lines at %c = %.17g: take one of two points "
+                   "that are so close together",
+                   "xy"[c],
+                   x[c][i]));
     return x;
   }
 

@@ -88,6 +88,44 @@ namespace geocone
     return x.distance(nearest_on_segment(x, a, b));
   }
 
+  double
+  resolved_length(const std::vector<Point<dim>> &points)
+  {
+    double largest = 0.;
+    for (const Point<dim> &x : points)
+      largest = std::max({largest, std::abs(x[0]), std::abs(x[1])});
+    return std::max(smallest_size, smallest_relative_size * largest);
+  }
+
+  void
+  check_coordinates(const std::vector<Point<dim>> &points,
+                    const std::string             &parameter)
+  {
+    for (const Point<dim> &x : points)
+      for (unsigned int c = 0; c < dim; ++c)
+        if (!(std::abs(x[c]) <= largest_coordinate))
+          throw InputError(parameter,
+                           text(points),
+                           format("coordinates up to %g m", largest_coordinate),
+                           "give them in m, from an origin near the body");
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        const auto [low, high] = std::minmax_element(
+          points.begin(), points.end(), [&](const auto &a, const auto &b) {
+            return a[c] < b[c];
+          });
+        if ((*high)[c] - (*low)[c] < resolved_length(points))
+          throw InputError(
+            parameter,
+            text(points),
+            format("an extent of %g m or more along x and y, at these "
+                   "coordinates",
+                   resolved_length(points)),
+            "put the origin near the body: numbers of 16 digits hold no small "
+            "body far away");
+      }
+  }
+
   void
   check_polygon(const Polygon &polygon, const std::string &parameter)
   {
@@ -97,12 +135,14 @@ namespace geocone
       "meet";
     if (n < 3)
       throw InputError(parameter, text(polygon), allowed, "give its vertices");
+    check_coordinates(polygon, parameter);
     double size = 0.;
     for (const Point<dim> &x : polygon)
       size = std::max(size, (x - polygon[0]).norm());
     for (std::size_t i = 0; i < n; ++i)
       {
-        if (polygon[i].distance(polygon[(i + 1) % n]) < 1e-9 * size)
+        if (polygon[i].distance(polygon[(i + 1) % n]) <
+            std::max(1e-9 * size, resolved_length(polygon)))
           throw InputError(parameter,
                            text(polygon),
                            allowed,
@@ -134,9 +174,10 @@ namespace geocone
   {
     const std::filesystem::path beside =
       std::filesystem::path(folder_of_parameters) / name;
+    std::error_code error; // a name that cannot be asked for is no file
     for (const std::filesystem::path &path :
          {beside, std::filesystem::path(name)})
-      if (std::filesystem::is_regular_file(path))
+      if (std::filesystem::is_regular_file(path, error))
         return path.string();
     throw InputError(parameter,
                      name,
@@ -167,9 +208,17 @@ namespace geocone
     add_parameter("File",
                   file,
                   "A gmsh .msh file (relative to the folder of the parameter "
-                  "file, or else to that of the call) with "
-                  "triangles or quadrilaterals of first order. Sides have the "
-                  "numbers or names of its physical curves.");
+                  "file, or else to that of the call) of version 2.2 or 4.1, "
+                  "ASCII or binary, up to 512 MB, in the plane z = 0 and "
+                  "with triangles or quadrilaterals of first order. Sides have the numbers or "
+                  "names of its physical curves. It is read as data: nothing "
+                  "in it is run. For geo scripts see 'Run gmsh script'.");
+    add_parameter("Run gmsh script",
+                  may_run_script,
+                  "Whether 'File' may be a geo script (NAME.geo), which gmsh "
+                  "then runs and meshes. A script is a program: it can run "
+                  "commands and write files with your rights. Set it only for "
+                  "scripts that you trust. A .msh file is never run.");
   }
 
   void
@@ -186,6 +235,7 @@ namespace geocone
                            text(box),
                            "lower left; upper right corner",
                            "for a box of 2 m x 2 m: -1, -2; 1, 0");
+        check_coordinates(box, "Geometry/Box");
         outline = {
           box[0], {box[1][0], box[0][1]}, box[1], {box[0][0], box[1][1]}};
         sides = {{"bottom", 0}, {"right", 1}, {"top", 2}, {"left", 3}};
@@ -239,6 +289,23 @@ namespace geocone
       {
         if (!(radii[i] > 0.))
           throw InputError("Geometry/Radii", values, "> 0", "give them in m");
+        const double farthest =
+          std::max(std::abs(centres[i][0]), std::abs(centres[i][1])) + radii[i];
+        if (!(farthest <= largest_coordinate))
+          throw InputError(
+            "Geometry/Centres",
+            text(centres),
+            format("discs within %g m of the origin", largest_coordinate),
+            "give centres and radii in m");
+        if (radii[i] < resolved_length({centres[i]}))
+          throw InputError("Geometry/Radii",
+                           values,
+                           format(">= %g at the centre %g, %g",
+                                  resolved_length({centres[i]}),
+                                  centres[i][0],
+                                  centres[i][1]),
+                           "put the origin near the body: numbers of 16 "
+                           "digits hold no small body far away");
         for (std::size_t j = 0; j < i; ++j)
           if (centres[i].distance(centres[j]) <
               (radii[i] + radii[j]) * (1. - 1e-9))

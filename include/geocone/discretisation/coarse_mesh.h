@@ -80,8 +80,37 @@ namespace geocone
     void
     choose_outline(const Geometry &geometry, const Method &method);
 
+    /** @throws InputError for sizes that numbers or memory cannot hold */
+    void
+    check_sizes() const;
+
     std::vector<dealii::Point<dim>> box;
   };
+
+  /** The most cells of a mesh: their unknowns are counted in 32 bits. */
+  constexpr double most_cells = 1e8;
+
+  /**
+   * The numbers of intervals of a uniform or graded mesh of a box along x and y,
+   * without building it. Uniform: length / size, rounded, at least 1. Graded:
+   * over a length L from a fine end, sizes s, s g, s g^2, ... of which k =
+   * ceil(ln(l/s) / ln g) are smaller than the largest size l, sum up to
+   *   S_n = s (g^n - 1)/(g - 1) for n <= k, and S_k + (n - k) l beyond;
+   * the number is the smallest n with S_n >= L. Rounding can make it differ from
+   * grid_lines() by one between two grading points.
+   */
+  std::array<double, dim>
+  grid_size(const MeshParameters &parameters);
+
+  /**
+   * The number of cells to be expected of an unstructured mesh with the size
+   * field h: triangles are nearly equilateral, so that there are
+   *   4/sqrt(3) times the integral of 1/h^2 over the domain
+   * of them; each pair of triangles becomes four quadrilaterals. Within a factor
+   * of 2 of what gmsh makes, unless edges of materials force small cells.
+   */
+  double
+  unstructured_size(const MeshParameters &parameters);
 
   /** Coordinates of the lines of a uniform or graded mesh of a box (m). */
   std::array<std::vector<double>, dim>
@@ -91,17 +120,21 @@ namespace geocone
   CoarseMesh
   structured_mesh(const MeshParameters &parameters);
 
-  /** Unstructured mesh of a box or polygon, by gmsh. */
+  /** Unstructured mesh of a box or polygon, by gmsh. Collective. */
   CoarseMesh
-  unstructured_mesh(const MeshParameters &parameters, const Regions &regions);
+  unstructured_mesh(const MeshParameters &parameters,
+                    const Regions        &regions,
+                    const MPI_Comm        comm);
 
   /**
-   * The mesh of a .msh file.
-   * @throws InputError if it holds no cells of first order, inverted cells, or
-   * hanging nodes
+   * The mesh of a .msh file (see msh_file.h), or of a geo script if the geometry
+   * says that it may be run. Collective: the first rank reads or runs it.
+   * @throws InputError if it is neither, or no mesh of ours
    */
   CoarseMesh
-  read_msh(const std::string &file_name, const Regions &regions);
+  mesh_of_file(const Geometry &geometry,
+               const Regions  &regions,
+               const MPI_Comm  comm);
 } // namespace geocone
 
 #endif

@@ -22,6 +22,28 @@ namespace geocone
 {
   using Polygon = std::vector<dealii::Point<dim>>;
 
+  /**
+   * What double precision resolves with room for a solution: coordinates up to
+   * 1e12 m, whose squares and products stay far from overflow, and lengths of
+   * 1e-12 m or more that are 1e-9 of the coordinates or more. A coordinate is
+   * rounded by 1e-16 of itself, a cell then by 1e-7 of its size.
+   */
+  constexpr double largest_coordinate     = 1e12;
+  constexpr double smallest_size          = 1e-12;
+  constexpr double smallest_relative_size = 1e-9;
+
+  /** The smallest length (m) that is resolved where @p points are. */
+  double
+  resolved_length(const std::vector<dealii::Point<dim>> &points);
+
+  /**
+   * @throws InputError if coordinates are not finite or too large, or if the
+   * points reach less far along x or y than their coordinates resolve
+   */
+  void
+  check_coordinates(const std::vector<dealii::Point<dim>> &points,
+                    const std::string                     &parameter);
+
   /** Whether x lies inside a polygon (crossing number). */
   bool
   contains(const Polygon &polygon, const dealii::Point<dim> &x);
@@ -57,11 +79,11 @@ namespace geocone
                 const std::string &allowed);
 
   /**
-   * The domain: a box, a polygon, discs, or whatever a .msh file holds. The
-   * sides of a box are called bottom, right, top, left; those of a polygon 0, 1,
-   * 2, ... (side i runs from vertex i to the next one); those of a file have the
-   * numbers or names of its physical curves; discs have none, and only the
-   * material point method can fill them.
+   * The domain: a box, a polygon, discs, or whatever a .msh file (or a script of
+   * gmsh) holds. The sides of a box are called bottom, right, top, left; those of
+   * a polygon 0, 1, 2, ... (side i runs from vertex i to the next one); those of
+   * a file have the numbers or names of its physical curves; discs have none, and
+   * only the material point method can fill them.
    */
   class Geometry : public dealii::ParameterAcceptor
   {
@@ -87,8 +109,11 @@ namespace geocone
     /** The number of each named side of the box or polygon. */
     std::map<std::string, dealii::types::boundary_id> sides;
 
-    /** Name of the .msh file. */
+    /** Name of the .msh file, or of the geo script. */
     std::string file;
+
+    /** Whether the file may be a script, which gmsh then runs. */
+    bool may_run_script = false;
 
     /** The ends of a side of the outline: its vertex and the next one. */
     std::array<dealii::Point<dim>, 2>

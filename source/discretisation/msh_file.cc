@@ -1,0 +1,1110 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/discretisation/msh_file.h>
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <deal.II/numerics/rtree.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <numeric>
+
+namespace geocone
+{
+  using dealii::Point;
+
+  namespace
+  {
+    // Five million nodes in ASCII; the solvers end long before.
+    constexpr std::uintmax_t largest_file = 512ULL << 20;
+
+    const std::string versions =
+      "gmsh's .msh files of version 2.2 or 4.1, ASCII or binary";
+    const std::string write_anew =
+      "write it anew, e.g.: gmsh OLD.msh -save -format msh41 -o NEW.msh";
+
+    bool
+    is_space(const char c)
+    {
+      return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' ||
+             c == '\f';
+    }
+
+    /** A part of a file as it can be shown on any screen. */
+    std::string
+    shown(const std::string &text)
+    {
+      constexpr std::size_t longest = 30;
+      std::string           all;
+      for (const char c : text.substr(0, longest))
+        all += c >= ' ' && c <= '~' ? c : '?';
+      return "'" + all + (text.size() > longest ? "..." : "") + "'";
+    }
+
+    /**
+     * Goes through the text of a file. Every number is checked against its
+     * range when it is read; nothing is allocated.
+     */
+    class Scanner
+    {
+    public:
+      Scanner(const std::string &text, const std::string &what)
+        : text(text)
+        , what(what)
+      {}
+
+      /** Binary numbers from here on; @p swapped: of the other byte order. */
+      void
+      set_binary(const bool is_swapped)
+      {
+        binary  = true;
+        swapped = is_swapped;
+      }
+
+      bool
+      is_binary() const
+      {
+        return binary;
+      }
+
+      [[noreturn]] void
+      refuse(const std::string &fault,
+             const std::string &remedy = write_anew) const
+      {
+        const std::string place =
+          binary ? "byte " + std::to_string(last)
+                 : "line " +
+                     std::to_string(
+                       1 + std::count(text.begin(), text.begin() + last, '\n'));
+        throw InputError(what + ", " + place + ": " + fault +
+                         "\n  allowed: " + versions + "\n  remedy:  " + remedy);
+      }
+
+      bool
+      at_end()
+      {
+        skip_space();
+        return position == text.size();
+      }
+
+      /** The next word of a text. */
+      std::string
+      word(const char *name)
+      {
+        skip_space();
+        last = position;
+        while (position < text.size() && !is_space(text[position]))
+          ++position;
+        if (position == last)
+          refuse(std::string("the file ends where ") + name + " is expected",
+                 "it is not complete: copy or write it again");
+        return text.substr(last, position - last);
+      }
+
+      /** Goes to the start of the next line. */
+      void
+      end_line()
+      {
+        const std::size_t end = text.find('\n', position);
+        position = end == std::string::npos ? text.size() : end + 1;
+      }
+
+      /** Goes behind the line $EndNAME. */
+      void
+      skip_section(const std::string &name)
+      {
+        const std::string end = "\n$End" + name;
+        // The line of the header has ended before the section begins.
+        std::size_t at = text.find(end, position == 0 ? 0 : position - 1);
+        for (; at != std::string::npos; at = text.find(end, at + 1))
+          if (at + end.size() == text.size() || is_space(text[at + end.size()]))
+            {
+              position = at + end.size();
+              return;
+            }
+        last = position;
+        refuse("the section $" + name + " has no end",
+               "it is not complete: copy or write it again");
+      }
+
+      void
+      end_section(const std::string &name)
+      {
+        skip_space();
+        last                  = position;
+        const std::string end = "$End" + name;
+        if (text.compare(position, end.size(), end) != 0)
+          refuse(position == text.size()
+                   ? "the file ends before $End" + name
+                   : "there is more in the section $" + name +
+                       " than it announces, or less: " +
+                       shown(text.substr(position, 60)) + " instead of $End" +
+                       name,
+                 "copy it again, or " + write_anew);
+        position += end.size();
+      }
+
+      /** An integer that is text in binary files, too. */
+      template <typename Integer>
+      Integer
+      integer_in_text(const char   *name,
+                      const Integer smallest,
+                      const Integer largest)
+      {
+        const std::string token = word(name);
+        Integer           value{};
+        const auto        end =
+          std::from_chars(token.data(), token.data() + token.size(), value);
+        if (end.ec != std::errc() || end.ptr != token.data() + token.size() ||
+            value < smallest || value > largest)
+          refuse_number(name, shown(token), smallest, largest);
+        return value;
+      }
+
+      /** An integer: int or std::uint64_t, which binary files hold as such. */
+      template <typename Integer>
+      Integer
+      integer(const char   *name,
+              const Integer smallest = std::numeric_limits<Integer>::min(),
+              const Integer largest  = std::numeric_limits<Integer>::max())
+      {
+        if (!binary)
+          return integer_in_text(name, smallest, largest);
+        const Integer value = bytes<Integer>(name);
+        if (value < smallest || value > largest)
+          refuse_number(name, std::to_string(value), smallest, largest);
+        return value;
+      }
+
+      double
+      number(const char *name)
+      {
+        double      value = 0.;
+        std::string token;
+        bool        is_number = true;
+        if (binary)
+          value = bytes<double>(name);
+        else
+          {
+            token = word(name);
+            const auto end =
+              std::from_chars(token.data(), token.data() + token.size(), value);
+            is_number = end.ptr == token.data() + token.size() &&
+                        end.ec != std::errc::invalid_argument;
+            // Too small is zero, too large is infinite.
+            if (is_number && end.ec == std::errc::result_out_of_range)
+              value = std::strtod(token.c_str(), nullptr);
+          }
+        if (!is_number || !std::isfinite(value))
+          refuse(std::string(name) + " is no finite number: " +
+                   (binary ? format("%g", value) : shown(token)),
+                 "write the mesh anew; the file is damaged");
+        return value;
+      }
+
+      /** @p n items of at least @p size bytes each must follow. */
+      void
+      check_room(const std::uint64_t n,
+                 const std::uint64_t size,
+                 const char         *items) const
+      {
+        if (n > (text.size() - position) / size)
+          refuse("it announces " + std::to_string(n) + " " + items +
+                   ", more than the rest of the file can hold",
+                 "it is not complete or damaged: copy or write it again");
+      }
+
+      /** Skips @p n integers. */
+      template <typename Integer>
+      void
+      skip_integers(const std::uint64_t n, const char *name)
+      {
+        check_room(n, binary ? sizeof(Integer) : 2, name);
+        if (binary)
+          position += n * sizeof(Integer);
+        else
+          for (std::uint64_t i = 0; i < n; ++i)
+            integer_in_text(name,
+                            std::numeric_limits<Integer>::min(),
+                            std::numeric_limits<Integer>::max());
+      }
+
+      /** The text between quotation marks on the rest of the line. */
+      std::string
+      quoted(const char *name)
+      {
+        last = position;
+        const std::size_t line =
+          std::min(text.find('\n', position), text.size());
+        const std::size_t begin = text.find('"', position);
+        const std::size_t end =
+          begin < line ? text.find('"', begin + 1) : std::string::npos;
+        if (begin >= line || end >= line)
+          refuse(std::string(name) + " is not in quotation marks");
+        position = end + 1;
+        return text.substr(begin + 1, end - begin - 1);
+      }
+
+    private:
+      void
+      skip_space()
+      {
+        while (position < text.size() && is_space(text[position]))
+          ++position;
+      }
+
+      template <typename Integer>
+      [[noreturn]] void
+      refuse_number(const char        *name,
+                    const std::string &value,
+                    const Integer      smallest,
+                    const Integer      largest) const
+      {
+        refuse(std::string(name) + " is " + value +
+                 " instead of an integer from " + std::to_string(smallest) +
+                 " to " + std::to_string(largest),
+               "write the mesh anew; the file is damaged");
+      }
+
+      template <typename Number>
+      Number
+      bytes(const char *name)
+      {
+        last = position;
+        if (text.size() - position < sizeof(Number))
+          refuse(std::string("the file ends where ") + name + " is expected",
+                 "it is not complete: copy or write it again");
+        char raw[sizeof(Number)];
+        std::memcpy(raw, text.data() + position, sizeof(Number));
+        if (swapped)
+          std::reverse(raw, raw + sizeof(Number));
+        Number value;
+        std::memcpy(&value, raw, sizeof(Number));
+        position += sizeof(Number);
+        return value;
+      }
+
+      const std::string &text;
+      const std::string &what;
+      std::size_t        position = 0;
+      std::size_t        last     = 0;
+      bool               binary   = false;
+      bool               swapped  = false;
+    };
+
+    /** Reads one file, section by section. */
+    class Reader
+    {
+    public:
+      Reader(const std::string &text, const std::string &what)
+        : in(text, what)
+        , what(what)
+      {}
+
+      MshData
+      read()
+      {
+        std::set<std::string> seen;
+        while (!in.at_end())
+          {
+            const std::string header = in.word("a section");
+            if (header.size() < 2 || header[0] != '$' ||
+                header.compare(0, 4, "$End") == 0)
+              in.refuse("there is " + shown(header) +
+                        " where a section should begin");
+            const std::string name = header.substr(1);
+            in.end_line();
+            const bool known = name == "MeshFormat" || name == "Entities" ||
+                               name == "PhysicalNames" || name == "Nodes" ||
+                               name == "Elements";
+            if (name == "NOD" || name == "ELM")
+              in.refuse("it is of version 1");
+            if (name == "PartitionedEntities")
+              in.refuse("the mesh is partitioned",
+                        "write it in one part: in gmsh, Mesh > Unpartition");
+            if (name == "ParametricNodes")
+              in.refuse("its nodes have parametric coordinates",
+                        "write it with Mesh.SaveParametric = 0");
+            if (known && !seen.insert(name).second)
+              in.refuse("there is a second section $" + name);
+            if (known && name != "MeshFormat" && seen.count("MeshFormat") == 0)
+              in.refuse("the section $" + name + " stands before $MeshFormat");
+
+            if (!known || (name == "Entities" && !four))
+              {
+                in.skip_section(name);
+                continue;
+              }
+            if (name == "MeshFormat")
+              mesh_format();
+            else if (name == "PhysicalNames")
+              physical_names();
+            else if (name == "Entities")
+              entities();
+            else if (name == "Nodes")
+              four ? nodes_of_blocks() : nodes();
+            else
+              four ? elements_of_blocks() : elements();
+            in.end_section(name);
+          }
+        for (const char *name : {"MeshFormat", "Nodes", "Elements"})
+          if (seen.count(name) == 0)
+            in.refuse(std::string("the file ends without the section $") + name,
+                      "it is not complete: copy or write it again, with all "
+                      "elements");
+        four ? take_groups_of_entities() : merge_copies();
+        return std::move(data);
+      }
+
+    private:
+      void
+      mesh_format()
+      {
+        const std::string version = in.word("the version");
+        const int         binary = in.integer_in_text("the type of file", 0, 1);
+        const int size = in.integer_in_text("the size of numbers", 0, 64);
+        if (version != "2.2" && version != "4.1")
+          in.refuse("it is of version " + shown(version));
+        if (binary != 0 && size != 8)
+          in.refuse("its numbers have " + std::to_string(size) +
+                    " bytes instead of 8");
+        four = version == "4.1";
+        in.end_line();
+        if (binary != 0)
+          {
+            in.set_binary(false);
+            const int one = in.integer<int>("the number one");
+            if (one == 1 << 24)
+              in.set_binary(true);
+            else if (one != 1)
+              in.refuse("the number that shows the byte order is " +
+                        std::to_string(one) + " instead of 1");
+          }
+      }
+
+      void
+      physical_names()
+      {
+        const int n = in.integer_in_text(
+          "the number of names", 0, std::numeric_limits<int>::max());
+        for (int i = 0; i < n; ++i)
+          {
+            const int dimension =
+              in.integer_in_text("the dimension of a physical group", 0, 3);
+            const int number =
+              in.integer_in_text("the number of a physical group",
+                                 1,
+                                 std::numeric_limits<int>::max());
+            const std::string name = in.quoted("the name of a physical group");
+            if (std::any_of(name.begin(), name.end(), [](const char c) {
+                  return (c >= 0 && c < ' ') || c == 127;
+                }))
+              in.refuse("the name " + shown(name) + " has unprintable letters",
+                        "rename the physical group");
+            if (dimension == 1 && !name.empty() &&
+                !data.curve_names.emplace(number, name).second)
+              in.refuse("the physical curve " + std::to_string(number) +
+                          " has two names",
+                        "delete one of them");
+          }
+      }
+
+      /** Version 4.1: which points, curves, ... are in which groups. */
+      void
+      entities()
+      {
+        have_entities = true;
+        std::array<std::uint64_t, 4> n;
+        for (std::uint64_t &count : n)
+          count = in.integer<std::uint64_t>("a number of entities");
+        for (int dimension = 0; dimension < 4; ++dimension)
+          for (std::uint64_t i = 0; i < n[dimension]; ++i)
+            {
+              const int entity = in.integer<int>("the number of an entity");
+              // A point has its coordinates, the others their bounding box.
+              for (int c = 0; c < (dimension == 0 ? 3 : 6); ++c)
+                in.number("a coordinate of an entity");
+              const auto n_groups =
+                in.integer<std::uint64_t>("the number of physical groups");
+              in.check_room(
+                n_groups, in.is_binary() ? sizeof(int) : 2, "physical groups");
+              std::vector<int> groups;
+              for (std::uint64_t g = 0; g < n_groups; ++g)
+                if (const int group = group_number())
+                  groups.push_back(group);
+              if (dimension > 0)
+                in.skip_integers<int>(
+                  in.integer<std::uint64_t>("the number of bounding entities"),
+                  "bounding entities");
+              if (dimension == 1)
+                data.curve_groups.insert(groups.begin(), groups.end());
+              if ((dimension == 1 || dimension == 2) &&
+                  !groups_of_entity[dimension]
+                     .emplace(entity, data.index_of_groups(groups))
+                     .second)
+                in.refuse("the entity " + std::to_string(entity) +
+                          " of dimension " + std::to_string(dimension) +
+                          " is defined twice");
+            }
+      }
+
+      /** The number of a physical group; its sign is an orientation. */
+      int
+      group_number()
+      {
+        return std::abs(in.integer<int>("the number of a physical group",
+                                        -std::numeric_limits<int>::max()));
+      }
+
+      void
+      node(const std::uint64_t tag)
+      {
+        MshData::Node node;
+        node.tag = tag;
+        for (double &x : node.x)
+          x = in.number("a coordinate of a node");
+        data.nodes.push_back(node);
+      }
+
+      void
+      nodes()
+      {
+        const int n = in.integer_in_text(
+          "the number of nodes", 0, std::numeric_limits<int>::max());
+        if (in.is_binary())
+          in.end_line();
+        // "1 0 0 0\n" is the shortest node.
+        in.check_room(n, in.is_binary() ? 4 + 24 : 8, "nodes");
+        data.nodes.reserve(n);
+        for (int i = 0; i < n; ++i)
+          node(in.integer("the tag of a node", 1));
+      }
+
+      void
+      nodes_of_blocks()
+      {
+        const auto n_blocks = in.integer<std::uint64_t>("a number of blocks");
+        const auto n_nodes  = in.integer<std::uint64_t>("the number of nodes");
+        in.integer<std::uint64_t>("the smallest tag");
+        in.integer<std::uint64_t>("the largest tag");
+        in.check_room(n_nodes, in.is_binary() ? 8 + 24 : 8, "nodes");
+        data.nodes.reserve(n_nodes);
+        std::vector<std::uint64_t> tags;
+        for (std::uint64_t b = 0; b < n_blocks; ++b)
+          {
+            const int dimension = in.integer("the dimension of nodes", 0, 3);
+            in.integer<int>("the number of an entity");
+            const int  parametric = in.integer("the mark of parameters", 0, 1);
+            const auto n = in.integer<std::uint64_t>("the number of nodes");
+            in.check_room(n, in.is_binary() ? 8 + 24 : 8, "nodes");
+            tags.clear();
+            tags.reserve(n);
+            for (std::uint64_t i = 0; i < n; ++i)
+              tags.push_back(in.integer<std::uint64_t>("the tag of a node", 1));
+            for (const std::uint64_t tag : tags)
+              {
+                node(tag);
+                for (int c = 0; c < parametric * dimension; ++c)
+                  in.number("a parametric coordinate of a node");
+              }
+          }
+        check_number("nodes", n_nodes, data.nodes.size());
+      }
+
+      void
+      check_number(const std::string  &items,
+                   const std::uint64_t announced,
+                   const std::uint64_t found) const
+      {
+        if (announced != found)
+          in.refuse("it announces " + std::to_string(announced) + " " + items +
+                      ", but its blocks hold " + std::to_string(found),
+                    "copy it again, or " + write_anew);
+      }
+
+      /** Reads the nodes of an element and keeps it unless it is a point. */
+      void
+      element(const std::uint64_t tag,
+              const int           type,
+              const int           entity,
+              const unsigned int  groups)
+      {
+        MshData::Element   element = {tag, type, entity, groups, {}};
+        const unsigned int n       = n_nodes_of_type(type);
+        for (unsigned int i = 0; i < n; ++i)
+          element.nodes[i] =
+            four ? in.integer<std::uint64_t>("a node of an element", 1)
+                 : in.integer("a node of an element", 1);
+        if (type == MshData::line)
+          data.lines.push_back(element);
+        else if (type != MshData::point)
+          data.cells.push_back(element);
+      }
+
+      /** Version 2.2: tags of an element are its group, its entity, others. */
+      void
+      element_with_tags(const int tag, const int type, const int n_tags)
+      {
+        int group = 0, entity = 0;
+        if (n_tags > 0)
+          group = group_number();
+        if (n_tags > 1)
+          entity = in.integer<int>("the entity of an element");
+        if (n_tags > 2)
+          in.skip_integers<int>(n_tags - 2, "tags");
+        if (type == MshData::line && group > 0)
+          data.curve_groups.insert(group);
+        element(
+          tag, type, entity, group > 0 ? data.index_of_groups({group}) : 0);
+      }
+
+      void
+      elements()
+      {
+        const int n = in.integer_in_text(
+          "the number of elements", 0, std::numeric_limits<int>::max());
+        constexpr int all = std::numeric_limits<int>::max();
+        if (!in.is_binary())
+          {
+            // "1 15 0 1\n" is the shortest element.
+            in.check_room(n, 9, "elements");
+            for (int i = 0; i < n; ++i)
+              {
+                const int tag  = in.integer("the tag of an element", 1);
+                const int type = in.integer<int>("the type of an element");
+                check_element_type(type, what, " " + std::to_string(tag));
+                element_with_tags(
+                  tag, type, in.integer("the number of tags", 0, all));
+              }
+            return;
+          }
+        in.end_line();
+        in.check_room(n, 2 * sizeof(int), "elements");
+        for (int found = 0; found < n;)
+          {
+            const int type = in.integer<int>("the type of elements");
+            check_element_type(type, what, "");
+            const int n_block =
+              in.integer("the number of elements of a block", 1, n - found);
+            const int n_tags = in.integer("the number of tags", 0, all);
+            for (int i = 0; i < n_block; ++i)
+              element_with_tags(
+                in.integer("the tag of an element", 1), type, n_tags);
+            found += n_block;
+          }
+      }
+
+      void
+      elements_of_blocks()
+      {
+        const auto n_blocks = in.integer<std::uint64_t>("a number of blocks");
+        const auto n_all = in.integer<std::uint64_t>("the number of elements");
+        in.integer<std::uint64_t>("the smallest tag");
+        in.integer<std::uint64_t>("the largest tag");
+        std::uint64_t found = 0;
+        for (std::uint64_t b = 0; b < n_blocks; ++b)
+          {
+            const int dimension = in.integer("the dimension of elements", 0, 3);
+            const int entity    = in.integer<int>("the number of an entity");
+            const int type      = in.integer<int>("the type of elements");
+            check_element_type(type, what, "");
+            if (dimension != (type == MshData::point  ? 0
+                              : type == MshData::line ? 1
+                                                      : 2))
+              in.refuse("elements of gmsh's type " + std::to_string(type) +
+                        " in an entity of dimension " +
+                        std::to_string(dimension));
+            const auto n = in.integer<std::uint64_t>("the number of elements");
+            // "1 1\n" is the shortest element.
+            in.check_room(n, in.is_binary() ? 16 : 4, "elements");
+            for (std::uint64_t i = 0; i < n; ++i)
+              element(in.integer<std::uint64_t>("the tag of an element"),
+                      type,
+                      entity,
+                      0);
+            found += n;
+          }
+        check_number("elements", n_all, found);
+      }
+
+      void
+      take_groups_of_entities()
+      {
+        for (const int dimension : {1, 2})
+          for (MshData::Element &element :
+               dimension == 1 ? data.lines : data.cells)
+            {
+              const auto entity =
+                groups_of_entity[dimension].find(element.entity);
+              if (entity != groups_of_entity[dimension].end())
+                element.groups = entity->second;
+              else if (have_entities)
+                in.refuse("the element " + std::to_string(element.tag) +
+                          " belongs to the entity " +
+                          std::to_string(element.entity) + " of dimension " +
+                          std::to_string(dimension) +
+                          ", which is not in $Entities");
+            }
+      }
+
+      /**
+       * Version 2.2 holds an element once for each physical group that it is
+       * in: the copies become one element with several groups.
+       */
+      void
+      merge_copies()
+      {
+        for (auto *elements : {&data.lines, &data.cells})
+          {
+            std::vector<std::size_t> order(elements->size());
+            std::iota(order.begin(), order.end(), std::size_t(0));
+            const auto key = [&](const std::size_t i) {
+              const MshData::Element &e = (*elements)[i];
+              return std::make_tuple(e.entity, e.type, e.nodes);
+            };
+            std::sort(order.begin(),
+                      order.end(),
+                      [&](const std::size_t a, const std::size_t b) {
+                        const auto ka = key(a), kb = key(b);
+                        return ka < kb || (ka == kb && a < b);
+                      });
+            std::vector<bool> is_copy(elements->size(), false);
+            for (std::size_t i = 0, j; i < order.size(); i = j)
+              {
+                std::set<int> groups;
+                for (j = i; j < order.size() && key(order[j]) == key(order[i]);
+                     ++j)
+                  {
+                    const auto &own =
+                      data.group_lists[(*elements)[order[j]].groups];
+                    groups.insert(own.begin(), own.end());
+                    is_copy[order[j]] = j > i;
+                  }
+                if (j > i + 1)
+                  (*elements)[order[i]].groups =
+                    data.index_of_groups({groups.begin(), groups.end()});
+              }
+            std::vector<MshData::Element> kept;
+            for (std::size_t i = 0; i < elements->size(); ++i)
+              if (!is_copy[i])
+                kept.push_back((*elements)[i]);
+            *elements = std::move(kept);
+          }
+      }
+
+      Scanner                                    in;
+      const std::string                         &what;
+      MshData                                    data;
+      bool                                       four          = false;
+      bool                                       have_entities = false;
+      std::array<std::map<int, unsigned int>, 3> groups_of_entity;
+    };
+
+    double
+    signed_area(const std::vector<Point<dim>>   &points,
+                const std::vector<unsigned int> &around)
+    {
+      // From the first point: far from the origin, products of coordinates
+      // would lose the area in their rounding.
+      double area = 0.;
+      for (std::size_t i = 1; i + 1 < around.size(); ++i)
+        {
+          const dealii::Tensor<1, dim> a =
+            points[around[i]] - points[around[0]];
+          const dealii::Tensor<1, dim> b =
+            points[around[i + 1]] - points[around[0]];
+          area += (a[0] * b[1] - b[0] * a[1]) / 2.;
+        }
+      return area;
+    }
+
+    /** The smallest signed area of a corner: negative where not convex. */
+    double
+    worst_corner(const std::vector<Point<dim>>   &points,
+                 const std::vector<unsigned int> &around)
+    {
+      double            worst = std::numeric_limits<double>::max();
+      const std::size_t n     = around.size();
+      for (std::size_t i = 0; i < n; ++i)
+        worst = std::min(
+          worst,
+          signed_area(points,
+                      {around[i], around[(i + 1) % n], around[(i + 2) % n]}));
+      return worst;
+    }
+
+    std::string
+    place(const Point<dim> &x)
+    {
+      return format("(%g, %g)", x[0], x[1]);
+    }
+
+    /** Each edge must be passed once in each direction at most. */
+    void
+    check_overlap(const std::vector<Point<dim>>                &points,
+                  const std::vector<std::vector<unsigned int>> &around,
+                  const std::string                            &what)
+    {
+      std::vector<std::array<unsigned int, 2>> edges;
+      for (const auto &v : around)
+        for (std::size_t i = 0; i < v.size(); ++i)
+          edges.push_back({{v[i], v[(i + 1) % v.size()]}});
+      std::sort(edges.begin(), edges.end());
+      const auto twice = std::adjacent_find(edges.begin(), edges.end());
+      if (twice != edges.end())
+        throw InputError(what + ": two cells overlap at the edge from " +
+                         place(points[(*twice)[0]]) + " to " +
+                         place(points[(*twice)[1]]) +
+                         "\n  allowed: cells side by side\n  remedy:  look for "
+                         "cells that are there twice, or mesh anew");
+    }
+
+    /** The shortest edge against the largest coordinate. */
+    void
+    check_resolution(const std::vector<Point<dim>>                &points,
+                     const std::vector<std::vector<unsigned int>> &around,
+                     const std::string                            &what)
+    {
+      for (const Point<dim> &x : points)
+        if (std::max(std::abs(x[0]), std::abs(x[1])) > largest_coordinate)
+          throw InputError(what + ": there is a node at " + place(x) +
+                           format("\n  allowed: coordinates up to %g m\n",
+                                  largest_coordinate) +
+                           "  remedy:  scale the mesh to m");
+      const double smallest = resolved_length(points);
+      for (const auto &v : around)
+        for (std::size_t i = 0; i < v.size(); ++i)
+          {
+            const Point<dim> &a = points[v[i]];
+            const Point<dim> &b = points[v[(i + 1) % v.size()]];
+            if (!(a.distance(b) >= smallest))
+              throw InputError(
+                what + ": the edge from " + place(a) + " to " + place(b) +
+                format(" has a length of %g m\n  allowed: edges of %g m or "
+                       "more, for the coordinates of this mesh\n",
+                       a.distance(b),
+                       smallest) +
+                "  remedy:  mesh anew with larger cells, or move the body "
+                "nearer to the origin");
+          }
+    }
+
+    /** A vertex in the middle of another cell's edge leaves a gap there. */
+    void
+    check_hanging_nodes(const CoarseMesh &mesh, const std::string &what)
+    {
+      const auto                edges = mesh.outer_edges();
+      std::vector<unsigned int> vertices;
+      for (const auto &edge : edges)
+        vertices.insert(vertices.end(), edge.begin(), edge.end());
+      std::sort(vertices.begin(), vertices.end());
+      vertices.erase(std::unique(vertices.begin(), vertices.end()),
+                     vertices.end());
+      std::vector<std::pair<Point<dim>, unsigned int>> places;
+      for (const unsigned int v : vertices)
+        places.emplace_back(mesh.points[v], v);
+      const auto tree = dealii::pack_rtree(places);
+      std::vector<std::pair<Point<dim>, unsigned int>> near;
+      for (const auto &edge : edges)
+        {
+          const Point<dim> &a         = mesh.points[edge[0]];
+          const Point<dim> &b         = mesh.points[edge[1]];
+          const double      tolerance = 1e-9 * a.distance(b);
+          Point<dim>        lower, upper;
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              lower[c] = std::min(a[c], b[c]) - tolerance;
+              upper[c] = std::max(a[c], b[c]) + tolerance;
+            }
+          near.clear();
+          tree.query(boost::geometry::index::intersects(
+                       dealii::BoundingBox<dim>({lower, upper})),
+                     std::back_inserter(near));
+          for (const auto &[x, v] : near)
+            if (v != edge[0] && v != edge[1] &&
+                distance_to_segment(x, a, b) < tolerance)
+              throw InputError(
+                what + ": the node at " + place(x) +
+                " hangs on the edge from " + place(a) + " to " + place(b) +
+                "\n  allowed: conforming meshes without double nodes\n"
+                "  remedy:  in gmsh, Coherence before meshing, or "
+                "Mesh.RemoveDuplicateNodes");
+        }
+    }
+
+    /** Physical curves by number and by name, each meaning one curve. */
+    void
+    set_sides(const MshData &data, const std::string &what, CoarseMesh &mesh)
+    {
+      for (const int group : data.curve_groups)
+        mesh.sides[std::to_string(group)] = group;
+      for (const int group : data.curve_groups)
+        if (const auto name = data.curve_names.find(group);
+            name != data.curve_names.end())
+          {
+            const auto [side, is_new] = mesh.sides.emplace(name->second, group);
+            if (!is_new && side->second != dealii::types::boundary_id(group))
+              throw InputError(what + ": '" + name->second +
+                               "' is the name of the physical curve " +
+                               std::to_string(group) +
+                               ", and the name or number of another one\n"
+                               "  allowed: names that are unique\n"
+                               "  remedy:  rename one of them in gmsh");
+          }
+    }
+
+    std::string
+    name_of_curve(const MshData &data, const int group)
+    {
+      const auto name = data.curve_names.find(group);
+      return name == data.curve_names.end() ? std::to_string(group)
+                                            : "'" + name->second + "'";
+    }
+  } // namespace
+
+  unsigned int
+  MshData::index_of_groups(const std::vector<int> &groups)
+  {
+    const auto [list, is_new] =
+      place_of_list.emplace(groups, group_lists.size());
+    if (is_new)
+      group_lists.push_back(groups);
+    return list->second;
+  }
+
+  unsigned int
+  n_nodes_of_type(const int type)
+  {
+    return type == MshData::point ? 1 : type + 1;
+  }
+
+  void
+  check_element_type(const int          type,
+                     const std::string &what,
+                     const std::string &element)
+  {
+    if (type != MshData::line && type != MshData::triangle &&
+        type != MshData::quadrilateral && type != MshData::point)
+      throw InputError(
+        what +
+        (element.empty() ? " has elements"
+                         : ": the element" + element + " is") +
+        " of gmsh's type " + std::to_string(type) +
+        "\n  allowed: 1, 2, 3 and 15: lines, triangles, quadrilaterals (of "
+        "first order) and points\n  remedy:  mesh the plane only, with "
+        "Mesh.ElementOrder = 1");
+  }
+
+  bool
+  begins_as_msh(const std::string &text)
+  {
+    std::size_t begin = 0;
+    while (begin < text.size() && is_space(text[begin]))
+      ++begin;
+    for (const char *section : {"$MeshFormat", "$Comments", "$NOD"})
+      if (text.compare(begin, std::strlen(section), section) == 0)
+        return true;
+    return false;
+  }
+
+  std::string
+  content_of_file(const std::string &file_name, const std::string &what)
+  {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file_name, error))
+      throw InputError(what + " is no regular file\n  allowed: " + versions +
+                       "\n  remedy:  check its name");
+    const std::uintmax_t size = std::filesystem::file_size(file_name, error);
+    if (!error && size > largest_file)
+      throw InputError(
+        what +
+        format(" has %.0f MB\n  allowed: files up to %.0f MB\n",
+               size / 1048576.,
+               largest_file / 1048576.) +
+        "  remedy:  mesh with fewer cells, or write the file in binary: "
+        "Mesh.Binary = 1");
+    std::string   text(error ? 0 : size, '\0');
+    std::ifstream file(file_name, std::ios::binary);
+    if (error || !file || (size > 0 && !file.read(&text[0], size)))
+      throw InputError(what + " cannot be read\n  allowed: " + versions +
+                       "\n  remedy:  check its permissions");
+    return text;
+  }
+
+  MshData
+  parse_msh(const std::string &text, const std::string &what)
+  {
+    return Reader(text, what).read();
+  }
+
+  CoarseMesh
+  coarse_mesh(const MshData     &data,
+              const std::string &what,
+              const Regions     &regions)
+  {
+    if (data.cells.empty())
+      throw InputError(what + " holds no cells in two dimensions\n"
+                              "  allowed: triangles or quadrilaterals\n"
+                              "  remedy:  mesh a surface in the (x, y) plane "
+                              "and save it (if there are physical groups, "
+                              "the surface needs one)");
+    if (data.nodes.size() >= std::numeric_limits<int>::max() ||
+        data.cells.size() >= std::numeric_limits<int>::max())
+      throw InputError(what + " has more than 2^31 nodes or cells\n"
+                              "  remedy:  mesh with fewer cells");
+
+    std::vector<std::pair<std::uint64_t, unsigned int>> node_of_tag;
+    for (unsigned int i = 0; i < data.nodes.size(); ++i)
+      node_of_tag.emplace_back(data.nodes[i].tag, i);
+    std::sort(node_of_tag.begin(), node_of_tag.end());
+    for (std::size_t i = 0; i + 1 < node_of_tag.size(); ++i)
+      if (node_of_tag[i].first == node_of_tag[i + 1].first)
+        throw InputError(
+          what + ": there are two nodes with the tag " +
+          std::to_string(node_of_tag[i].first) +
+          "\n  allowed: tags that are unique\n  remedy:  " + write_anew);
+    const auto node = [&](const MshData::Element &element,
+                          const unsigned int      i) -> unsigned int {
+      const std::uint64_t tag = element.nodes[i];
+      const auto          at  = std::lower_bound(
+        node_of_tag.begin(), node_of_tag.end(), std::make_pair(tag, 0U));
+      if (at == node_of_tag.end() || at->first != tag)
+        throw InputError(what + ": the node " + std::to_string(tag) +
+                         " of the element " + std::to_string(element.tag) +
+                         " is missing\n  allowed: nodes of the section $Nodes\n"
+                         "  remedy:  " +
+                         write_anew);
+      return at->second;
+    };
+
+    // gmsh's order: by surface, and the triangles of a surface come first.
+    std::vector<unsigned int> order(data.cells.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::stable_sort(order.begin(),
+                     order.end(),
+                     [&](const unsigned int a, const unsigned int b) {
+                       const MshData::Element &first  = data.cells[a];
+                       const MshData::Element &second = data.cells[b];
+                       return std::make_pair(first.entity, first.type) <
+                              std::make_pair(second.entity, second.type);
+                     });
+
+    // Only nodes of cells become vertices: there may be others.
+    CoarseMesh             mesh;
+    constexpr unsigned int none    = -1;
+    double                 largest = 0.;
+    for (const MshData::Node &node : data.nodes)
+      largest = std::max({largest, std::abs(node.x[0]), std::abs(node.x[1])});
+    std::vector<unsigned int>              vertex(data.nodes.size(), none);
+    std::vector<std::vector<unsigned int>> around;
+    for (const unsigned int c : order)
+      {
+        const MshData::Element   &cell = data.cells[c];
+        std::vector<unsigned int> vertices;
+        for (unsigned int i = 0; i < n_nodes_of_type(cell.type); ++i)
+          {
+            const unsigned int n = node(cell, i);
+            if (vertex[n] == none)
+              {
+                const auto &x = data.nodes[n].x;
+                if (!(std::abs(x[2]) <= 1e-9 * largest))
+                  throw InputError(
+                    what + ": the node " + std::to_string(data.nodes[n].tag) +
+                    format(" is at (%g, %g, %g)", x[0], x[1], x[2]) +
+                    "\n  allowed: nodes in the plane z = 0\n  remedy:  turn or "
+                    "move the mesh into the (x, y) plane (in gmsh: Rotate, "
+                    "Translate)");
+                vertex[n] = mesh.points.size();
+                mesh.points.emplace_back(x[0], x[1]);
+              }
+            vertices.push_back(vertex[n]);
+          }
+        around.push_back(vertices);
+      }
+    check_resolution(mesh.points, around, what);
+
+    // A mesh may be oriented clockwise as a whole; single cells may not.
+    double total = 0.;
+    for (const auto &vertices : around)
+      total += signed_area(mesh.points, vertices);
+    for (std::size_t c = 0; c < around.size(); ++c)
+      {
+        std::vector<unsigned int> &v = around[c];
+        if (total < 0.)
+          std::reverse(v.begin(), v.end());
+        if (!(worst_corner(mesh.points, v) > 0.))
+          throw InputError(
+            what + ": the cell " + std::to_string(data.cells[order[c]].tag) +
+            " at " + place(mesh.points[v[0]]) +
+            " is inverted or not convex\n  allowed: cells with positive area "
+            "at every corner\n  remedy:  reorder its nodes, or mesh anew");
+      }
+    check_overlap(mesh.points, around, what);
+    for (std::size_t c = 0; c < around.size(); ++c)
+      {
+        const std::vector<unsigned int> &v = around[c];
+        dealii::CellData<dim>            cell(v.size());
+        cell.vertices = v;
+        if (v.size() == 4)
+          // deal.II numbers lexicographically.
+          std::swap(cell.vertices[2], cell.vertices[3]);
+        mesh.cells.push_back(cell);
+        // The last material that fills the cell, as everywhere.
+        const Point<dim> centre = mesh.centre(cell);
+        unsigned int     filled = regions.material_at(centre, -1);
+        for (const int group : data.group_lists[data.cells[order[c]].groups])
+          filled = std::max(filled, regions.material_at(centre, group));
+        mesh.cells.back().material_id = filled;
+      }
+
+    // Edges with the physical curves they are on.
+    std::vector<std::pair<std::array<unsigned int, 2>, int>> edges_of_groups;
+    for (const MshData::Element &line : data.lines)
+      {
+        const unsigned int a = vertex[node(line, 0)], b = vertex[node(line, 1)];
+        if (a != none && b != none)
+          for (const int group : data.group_lists[line.groups])
+            edges_of_groups.push_back(
+              {{{std::min(a, b), std::max(a, b)}}, group});
+      }
+    std::sort(edges_of_groups.begin(), edges_of_groups.end());
+    edges_of_groups.erase(
+      std::unique(edges_of_groups.begin(), edges_of_groups.end()),
+      edges_of_groups.end());
+    set_sides(data, what, mesh);
+    for (const auto &edge : mesh.outer_edges())
+      {
+        const auto side = std::lower_bound(edges_of_groups.begin(),
+                                           edges_of_groups.end(),
+                                           std::make_pair(edge, 0));
+        if (side == edges_of_groups.end() || side->first != edge)
+          continue;
+        if (side + 1 != edges_of_groups.end() && (side + 1)->first == edge)
+          throw InputError(
+            what + ": the edge from " + place(mesh.points[edge[0]]) + " to " +
+            place(mesh.points[edge[1]]) + " is on the physical curves " +
+            name_of_curve(data, side->second) + " and " +
+            name_of_curve(data, (side + 1)->second) +
+            "\n  allowed: one physical curve for each edge\n  remedy:  make "
+            "groups that share no curve; a condition takes several sides");
+        dealii::CellData<1> line(2);
+        line.vertices    = {edge[0], edge[1]};
+        line.boundary_id = side->second;
+        mesh.boundary.boundary_lines.push_back(line);
+      }
+    check_hanging_nodes(mesh, what);
+    if (!mesh.has_triangles())
+      dealii::GridTools::consistently_order_cells(mesh.cells);
+    return mesh;
+  }
+} // namespace geocone
