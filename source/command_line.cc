@@ -2,15 +2,76 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
-#include <geocone/base/version.h>
+#include <geocone/base/stop_request.h>
 #include <geocone/command_line.h>
+#include <geocone/output/run_status.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <cstdlib>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
 #include <iostream>
+#include <new>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace geocone
 {
+  namespace
+  {
+    /** The program that draws, beside this one where it was built or installed;
+     *  empty: it is not there. */
+    std::string
+    plot_program()
+    {
+      std::error_code             error;
+      const std::filesystem::path folder =
+        std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+      for (const char *place :
+           {"scripts/plot", "../share/geocone/scripts/plot"})
+        if (std::filesystem::exists(folder / place, error))
+          return (folder / place).lexically_normal().string();
+      return "";
+    }
+
+    /** Starts the program that draws with the folder as its one argument, without
+     *  a shell, and waits for it. */
+    void
+    draw(const Drawing &drawing)
+    {
+      const auto fail = [](const std::string &why) {
+        std::cerr << "warning: no pictures: " << why << std::endl;
+      };
+      std::string plot = plot_program();
+      if (plot.empty())
+        return fail("scripts/plot is not beside the program");
+      // An absolute name cannot be taken for an option.
+      std::string folder = std::filesystem::absolute(drawing.folder).string();
+      char *const arguments[] = {plot.data(), folder.data(), nullptr};
+      posix_spawn_file_actions_t actions;
+      posix_spawn_file_actions_init(&actions);
+      if (drawing.quiet)
+        posix_spawn_file_actions_addopen(
+          &actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+      pid_t     child = -1;
+      const int error = posix_spawn(
+        &child, plot.c_str(), &actions, nullptr, arguments, environ);
+      posix_spawn_file_actions_destroy(&actions);
+      int status = 0;
+      if (error != 0)
+        return fail(plot + ": " + std::strerror(error));
+      while (waitpid(child, &status, 0) < 0 && errno == EINTR)
+        ;
+      if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+        fail(plot + " '" + folder + "' failed");
+    }
+  } // namespace
+
   CommandLine
   parse_command_line(const int                       argc,
                      char                          **argv,
@@ -29,11 +90,20 @@ namespace geocone
       {
         const std::string argument = argv[i];
         if (argument == "--output")
-          call.folder = value(i);
+          {
+            call.folder = value(i);
+            if (call.folder.empty())
+              throw InputError("the option --output needs the name of a folder"
+                               "\n  remedy:  leave it out for results/NAME");
+          }
         else if (argument == "--set")
           call.overrides.push_back(value(i));
         else if (argument == "--quiet")
           call.quiet = true;
+        else if (argument == "--dry-run")
+          call.dry_run = true;
+        else if (argument == "--force")
+          call.force = true;
         else if (argument == "--help" || argument == "-h")
           call.help = true;
         else if (argument == "--version")
@@ -43,29 +113,77 @@ namespace geocone
         else if (std::count(own.begin(), own.end(), argument) > 0)
           call.own[argument] = value(i);
         else if (!argument.empty() && argument[0] == '-')
-          throw InputError("unknown option '" + argument +
+          throw InputError("unknown option '" + printable(argument) +
                            "'\n  remedy:  see " + program + " --help");
         else if (call.file.empty())
           call.file = argument;
         else
-          throw InputError("a second parameter file '" + argument +
+          throw InputError("a second parameter file '" + printable(argument) +
                            "'\n  remedy:  give one; overrides go into --set");
       }
     return call;
   }
 
-  std::string
-  drawing_command(const std::string &folder, const bool quiet)
+  int
+  run_program(int argc, char **argv, const std::function<int(Drawing &)> &run)
   {
-    return "'" GEOCONE_SOURCE_DIR "/scripts/plot' '" + folder + "'" +
-           (quiet ? " >/dev/null" : "");
-  }
-
-  void
-  draw(const std::string &drawing_command)
-  {
-    if (!drawing_command.empty() && std::system(drawing_command.c_str()) != 0)
-      std::cerr << "warning: no pictures: " << drawing_command << " failed"
-                << std::endl;
+    Watcher watcher;
+    Drawing drawing;
+    int     status = 1;
+    {
+      dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+      watch_for_signals();
+      const bool several =
+        dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1;
+      const bool first =
+        dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+      const auto say = [](const std::string &what) {
+        std::cerr << "error: " << what << std::endl;
+      };
+      // All ranks find the first three together, and end without waiting for
+      // each other; of the others each is one rank's own.
+      const auto end_alone = [&](const std::string &what) {
+        say(what);
+        if (several)
+          MPI_Abort(MPI_COMM_WORLD, 1);
+      };
+      try
+        {
+          status = run(drawing);
+        }
+      catch (const InputError &error)
+        {
+          if (first)
+            say(error.what());
+        }
+      catch (const StepFailure &error)
+        {
+          if (first)
+            say(error.what());
+        }
+      catch (const Stopped &stopped)
+        {
+          if (first)
+            std::cerr << stopped.what() << std::endl;
+          status = 128 + stopped.signal;
+        }
+      catch (const std::bad_alloc &)
+        {
+          end_alone("out of memory\n  remedy:  'geocone --dry-run FILE.prm' "
+                    "tells how large a run is and by which parameter");
+        }
+      catch (const std::exception &error)
+        {
+          end_alone(error.what());
+        }
+      catch (...)
+        {
+          end_alone("of a kind that is not known\n  remedy:  tell the authors, "
+                    "with the parameter file");
+        }
+    }
+    if (!drawing.folder.empty())
+      draw(drawing);
+    return status;
   }
 } // namespace geocone

@@ -6,6 +6,7 @@
 #include <geocone/base/version.h>
 #include <geocone/command_line.h>
 #include <geocone/element/element_test.h>
+#include <geocone/unused_parameters.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -19,12 +20,13 @@ namespace
   const char *usage =
     "element_test FILE.prm [--output FOLDER] [--set 'Section/Parameter = "
     "value']...\n"
-    "             [--quiet]\n"
+    "             [--dry-run] [--quiet]\n"
     "\n"
     "Drives one material point along a path in stages (doc/element_test.md).\n"
     "\n"
     "  --output FOLDER      folder of the results (default: results/NAME)\n"
     "  --set 'S/P = value'  overrides a parameter of the file; repeatable\n"
+    "  --dry-run            checks everything and ends: nothing is written\n"
     "  --quiet              nothing on the screen but errors and warnings\n"
     "  --defaults NEW.prm   writes all parameters with their defaults, "
     "commented\n"
@@ -51,7 +53,7 @@ namespace
   }
 
   int
-  run(const int argc, char **argv, std::string &drawing)
+  run(const int argc, char **argv, Drawing &drawing)
   {
     const CommandLine call = parse_command_line(argc, argv, "element_test");
     if (call.version)
@@ -70,14 +72,20 @@ namespace
       }
     else
       {
-        const ParameterFile file(call.file, call.overrides);
-        Log                 log(MPI_COMM_WORLD, call.quiet);
-        ElementTest         test(MPI_COMM_WORLD, file, log);
-        file.parse();
-        const bool ok = test.run(
-          std::filesystem::path(call.file).stem().string(), call.folder);
-        if (test.output().wants_pictures())
-          drawing = drawing_command(test.output().folder(), call.quiet);
+        const ParameterFile::OfOthers of_others = parameters_of_laws();
+        const ParameterFile           file(call.file, call.overrides);
+        Log                           log(MPI_COMM_WORLD, call.quiet);
+        ElementTest                   test(MPI_COMM_WORLD, file, log);
+        const std::string unused = unused_parameters(file.parse(of_others));
+        if (!unused.empty())
+          log.warn(unused);
+        const bool ok =
+          test.run({std::filesystem::path(call.file).stem().string(),
+                    call.folder,
+                    call.dry_run,
+                    call.force});
+        if (!call.dry_run && test.output().wants_pictures())
+          drawing = {test.output().folder(), call.quiet};
         return ok ? 0 : 1;
       }
     return 0;
@@ -87,19 +95,6 @@ namespace
 int
 main(int argc, char **argv)
 {
-  std::string drawing;
-  int         status = 1;
-  {
-    dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-    try
-      {
-        status = run(argc, argv, drawing);
-      }
-    catch (const std::exception &error)
-      {
-        std::cerr << "error: " << error.what() << std::endl;
-      }
-  }
-  draw(drawing);
-  return status;
+  return run_program(
+    argc, argv, [&](Drawing &drawing) { return run(argc, argv, drawing); });
 }

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/stop_request.h>
 #include <geocone/explicit_simulation.h>
+#include <geocone/output/run_status.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -46,18 +48,20 @@ namespace geocone
   }
 
   bool
-  ExplicitSimulation::run(const std::string &name, const std::string &folder)
+  ExplicitSimulation::run(const RunOptions &options)
   {
     scene.prepare();
     method.prepare();
     const std::vector<std::string> remarks = stepper.prepare(scene, method);
-    explicit_output.prepare(name, folder, scene);
+    if (options.dry_run)
+      return true;
+    explicit_output.prepare(options.name, options.folder, scene);
 
     state = stepper.state();
     explicit_output.set_initial(state);
     log.print(format("%s: explicit MPM (%s), %s, %lu nodes, %lu points, %s, %u "
                      "rank%s",
-                     name.c_str(),
+                     options.name.c_str(),
                      stepper.order().c_str(),
                      stepper.element().c_str(),
                      stepper.grid().n_all_nodes(),
@@ -74,11 +78,11 @@ namespace geocone
       n_steps += stage->step_sizes().size();
     double       t    = 0.;
     unsigned int step = 0;
-    explicit_output.write_points(t, stepper.points());
     explicit_output.write_summary(
       "running", stepper.law_counts(), size(), cost());
     try
       {
+        explicit_output.write_points(t, stepper.points());
         for (const auto &stage : scene.loading.stages)
           {
             for (const std::string &remark : stepper.begin_stage(*stage, t))
@@ -86,6 +90,7 @@ namespace geocone
             const std::vector<double> sizes = stage->step_sizes();
             for (std::size_t i = 0; i < sizes.size(); ++i)
               {
+                stop_if_asked(comm);
                 step_loop.start();
                 const ExplicitReport report =
                   stepper.advance(*stage, t, sizes[i]);
@@ -102,23 +107,26 @@ namespace geocone
                     explicit_output.write_summary(
                       "running", stepper.law_counts(), size(), cost());
                   }
+                else if (explicit_output.summary_is_old())
+                  explicit_output.write_summary(
+                    "running", stepper.law_counts(), size(), cost());
                 output_time.stop();
                 if (i + 1 == sizes.size())
                   stepper.check_equilibrium(*stage, state, report);
               }
           }
+        explicit_output.write_summary(
+          "finished", stepper.law_counts(), size(), cost());
       }
-    catch (const StepFailure &error)
+    catch (const std::exception &error)
       {
-        explicit_output.write_summary(std::string("failed: ") + error.what(),
-                                      stepper.law_counts(),
-                                      size(),
-                                      cost());
-        explicit_output.write_points(t, stepper.points());
+        explicit_output.end_with(error, [&](const std::string &status) {
+          explicit_output.write_summary(
+            status, stepper.law_counts(), size(), cost());
+          explicit_output.write_points(t, stepper.points());
+        });
         throw;
       }
-    explicit_output.write_summary(
-      "finished", stepper.law_counts(), size(), cost());
     explicit_output.print_result();
     const Json costs = cost();
     log.print(format("%.1f s in all; %.1f ns per point and step (CPU, all "
@@ -148,6 +156,7 @@ namespace geocone
     const double cpu     = Utilities::MPI::sum(step_loop.cpu_time(), comm);
     const double bytes   = Utilities::MPI::sum(double(stepper.memory()), comm);
     return {{"total_s", total.wall_time()},
+            {"cpu_s", Utilities::MPI::sum(cpu_time_of_rank(), comm)},
             {"step_loop_s", step_loop.wall_time()},
             {"step_loop_cpu_s", cpu},
             {"passes_s", seconds.passes},

@@ -7,6 +7,7 @@
 #include <geocone/explicit_simulation.h>
 #include <geocone/replay.h>
 #include <geocone/simulation.h>
+#include <geocone/unused_parameters.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -16,15 +17,15 @@
 #include <iostream>
 
 #include <dlfcn.h>
-#include <unistd.h>
 
 namespace
 {
   using namespace geocone;
 
   const char *usage =
-    "geocone FILE.prm [--output FOLDER] [--set 'Section/Parameter = value']... "
-    "[--quiet]\n"
+    "geocone FILE.prm [--output FOLDER] [--set 'Section/Parameter = "
+    "value']...\n"
+    "        [--dry-run] [--force] [--quiet]\n"
     "mpirun -np RANKS geocone FILE.prm ...\n"
     "geocone --replay FILE.h5|FILE.dat [--output FOLDER] [--set ...]...\n"
     "\n"
@@ -36,6 +37,12 @@ namespace
     "of the\n"
     "                       solver, e.g. 'Newton/Globalisation = line "
     "search'\n"
+    "  --dry-run            checks everything, prints how large the run is, "
+    "and "
+    "ends:\n"
+    "                       nothing is computed or written\n"
+    "  --force              runs also what is too large for this machine's "
+    "memory\n"
     "  --quiet              nothing on the screen but errors and warnings\n"
     "  --defaults NEW.prm   writes all parameters with their defaults, "
     "commented\n"
@@ -44,22 +51,19 @@ namespace
     "\n"
     "The exit code is 0 if the run has finished and its expectations hold, "
     "and\n"
-    "1 otherwise.\n";
+    "1 otherwise; 130 and 143 after Ctrl-C and SIGTERM.\n";
 
   /** All parameters with an example of each kind of named section. */
   void
   print_defaults(std::ostream &out)
   {
-    const std::filesystem::path example =
-      std::filesystem::temp_directory_path() /
-      ("geocone-" + std::to_string(getpid()) + ".prm");
-    {
-      std::ofstream file(example);
-      file << "subsection Boundary conditions\nset Names = footing\nend\n"
-              "subsection Tractions\nset Names = surcharge\nend\n";
-    }
-    const ParameterFile file(example.string(), {});
-    std::filesystem::remove(example);
+    const ParameterFile file = ParameterFile::from_text(
+      "subsection Boundary conditions\nset Names = footing\n"
+      "subsection footing\nend\nend\n"
+      "subsection Tractions\nset Names = surcharge\n"
+      "subsection surcharge\nend\nend\n",
+      "defaults",
+      {});
     Log                log(MPI_COMM_WORLD, true);
     Simulation         simulation(MPI_COMM_WORLD, file, log);
     ExplicitSimulation explicit_simulation(MPI_COMM_WORLD, file, log);
@@ -68,7 +72,7 @@ namespace
   }
 
   int
-  run(const int argc, char **argv, std::string &drawing)
+  run(const int argc, char **argv, Drawing &drawing)
   {
     const bool first =
       dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
@@ -128,21 +132,28 @@ namespace
         return 1;
       }
 
-    const ParameterFile file(call.file, call.overrides);
-    Log                 log(MPI_COMM_WORLD, call.quiet);
+    const ParameterFile::OfOthers of_others = parameters_of_laws();
+    const ParameterFile           file(call.file, call.overrides);
+    Log                           log(MPI_COMM_WORLD, call.quiet);
     // Both, so that a file may hold the parameters of all methods.
     Simulation         simulation(MPI_COMM_WORLD, file, log);
     ExplicitSimulation explicit_simulation(MPI_COMM_WORLD, file, log);
-    file.parse();
-    const std::string name = std::filesystem::path(call.file).stem().string();
-    const bool        is_explicit =
-      file.peek("Discretisation/Method", "FEM") == "explicit MPM";
-    const bool ok = is_explicit ? explicit_simulation.run(name, call.folder)
-                                : simulation.run(name, call.folder);
+    const std::vector<ParameterFile::Setting> settings = file.parse(of_others);
+    const RunOptions                          options  = {
+                                std::filesystem::path(call.file).stem().string(),
+                                call.folder,
+                                call.dry_run,
+                                call.force};
+    if (const std::string unused = unused_parameters(settings); !unused.empty())
+      log.warn(unused);
+    const bool is_explicit =
+      ParameterFile::value("Discretisation/Method") == "explicit MPM";
+    const bool ok =
+      is_explicit ? explicit_simulation.run(options) : simulation.run(options);
     const OutputBase &output =
       is_explicit ? explicit_simulation.output() : simulation.output();
-    if (first && output.wants_pictures())
-      drawing = drawing_command(output.folder(), call.quiet);
+    if (first && !call.dry_run && output.wants_pictures())
+      drawing = {output.folder(), call.quiet};
     return ok ? 0 : 1;
   }
 } // namespace
@@ -150,43 +161,13 @@ namespace
 int
 main(int argc, char **argv)
 {
-  std::string drawing;
-  int         status = 1;
-  {
-    // One thread per rank: the parallelism is MPI's. Cholmod asks for a fixed
-    // number of threads in blocks that are far too small for them, which was
-    // measured to triple the time of a factorisation; this alone stops it.
-    omp_set_max_active_levels(0);
-    if (const auto set_blas_threads = reinterpret_cast<void (*)(int)>(
-          dlsym(RTLD_DEFAULT, "openblas_set_num_threads")))
-      set_blas_threads(1);
-    dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-    const bool                               several =
-      dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1;
-    const bool first =
-      dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-    try
-      {
-        status = run(argc, argv, drawing);
-      }
-    // All ranks find these two together, and end without waiting for each other.
-    catch (const InputError &error)
-      {
-        if (first)
-          std::cerr << "error: " << error.what() << std::endl;
-      }
-    catch (const StepFailure &error)
-      {
-        if (first)
-          std::cerr << "error: " << error.what() << std::endl;
-      }
-    catch (const std::exception &error)
-      {
-        std::cerr << "error: " << error.what() << std::endl;
-        if (several)
-          MPI_Abort(MPI_COMM_WORLD, 1);
-      }
-  }
-  draw(drawing);
-  return status;
+  // One thread per rank: the parallelism is MPI's. Cholmod asks for a fixed
+  // number of threads in blocks that are far too small for them, which was
+  // measured to triple the time of a factorisation; this alone stops it.
+  omp_set_max_active_levels(0);
+  if (const auto set_blas_threads = reinterpret_cast<void (*)(int)>(
+        dlsym(RTLD_DEFAULT, "openblas_set_num_threads")))
+    set_blas_threads(1);
+  return run_program(
+    argc, argv, [&](Drawing &drawing) { return run(argc, argv, drawing); });
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/stop_request.h>
+#include <geocone/output/run_status.h>
 #include <geocone/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -79,11 +81,10 @@ namespace geocone
     , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
   {}
 
-  void
-  Simulation::prepare(const std::string &name,
-                      const std::string &folder,
-                      Kinematics        &kinematics,
-                      MaterialPoints    &points)
+  bool
+  Simulation::prepare(const RunOptions &options,
+                      Kinematics       &kinematics,
+                      MaterialPoints   &points)
   {
     scene.prepare();
     method.prepare();
@@ -101,12 +102,15 @@ namespace geocone
       stepper = &implicit_fem;
     const std::string warning =
       stepper->prepare(scene, mesh, space, newton, timer, kinematics, points);
-    run_output.prepare(name, folder, scene);
+    if (options.dry_run)
+      return false;
+    run_output.prepare(options.name, options.folder, scene);
     freezer.prepare(run_output.folder());
     for (const std::string &text :
          {warning, outside_strength(points, scene.materials, comm)})
       if (!text.empty())
         log.warn(text);
+    return true;
   }
 
   StepRecord
@@ -127,6 +131,7 @@ namespace geocone
     while (done < h)
       {
         // Land on the end of the step exactly, without a sliver before it.
+        stop_if_asked(comm);
         const double left   = h - done;
         const double size   = left <= substep * (1. + 1e-6) ? left : substep;
         StepReport   report = stepper->advance(
@@ -137,7 +142,8 @@ namespace geocone
         record.regularised += report.newton.regularised;
         if (report.converged)
           {
-            done = size == left ? h : done + size;
+            done    = size == left ? h : done + size;
+            reached = t + done;
             ++record.substeps;
             // Works add up over the substeps, and the worst of them counts.
             report.energies.external_work += record.last.energies.external_work;
@@ -186,14 +192,15 @@ namespace geocone
   }
 
   bool
-  Simulation::run(const std::string &name, const std::string &folder)
+  Simulation::run(const RunOptions &options)
   {
     Kinematics     kinematics;
     MaterialPoints points;
-    prepare(name, folder, kinematics, points);
+    if (!prepare(options, kinematics, points))
+      return true;
     log.print(
       format("%s: %s, %s, %u unknowns, %u points, %s, %u rank%s, solver %s",
-             name.c_str(),
+             options.name.c_str(),
              method.name.c_str(),
              space.element().c_str(),
              stepper->n_unknowns(),
@@ -215,10 +222,10 @@ namespace geocone
     run_output.set_initial_energy(
       stepper->state_energies(kinematics, points, 0.));
     run_output.write_summary("running", size(points), cost());
-    if (method.is_mpm())
-      run_output.write_fields(0., mesh, space, points, kinematics);
     try
       {
+        if (method.is_mpm())
+          run_output.write_fields(0., mesh, space, points, kinematics);
         for (const auto &stage : scene.loading.stages)
           {
             if (stage->reset_displacement)
@@ -232,8 +239,25 @@ namespace geocone
                   substep = sizes[i];
                 ++step;
                 step_loop.start();
-                StepRecord record =
-                  advance(kinematics, points, step, t, sizes[i], substep);
+                StepRecord record;
+                try
+                  {
+                    record =
+                      advance(kinematics, points, step, t, sizes[i], substep);
+                  }
+                catch (const StepFailure &failure)
+                  {
+                    if (!stage->until_failure)
+                      throw;
+                    step_loop.stop();
+                    run_output.set_failure({stage->name,
+                                            reached,
+                                            reached + 2. * substep,
+                                            failure.what()});
+                    run_output.write_fields(
+                      reached, mesh, space, points, kinematics);
+                    return end_run(kinematics, points, reached);
+                  }
                 record.resets = i == 0 && stage->reset_displacement;
                 step_loop.stop();
                 t += sizes[i];
@@ -282,16 +306,27 @@ namespace geocone
                     run_output.write_fields(t, mesh, space, points, kinematics);
                     run_output.write_summary("running", size(points), cost());
                   }
+                else if (run_output.summary_is_old())
+                  run_output.write_summary("running", size(points), cost());
               }
           }
+        return end_run(kinematics, points, t);
       }
-    catch (const StepFailure &error)
+    catch (const std::exception &error)
       {
-        run_output.write_summary(
-          std::string("failed: ") + error.what(), size(points), cost());
-        run_output.write_fields(t, mesh, space, points, kinematics);
+        run_output.end_with(error, [&](const std::string &status) {
+          run_output.write_summary(status, size(points), cost());
+          run_output.write_fields(t, mesh, space, points, kinematics);
+        });
         throw;
       }
+  }
+
+  bool
+  Simulation::end_run(const Kinematics     &kinematics,
+                      const MaterialPoints &points,
+                      const double          t)
+  {
     if (exact_solution.is_given())
       run_output.set_field_errors(
         exact_solution.errors(mesh, space, points, kinematics.displacement, t));
@@ -336,6 +371,7 @@ namespace geocone
     const double megabytes =
       Utilities::MPI::sum(memory.VmHWM / 1024., comm); // from kB
     return {{"total_s", total.wall_time()},
+            {"cpu_s", Utilities::MPI::sum(cpu_time_of_rank(), comm)},
             {"step_loop_s", steps},
             {"residual_s", seconds["residual"]},
             {"assembly_s", seconds["assemble"]},

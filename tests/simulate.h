@@ -26,7 +26,7 @@ simulate(const std::string              &file_name,
   geocone::Log                 log(MPI_COMM_WORLD, true);
   geocone::Simulation          simulation(MPI_COMM_WORLD, file, log);
   file.parse();
-  simulation.run("test", "");
+  simulation.run({"test", "", false, false});
   geocone::Json summary;
   std::ifstream("results/summary.json") >> summary;
   return summary;

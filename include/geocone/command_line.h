@@ -4,6 +4,7 @@
 #ifndef geocone_command_line_h
 #define geocone_command_line_h
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -19,13 +20,16 @@ namespace geocone
     std::string                        defaults_file;
     std::map<std::string, std::string> own; ///< options of this program only
     bool                               quiet   = false;
+    bool                               dry_run = false;
+    bool                               force   = false;
     bool                               help    = false;
     bool                               version = false;
   };
 
   /**
-   * Reads FILE.prm, --output, --set, --quiet, --defaults, --help, --version, and
-   * the options @p own of the program, e.g. "--replay", which take a value.
+   * Reads FILE.prm, --output, --set, --quiet, --dry-run, --force, --defaults,
+   * --help, --version, and the options @p own of the program, e.g. "--replay",
+   * which take a value.
    * @throws InputError on anything else
    */
   CommandLine
@@ -34,14 +38,25 @@ namespace geocone
                      const std::string              &program,
                      const std::vector<std::string> &own = {});
 
-  /** The call of scripts/plot that draws a run. */
-  std::string
-  drawing_command(const std::string &folder, const bool quiet);
+  /** What a run leaves to be drawn. */
+  struct Drawing
+  {
+    std::string folder; ///< of the run; empty: nothing
+    bool        quiet = false;
+  };
 
-  /** Draws; warns if that fails. To be called after the end of MPI, which does
-   *  not like its processes to be copied. */
-  void
-  draw(const std::string &drawing_command);
+  /**
+   * The frame of a program: starts and ends MPI, watches for signals and over how
+   * the run ends (run_status.h), prints what @p run throws, and draws at the end,
+   * after that of MPI, which does not like its processes to be copied.
+   * @param run gives the exit code
+   * @return the exit code of the program: what @p run gives; 1 after an error;
+   * 128 + its number after a signal
+   */
+  int
+  run_program(int                                   argc,
+              char                                **argv,
+              const std::function<int(Drawing &)> &run);
 } // namespace geocone
 
 #endif

@@ -8,6 +8,7 @@
 #include <geocone/base/parameter_file.h>
 #include <geocone/discretisation/method.h>
 #include <geocone/output/explicit_output.h>
+#include <geocone/run_options.h>
 #include <geocone/scene/scene.h>
 #include <geocone/time_stepping/explicit_mpm.h>
 
@@ -31,13 +32,11 @@ namespace geocone
                        Log                 &log);
 
     /**
-     * @param name of the parameter file without its ending
-     * @param folder from the command line; empty: none
      * @return whether all expectations hold
-     * @throws InputError, StepFailure, RunError
+     * @throws InputError before anything is written, RunError afterwards
      */
     bool
-    run(const std::string &name, const std::string &folder);
+    run(const RunOptions &options);
 
     const OutputBase &
     output() const

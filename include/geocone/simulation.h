@@ -6,6 +6,7 @@
 
 #include <geocone/output/exact_solution.h>
 #include <geocone/output/run_output.h>
+#include <geocone/run_options.h>
 #include <geocone/time_stepping/implicit_fem.h>
 #include <geocone/time_stepping/implicit_mpm.h>
 
@@ -38,13 +39,11 @@ namespace geocone
     Simulation(const MPI_Comm comm, const ParameterFile &file, Log &log);
 
     /**
-     * @param name of the parameter file, without its ending
-     * @param folder of the output, from the command line; may be empty
      * @return whether all expectations of the parameter file hold
      * @throws InputError before anything is computed, RunError afterwards
      */
     bool
-    run(const std::string &name, const std::string &folder);
+    run(const RunOptions &options);
 
     const RunOutput &
     output() const
@@ -53,12 +52,12 @@ namespace geocone
     }
 
   private:
-    /** Cheap or not, all that can be refused is refused here. */
-    void
-    prepare(const std::string &name,
-            const std::string &folder,
-            Kinematics        &kinematics,
-            MaterialPoints    &points);
+    /** Cheap or not, all that can be refused is refused here.
+     *  @return whether there is something to run */
+    bool
+    prepare(const RunOptions &options,
+            Kinematics       &kinematics,
+            MaterialPoints   &points);
 
     /** One step of the programme, from t to t + h. @throws RunError */
     StepRecord
@@ -68,6 +67,13 @@ namespace geocone
             const double       t,
             const double       h,
             double            &substep);
+
+    /** The results, when all stages are done or one has ended by failure.
+     *  @return as run() */
+    bool
+    end_run(const Kinematics     &kinematics,
+            const MaterialPoints &points,
+            const double          t);
 
     Json
     size(const MaterialPoints &points) const;
@@ -89,6 +95,8 @@ namespace geocone
     Freezer         freezer;
     ExactSolution   exact_solution;
     RunOutput       run_output;
+
+    double reached = 0.; ///< time of the last substep that was solved (s)
 
     dealii::TimerOutput timer;
     dealii::Timer       total, step_loop;

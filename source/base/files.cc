@@ -7,16 +7,93 @@
 
 #include <deal.II/base/exceptions.h>
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
+#include <set>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 namespace geocone
 {
+  namespace
+  {
+    namespace fs = std::filesystem;
+
+    /** The run's folder, and which of its files are in the list. */
+    struct ListOfFiles
+    {
+      fs::path              folder;
+      std::set<std::string> names;
+    };
+
+    ListOfFiles &
+    list()
+    {
+      static ListOfFiles list;
+      return list;
+    }
+  } // namespace
+
+  void
+  keep_list_of_files(const std::string &folder)
+  {
+    list().folder = fs::path(folder).lexically_normal();
+    list().names  = {list_of_files};
+  }
+
+  void
+  enter_in_list(const std::string &file_name)
+  {
+    const fs::path path = fs::path(file_name).lexically_normal();
+    if (list().folder.empty() ||
+        path.parent_path() != (list().folder / "x").parent_path() ||
+        !list().names.insert(path.filename().string()).second)
+      return;
+    // Appended in one piece, for all ranks write into it.
+    const std::string line = path.filename().string() + "\n";
+    const std::string name = (list().folder / list_of_files).string();
+    const int  file = ::open(name.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0666);
+    const bool ok   = file >= 0 && ::write(file, line.data(), line.size()) ==
+                                   ssize_t(line.size());
+    const int cause = errno;
+    if (file >= 0)
+      ::close(file);
+    if (!ok)
+      throw RunError("the file '" + name + "' cannot be written" +
+                     cause_and_remedy(cause));
+  }
+
+  std::string
+  cause_and_remedy(const int error)
+  {
+    const std::string remedy =
+      error == EFBIG    ? "raise the limit of the size of files (ulimit -f)"
+      : error == ENOENT ? "the folder is not there (any more): keep it until "
+                          "the run has ended"
+      : error == EACCES || error == EROFS || error == EPERM
+        ? "name a folder that you may write into"
+      : error == ENOSPC || error == EDQUOT || error == 0
+        ? "free some space, write fields less often "
+          "('Loading/.../Output every'), or name a folder on "
+          "another disk with --output"
+        : "check the folder and its disk";
+    return (error == 0 ? ": is the disk full?"
+                       : std::string(": ") +
+                           (error == ENOSPC ? "is the disk full? (" : "(") +
+                           std::strerror(error) + ")") +
+           "\n  remedy:  " + remedy;
+  }
+
   void
   write_file(const std::string                         &file_name,
              const std::function<void(std::ostream &)> &write)
   {
+    enter_in_list(file_name);
     const std::string temporary = file_name + ".part";
-    std::ofstream     out(temporary);
+    errno                       = 0;
+    std::ofstream out(temporary);
     try
       {
         if (out)
@@ -27,15 +104,24 @@ namespace geocone
         // The library's writers throw where a stream fails.
         out.setstate(std::ios::failbit);
       }
+    const int cause_of_writing = out ? 0 : errno;
+    errno                      = 0;
     out.close();
+    int             cause = cause_of_writing != 0 ? cause_of_writing : errno;
     std::error_code error;
     if (out)
-      std::filesystem::rename(temporary, file_name, error);
-    if (!out)
-      std::filesystem::remove(temporary, error);
+      {
+        fs::rename(temporary, file_name, error);
+        if (error)
+          cause = error.value();
+      }
     if (!out || error)
-      throw RunError("the file '" + file_name +
-                     "' cannot be written: is the disk full?");
+      {
+        std::error_code ignored;
+        fs::remove(temporary, ignored);
+        throw RunError("the file '" + file_name + "' cannot be written" +
+                       cause_and_remedy(cause));
+      }
   }
 
   void
@@ -44,12 +130,24 @@ namespace geocone
   {
     name      = file_name;
     n_columns = columns.size();
+    size      = 0;
+    enter_in_list(name);
+    errno = 0;
     file.open(name);
     std::string line;
     for (const std::string &column : columns)
-      line += (line.empty() ? "" : ",") + column;
-    file << line + "\n" << std::flush;
-    check();
+      {
+        std::string text = column;
+        if (text.find_first_of(",\"\r\n") != std::string::npos)
+          {
+            for (std::size_t i = text.find('"'); i != std::string::npos;
+                 i             = text.find('"', i + 2))
+              text.insert(i, 1, '"');
+            text = '"' + text + '"';
+          }
+        line += (line.empty() ? "" : ",") + text;
+      }
+    add_text(line + "\n");
   }
 
   void
@@ -59,15 +157,24 @@ namespace geocone
     std::string line;
     for (const double value : values)
       line += (line.empty() ? "" : ",") + format("%.12g", value);
-    file << line + "\n" << std::flush;
-    check();
+    add_text(line + "\n");
   }
 
   void
-  CsvFile::check() const
+  CsvFile::add_text(const std::string &line)
   {
-    if (!file)
-      throw RunError("the table '" + name +
-                     "' cannot be written: is the disk full?");
+    errno = 0;
+    file << line << std::flush;
+    if (file)
+      {
+        size += line.size();
+        return;
+      }
+    const int cause = errno;
+    file.close();
+    std::error_code ignored;
+    fs::resize_file(name, size, ignored);
+    throw RunError("the table '" + name + "' cannot be written" +
+                   cause_and_remedy(cause));
   }
 } // namespace geocone

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/files.h>
 #include <geocone/base/log.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdarg>
 #include <iostream>
 #include <vector>
@@ -30,9 +32,11 @@ namespace geocone
   {
     if (!speaks)
       return;
+    enter_in_list(file_name);
     file.open(file_name);
     if (!file)
-      throw RunError("the log '" + file_name + "' cannot be written");
+      throw RunError("the log '" + file_name + "' cannot be written" +
+                     cause_and_remedy(errno));
     file << said_before_open.str() << std::flush;
   }
 
@@ -61,6 +65,7 @@ namespace geocone
   void
   Log::warn(const std::string &text)
   {
+    all_warnings.push_back(text);
     if (!speaks)
       return;
     if (quiet)

@@ -5,15 +5,20 @@
 #include <geocone/base/parameter_file.h>
 
 #include <deal.II/base/exceptions.h>
-#include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/utilities.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <numeric>
 #include <ostream>
 #include <regex>
+#include <set>
 #include <sstream>
 
 namespace geocone
@@ -24,6 +29,11 @@ namespace geocone
     using dealii::ParameterHandler;
     using dealii::Utilities::trim;
 
+    constexpr std::uintmax_t largest_file  = 16000000; ///< (bytes)
+    constexpr unsigned int   most_files    = 1000;
+    constexpr std::size_t    longest_name  = 60;
+    constexpr double         largest_value = 1e100;
+
     std::pair<std::vector<std::string>, std::string>
     sections_and_name(const std::string &path)
     {
@@ -33,6 +43,15 @@ namespace geocone
       const std::string name = parts.back();
       parts.pop_back();
       return {parts, name};
+    }
+
+    bool
+    has_control_characters(const std::string &text)
+    {
+      return std::any_of(text.begin(), text.end(), [](const char c) {
+        const auto code = static_cast<unsigned char>(c);
+        return (code < 32 && c != '\t') || code == 127;
+      });
     }
 
     /** Levenshtein distance, to suggest the name that was meant. */
@@ -60,61 +79,115 @@ namespace geocone
       return row.back();
     }
 
+    /** What to say of an unknown name: the known one that it nearly is, or all of
+     *  them if they are few. */
     std::string
-    nearest(const std::string &name, const std::vector<std::string> &known)
+    suggestion(const std::string              &name,
+               const std::string              &section,
+               const std::vector<std::string> &known)
     {
       std::string  best;
-      unsigned int distance = 1000;
+      unsigned int distance = std::max<std::size_t>(2, name.size() / 3) + 1;
+      if (name.size() <= longest_name)
+        for (const std::string &candidate : known)
+          if (const unsigned int d = edit_distance(name, candidate);
+              d < distance)
+            {
+              distance = d;
+              best     = candidate;
+            }
+      // Or only its beginning.
       for (const std::string &candidate : known)
-        if (const unsigned int d = edit_distance(name, candidate); d < distance)
-          {
-            distance = d;
-            best     = candidate;
-          }
-      return best;
+        if (best.empty() && name.size() > 2 &&
+            candidate.compare(0, name.size(), name) == 0)
+          best = candidate;
+      if (!best.empty())
+        return "\n  remedy:  did you mean '" + section + best +
+               "'? 'geocone --help' lists all";
+      if (known.size() > 16)
+        return "\n  remedy:  'geocone --help' lists all parameters";
+      std::string all;
+      for (const std::string &candidate : known)
+        all += (all.empty() ? "" : ", ") + candidate;
+      return "\n  allowed: " + (all.empty() ? "nothing here" : all) +
+             "\n  remedy:  take one of these; 'geocone --help' tells what they "
+             "are";
     }
 
-    /** The declared names, as the tree that ParameterHandler prints. */
-    struct DeclaredNames
+    /** A name as ParameterHandler writes it into JSON: what is neither a letter
+     *  nor a digit stands there as _XX. */
+    std::string
+    demangle(const std::string &text)
     {
-      std::vector<std::string>                           entries;
-      std::vector<std::pair<std::string, DeclaredNames>> sections;
+      std::string name;
+      for (std::size_t i = 0; i < text.size(); ++i)
+        if (text[i] == '_' && i + 2 < text.size())
+          {
+            name += static_cast<char>(
+              std::strtol(text.substr(i + 1, 2).c_str(), nullptr, 16));
+            i += 2;
+          }
+        else
+          name += text[i];
+      return name;
+    }
 
-      const DeclaredNames *
-      find(const std::string &name) const
+    /** The declared parameters. */
+    struct Declared
+    {
+      struct Entry
       {
-        for (const auto &section : sections)
-          if (section.first == name)
-            return &section.second;
-        return nullptr;
+        std::string value, default_value, pattern;
+      };
+      std::map<std::string, Entry>    entries;
+      std::map<std::string, Declared> sections;
+
+      const Declared *
+      find(const std::vector<std::string> &path) const
+      {
+        const Declared *here = this;
+        for (const std::string &name : path)
+          {
+            const auto below = here->sections.find(name);
+            if (below == here->sections.end())
+              return nullptr;
+            here = &below->second;
+          }
+        return here;
       }
     };
 
-    DeclaredNames
-    declared_names()
+    template <typename T>
+    std::vector<std::string>
+    keys(const std::map<std::string, T> &map)
+    {
+      std::vector<std::string> all;
+      for (const auto &[key, value] : map)
+        all.push_back(key);
+      return all;
+    }
+
+    Declared
+    from_json(const nlohmann::json &json)
+    {
+      Declared declared;
+      for (const auto &[key, value] : json.items())
+        if (value.contains("pattern_description"))
+          declared.entries[demangle(key)] = {
+            value.at("value").get<std::string>(),
+            value.at("default_value").get<std::string>(),
+            value.at("pattern_description").get<std::string>()};
+        else
+          declared.sections[demangle(key)] = from_json(value);
+      return declared;
+    }
+
+    Declared
+    all_declared()
     {
       std::ostringstream out;
-      ParameterAcceptor::prm.print_parameters(
-        out, ParameterHandler::Short | ParameterHandler::PRM);
-      std::istringstream           in(out.str());
-      DeclaredNames                root;
-      std::vector<DeclaredNames *> stack = {&root};
-      for (std::string line; std::getline(in, line);)
-        {
-          line = trim(line);
-          if (line.compare(0, 11, "subsection ") == 0)
-            {
-              stack.back()->sections.emplace_back(trim(line.substr(11)),
-                                                  DeclaredNames());
-              stack.push_back(&stack.back()->sections.back().second);
-            }
-          else if (line == "end")
-            stack.pop_back();
-          else if (line.compare(0, 4, "set ") == 0)
-            stack.back()->entries.push_back(
-              trim(line.substr(4, line.find('=') - 4)));
-        }
-      return root;
+      ParameterAcceptor::prm.print_parameters(out, ParameterHandler::JSON);
+      return from_json(nlohmann::json::parse(out.str()));
     }
 
     std::string
@@ -124,6 +197,131 @@ namespace geocone
       for (const std::string &section : sections)
         path += section + "/";
       return path + name;
+    }
+
+    /** The bounds in a pattern like "[Double 0...1 (inclusive)]". */
+    std::string
+    bounds(const std::string &pattern)
+    {
+      std::smatch match;
+      if (!std::regex_search(
+            pattern, match, std::regex("([-+.eE\\w]+)\\.\\.\\.([-+.\\w]+) ")))
+        return "";
+      const auto is_limit = [](const std::string &text) {
+        return text.find("MAX_DOUBLE") != std::string::npos ||
+               text == std::to_string(std::numeric_limits<int>::min()) ||
+               text == std::to_string(std::numeric_limits<int>::max()) ||
+               text == std::to_string(std::numeric_limits<unsigned>::max());
+      };
+      const bool from = !is_limit(match[1]), to = !is_limit(match[2]);
+      return from && to ? " from " + match.str(1) + " to " + match.str(2)
+             : from     ? " >= " + match.str(1)
+             : to       ? " <= " + match.str(2)
+                        : "";
+    }
+
+    /** What a pattern of the library allows, in words. */
+    std::string
+    allowed_by(const std::string &pattern)
+    {
+      const auto begins = [&](const std::string &text) {
+        return pattern.compare(0, text.size(), text) == 0;
+      };
+      if (begins("[Selection "))
+        {
+          std::string choices = trim(pattern.substr(11, pattern.size() - 12));
+          for (std::size_t i = choices.find('|'); i != std::string::npos;
+               i             = choices.find('|', i + 3))
+            choices.replace(i, 1, " | ");
+          return choices;
+        }
+      if (begins("[Bool"))
+        return "true | false";
+      if (begins("[Integer"))
+        {
+          return "a whole number" + bounds(pattern);
+        }
+      if (begins("[Double"))
+        return "a number" + bounds(pattern);
+      if (begins("[List"))
+        {
+          const bool doubles = pattern.find("[Double") != std::string::npos;
+          if (pattern.find("[List", 5) != std::string::npos)
+            return "points x, y; x, y; ... of numbers";
+          if (pattern.find("length 2...2 ") != std::string::npos)
+            return "two numbers x, y";
+          return doubles ? "numbers, separated by commas"
+                         : "names, separated by commas";
+        }
+      return "text";
+    }
+
+    /** The numbers in a text, which commas, semicolons and blanks separate, are
+     *  finite and not absurd. */
+    bool
+    is_sensible(const std::string &value)
+    {
+      std::string text = value;
+      for (char &c : text)
+        if (c == ',' || c == ';' || c == ':')
+          c = ' ';
+      std::istringstream in(text);
+      for (std::string word; in >> word;)
+        {
+          char        *end    = nullptr;
+          const double number = std::strtod(word.c_str(), &end);
+          if (end != word.c_str() && *end == '\0' &&
+              !(std::abs(number) <= largest_value))
+            return false;
+        }
+      return true;
+    }
+
+    /** Gives a declared parameter its value.
+     *  @throws InputError if it does not fit */
+    void
+    set_value(const std::vector<std::string> &sections,
+              const std::string              &name,
+              const std::string              &value,
+              const Declared::Entry          &entry,
+              const std::string              &place)
+    {
+      const std::string path   = joined(sections, name);
+      const auto        refuse = [&](const std::string &allowed) {
+        throw InputError(
+          path,
+          value,
+          allowed,
+          (entry.default_value.empty()
+                    ? "leave it out for the default"
+                    : "e.g. " + printable(entry.default_value) + ", the default") +
+            " (" + place + ")");
+      };
+      if (entry.pattern.find("[Double") != std::string::npos &&
+          !is_sensible(value))
+        refuse("finite numbers of magnitude <= 1e100");
+      // The library takes a number without sign for one with it.
+      if (entry.pattern == "[Integer]" &&
+          (value.empty() ||
+           value.find_first_not_of("0123456789") != std::string::npos ||
+           value.size() > 10 ||
+           std::stoull(value) > std::numeric_limits<unsigned>::max()))
+        refuse("a whole number from 0 to " +
+               std::to_string(std::numeric_limits<unsigned>::max()));
+      std::string text;
+      for (const std::string &section : sections)
+        text += "subsection " + section + "\n";
+      text += "set " + name + " = " + value + "\n";
+      for (std::size_t i = 0; i < sections.size(); ++i)
+        text += "end\n";
+      try
+        {
+          ParameterAcceptor::prm.parse_input_from_string(text);
+        }
+      catch (const dealii::ExceptionBase &)
+        {
+          refuse(allowed_by(entry.pattern));
+        }
     }
   } // namespace
 
@@ -138,11 +336,41 @@ namespace geocone
     return names;
   }
 
+  void
+  add_choice(ParameterAcceptor              &acceptor,
+             const std::string              &entry,
+             std::string                    &value,
+             const std::vector<std::string> &choices,
+             const std::string              &documentation)
+  {
+    std::string selection, list;
+    for (const std::string &choice : choices)
+      {
+        selection += (selection.empty() ? "" : "|") + choice;
+        list += (list.empty() ? "" : " | ") + choice;
+      }
+    acceptor.add_parameter(entry,
+                           value,
+                           list + ". " + documentation,
+                           ParameterAcceptor::prm,
+                           dealii::Patterns::Selection(selection));
+  }
+
+  std::string
+  ParameterFile::Line::place() const
+  {
+    return number == 0
+             ? file
+             : "file '" +
+                 printable(std::filesystem::path(file).filename().string()) +
+                 "', line " + std::to_string(number);
+  }
+
   ParameterFile::ParameterFile(const std::string              &file_name,
                                const std::vector<std::string> &overrides)
     : folder_of_file(std::filesystem::path(file_name).parent_path().string())
   {
-    read(file_name, "'" + file_name + "'", 0);
+    read(file_name, "'" + printable(file_name) + "'", 0);
     append(overrides);
   }
 
@@ -153,10 +381,8 @@ namespace geocone
   {
     ParameterFile      file;
     std::istringstream in(text);
-    int                number = 0;
-    for (std::string line; std::getline(in, line);)
-      file.lines.push_back(
-        {trim(line), "the materials of '" + name + "'", ++number});
+    file.has_strict_lists = false;
+    file.read_lines(in, name, "'" + printable(name) + "'", -1);
     file.append(overrides);
     return file;
   }
@@ -167,13 +393,16 @@ namespace geocone
     for (const std::string &override_text : overrides)
       {
         const auto        equals = override_text.find('=');
-        const std::string where =
-          "--set '" + override_text.substr(0, 200) + "'";
+        const std::string where  = "--set '" + printable(override_text) + "'";
         const auto [sections, name] =
           sections_and_name(override_text.substr(0, equals));
-        if (equals == std::string::npos || name.empty())
-          throw InputError(where + " is not of the form\n"
-                                   "  'Section/Subsection/Name = value'");
+        if (equals == std::string::npos || name.empty() ||
+            has_control_characters(override_text))
+          throw InputError(where + " cannot be understood\n"
+                                   "  allowed: 'Section/Subsection/Name = "
+                                   "value', in one line\n"
+                                   "  remedy:  e.g. --set 'Mesh/Cell size = "
+                                   "0.1'; 'geocone --help' lists all names");
         for (const std::string &section : sections)
           lines.push_back({"subsection " + section, where, 0});
         lines.push_back(
@@ -190,36 +419,79 @@ namespace geocone
                       const std::string &shown_name,
                       const int          depth)
   {
+    const auto refuse = [&](const std::string &what,
+                            const std::string &remedy) {
+      throw InputError("the parameter file " + shown_name + " " + what +
+                       "\n  remedy:  " + remedy);
+    };
     if (depth > 20)
-      throw InputError("the parameter file " + shown_name + " includes itself");
-    std::ifstream in(file_name);
-    if (!in || std::filesystem::is_directory(file_name))
-      throw InputError("the parameter file " + shown_name +
-                       " cannot be read\n"
-                       "  remedy:  check the name; the examples are in prm/");
+      refuse("includes itself", "take the include out");
+    if (++n_files > most_files)
+      refuse("is one of more than a thousand that are included",
+             "include each file once");
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file_name, error))
+      refuse(std::filesystem::exists(file_name, error)
+               ? "is no file"
+               : "cannot be read: there is none of this name",
+             "check the name; the examples are in prm/");
+    if (std::filesystem::file_size(file_name, error) > largest_file)
+      refuse("is larger than 16 MB", "give a parameter file");
+    std::ifstream in(file_name, std::ios::binary);
+    if (!in)
+      refuse("cannot be read", "check its permissions");
+    read_lines(in, file_name, shown_name, depth);
+  }
+
+  void
+  ParameterFile::read_lines(std::istream      &in,
+                            const std::string &file_name,
+                            const std::string &shown_name,
+                            const int          depth)
+  {
     int open_sections = 0;
     int number        = 0;
-    for (std::string line; std::getline(in, line);)
+    // Some editors begin files of UTF-8 with a mark.
+    if (in.peek() == 0xEF)
       {
-        ++number;
+        char mark[3];
+        in.read(mark, 3);
+      }
+    const auto next = [&](std::string &line) {
+      if (!std::getline(in, line))
+        return false;
+      ++number;
+      if (!line.empty() && line.back() == '\r')
+        line.pop_back();
+      if (has_control_characters(line))
+        throw InputError(
+          "the parameter file " + shown_name + ", line " +
+          std::to_string(number) +
+          ": it has control characters\n"
+          "  allowed: plain text, UTF-8 where it needs more than "
+          "ASCII\n"
+          "  remedy:  open it in an editor and save it as text");
+      return true;
+    };
+    for (std::string line; next(line);)
+      {
         const int first_number = number;
         while (!line.empty() && line.back() == '\\')
           {
             line.pop_back();
             std::string continuation;
-            if (!std::getline(in, continuation))
+            if (!next(continuation))
               break;
-            ++number;
             line += trim(continuation);
           }
         line = trim(line.substr(0, line.find('#')));
         if (line.empty())
           continue;
-        if (line.compare(0, 8, "include ") == 0)
+        if (line.compare(0, 8, "include ") == 0 && depth >= 0)
           {
             std::filesystem::path included(trim(line.substr(8)));
             const std::string     shown =
-              "'" + included.string() + "' (included by '" +
+              "'" + printable(included.string()) + "' (included by '" +
               std::filesystem::path(file_name).filename().string() +
               "', line " + std::to_string(first_number) + ")";
             if (included.is_relative())
@@ -232,23 +504,74 @@ namespace geocone
                          : line == "end"                         ? -1
                                                                  : 0;
         if (open_sections < 0)
-          throw InputError("file '" + file_name + "', line " +
+          throw InputError("file " + shown_name + ", line " +
                            std::to_string(first_number) +
-                           ": 'end' without a subsection");
+                           ": 'end' without a subsection\n  remedy:  take it "
+                           "out, or begin the section");
         lines.push_back({line, file_name, first_number});
       }
     if (open_sections != 0)
-      throw InputError("file '" + file_name +
-                       "': " + std::to_string(open_sections) +
-                       " subsection(s) without 'end'");
+      throw InputError("file " + shown_name + ": " +
+                       std::to_string(open_sections) +
+                       " subsection(s) without 'end'\n  remedy:  end each "
+                       "subsection");
   }
 
-  std::string
-  ParameterFile::text() const
+  std::vector<ParameterFile::SetLine>
+  ParameterFile::set_lines(const bool checks) const
   {
-    std::string all;
+    Declared declared;
+    if (checks)
+      declared = all_declared();
+    std::vector<SetLine>     all;
+    std::vector<std::string> path;
+    std::size_t              left_out = 0; ///< sections below one taken out
     for (const Line &line : lines)
-      all += line.text + "\n";
+      {
+        if (line.text.compare(0, 11, "subsection ") == 0)
+          {
+            const std::string name = trim(line.text.substr(11));
+            const auto        list =
+              path.size() == 1 ? lists.find(path[0]) : lists.end();
+            if (left_out > 0 ||
+                (list != lists.end() &&
+                 std::count(list->second.begin(), list->second.end(), name) ==
+                   0))
+              ++left_out;
+            if (checks && left_out == 0)
+              {
+                const Declared *here = declared.find(path);
+                if (here->sections.count(name) == 0)
+                  throw InputError(
+                    line.place() + ": unknown section '" +
+                    printable(joined(path, name)) + "'" +
+                    suggestion(name, joined(path, ""), keys(here->sections)));
+              }
+            path.push_back(name);
+          }
+        else if (line.text == "end")
+          {
+            path.pop_back();
+            left_out -= left_out > 0;
+          }
+        else if (line.text.compare(0, 4, "set ") == 0 &&
+                 line.text.find('=') != std::string::npos)
+          {
+            const std::size_t equals = line.text.find('=');
+            if (left_out == 0)
+              all.push_back({path,
+                             trim(line.text.substr(4, equals - 4)),
+                             trim(line.text.substr(equals + 1)),
+                             &line});
+          }
+        else if (checks)
+          throw InputError(line.place() + ": '" + printable(line.text) +
+                           "' cannot be understood\n"
+                           "  allowed: 'set NAME = VALUE', 'subsection NAME', "
+                           "'end', 'include FILE'\n"
+                           "  remedy:  begin comments with #; prm/ has "
+                           "examples");
+      }
     return all;
   }
 
@@ -257,159 +580,134 @@ namespace geocone
                       const std::string &default_value) const
   {
     const auto [sections, name] = sections_and_name(path);
-    std::vector<std::string> stack;
-    std::string              value = default_value;
-    for (const Line &line : lines)
-      if (line.text.compare(0, 11, "subsection ") == 0)
-        stack.push_back(trim(line.text.substr(11)));
-      else if (line.text == "end")
-        stack.pop_back();
-      else if (line.text.compare(0, 4, "set ") == 0 && stack == sections)
-        {
-          const auto equals = line.text.find('=');
-          if (equals != std::string::npos &&
-              trim(line.text.substr(4, equals - 4)) == name)
-            value = trim(line.text.substr(equals + 1));
-        }
+    std::string value           = default_value;
+    for (const SetLine &set : set_lines(false))
+      if (set.sections == sections && set.name == name)
+        value = set.value;
     return value;
-  }
-
-  std::vector<std::string>
-  ParameterFile::peek_list(const std::string &path,
-                           const std::string &default_value) const
-  {
-    const std::vector<std::string> names =
-      split_names(peek(path, default_value));
-    for (std::size_t i = 0; i < names.size(); ++i)
-      if (std::find(names.begin(), names.begin() + i, names[i]) !=
-          names.begin() + i)
-        throw InputError(path,
-                         peek(path, default_value),
-                         "a comma-separated list of different names",
-                         "the name '" + names[i] + "' stands there twice");
-    return names;
   }
 
   std::vector<std::string>
   ParameterFile::named_sections(const std::string &section,
                                 const std::string &list,
-                                const std::string &default_value,
-                                std::size_t       &n_listed) const
+                                const std::string &default_value) const
   {
-    std::vector<std::string> names =
-      peek_list(section + "/" + list, default_value);
-    n_listed = names.size();
-    std::vector<std::string> stack;
+    lists.erase(section); // all subsections count here
+    const std::string     path = section + "/" + list;
+    std::string           value;
+    bool                  is_given = false;
+    std::set<std::string> ever;
+    for (const SetLine &set : set_lines(false))
+      if (set.sections == std::vector<std::string>{section} && set.name == list)
+        {
+          is_given = true;
+          value    = set.value;
+          for (const std::string &name : split_names(value))
+            ever.insert(name);
+        }
+    if (!is_given)
+      {
+        value = default_value;
+        for (const std::string &name : split_names(value))
+          ever.insert(name);
+      }
+    const std::vector<std::string> names = split_names(value);
+
+    std::map<std::string, const Line *> subsections;
+    unsigned int                        depth  = 0;
+    bool                                inside = false;
     for (const Line &line : lines)
       if (line.text.compare(0, 11, "subsection ") == 0)
         {
           const std::string name = trim(line.text.substr(11));
-          if (stack.size() == 1 && stack[0] == section &&
-              std::find(names.begin(), names.end(), name) == names.end())
-            names.push_back(name);
-          stack.push_back(name);
+          if (depth == 0)
+            inside = name == section;
+          else if (depth == 1 && inside)
+            subsections.emplace(name, &line);
+          ++depth;
         }
       else if (line.text == "end")
-        stack.pop_back();
+        --depth;
+
+    const auto refuse = [&](const std::string &remedy) {
+      throw InputError(path,
+                       value,
+                       "different names, each of a subsection of '" + section +
+                         "'",
+                       remedy);
+    };
+    for (std::size_t i = 0; i < names.size(); ++i)
+      {
+        const std::string &name  = names[i];
+        const std::string  shown = "the name '" + printable(name) + "' ";
+        if (std::count(names.begin(), names.begin() + i, name) > 0)
+          refuse(shown + "stands there twice");
+        if (name.size() > longest_name ||
+            name.find_first_of("/'\"\\") != std::string::npos || name == list)
+          refuse(shown + "cannot be that of a section: take at most " +
+                 std::to_string(longest_name) +
+                 " letters, digits and blanks, no quotes and no slash");
+        if (is_given && has_strict_lists && subsections.count(name) == 0)
+          refuse(
+            "there is no 'subsection " + printable(name) + "' in '" + section +
+            "'" + (subsections.empty() ? ": add it" : ", but " + [&]() {
+              std::string all;
+              for (const auto &[there, line] : subsections)
+                all += (all.empty() ? "'" : ", '") + printable(there) + "'";
+              return all;
+            }() + ": check the spelling"));
+      }
+    if (has_strict_lists)
+      for (const auto &[name, line] : subsections)
+        if (ever.count(name) == 0)
+          throw InputError(line->place() + ": the subsection '" +
+                           printable(section + "/" + name) +
+                           "' is in no list\n  allowed: subsections whose "
+                           "names are in '" +
+                           path + "', which is '" + printable(value) +
+                           "'\n  remedy:  add it to that list, check the "
+                           "spelling, or take the subsection out");
+    lists[section] = names;
     return names;
   }
 
-  void
-  ParameterFile::check_names() const
+  std::vector<ParameterFile::Setting>
+  ParameterFile::parse(const OfOthers &of_others) const
   {
-    const DeclaredNames                root  = declared_names();
-    std::vector<const DeclaredNames *> stack = {&root};
-    std::vector<std::string>           path;
-    for (const Line &line : lines)
+    const Declared                 declared = all_declared();
+    std::map<std::string, Setting> settings;
+    for (const SetLine &set : set_lines(true))
       {
-        const std::string where =
-          line.number == 0
-            ? line.file + ": "
-            : "file '" + std::filesystem::path(line.file).filename().string() +
-                "', line " + std::to_string(line.number) + ": ";
-        if (line.text.compare(0, 11, "subsection ") == 0)
+        const std::string path  = joined(set.sections, set.name);
+        const Declared   *here  = declared.find(set.sections);
+        const auto        entry = here->entries.find(set.name);
+        if (entry == here->entries.end())
           {
-            const std::string    name  = trim(line.text.substr(11));
-            const DeclaredNames *below = stack.back()->find(name);
-            if (below == nullptr)
+            const auto others = set.sections.empty()
+                                  ? of_others.end()
+                                  : of_others.find(set.sections[0]);
+            if (set.sections.size() == 2 && others != of_others.end() &&
+                others->second.count(set.name) > 0)
               {
-                std::vector<std::string> known;
-                for (const auto &section : stack.back()->sections)
-                  known.push_back(section.first);
-                throw InputError(
-                  where + "unknown section '" + joined(path, name) + "'" +
-                  (known.empty()
-                     ? "\n  remedy:  this section has no subsections"
-                     : "\n  remedy:  did you mean '" +
-                         joined(path, nearest(name, known)) + "'?"));
+                settings[path] = {
+                  path, set.value, "", others->second.at(set.name)};
+                continue;
               }
-            stack.push_back(below);
-            path.push_back(name);
+            throw InputError(set.line->place() + ": unknown parameter '" +
+                             printable(path) + "'" +
+                             suggestion(set.name,
+                                        joined(set.sections, ""),
+                                        keys(here->entries)));
           }
-        else if (line.text == "end")
-          {
-            stack.pop_back();
-            path.pop_back();
-          }
-        else if (line.text.compare(0, 4, "set ") == 0 &&
-                 line.text.find('=') != std::string::npos)
-          {
-            const std::string name =
-              trim(line.text.substr(4, line.text.find('=') - 4));
-            const auto &known = stack.back()->entries;
-            if (std::find(known.begin(), known.end(), name) == known.end())
-              throw InputError(
-                where + "unknown parameter '" + joined(path, name) + "'" +
-                (known.empty() ? "\n  remedy:  this section has no entries"
-                               : "\n  remedy:  did you mean '" +
-                                   joined(path, nearest(name, known)) +
-                                   "'? 'geocone --help' lists all"));
-          }
-        else
-          throw InputError(where + "cannot be understood: '" + line.text +
-                           "'\n  allowed: 'set NAME = VALUE', 'subsection "
-                           "NAME', 'end', 'include FILE'");
-      }
-  }
-
-  void
-  ParameterFile::parse() const
-  {
-    check_names();
-    try
-      {
-        ParameterAcceptor::prm.parse_input_from_string(text());
-      }
-    catch (const dealii::ExceptionBase &exception)
-      {
-        // The library's message holds the line, the value and the pattern.
-        std::ostringstream out;
-        exception.print_info(out);
-        std::string      message = trim(out.str());
-        std::smatch      match;
-        const std::regex line_number("[Ll]ine <?(\\d+)>?( of|, | in)");
-        if (std::regex_search(message, match, line_number))
-          {
-            const int i = std::stoi(match[1]) - 1;
-            if (i >= 0 && i < static_cast<int>(lines.size()))
-              message =
-                (lines[i].number == 0
-                   ? lines[i].file
-                   : "file '" +
-                       std::filesystem::path(lines[i].file)
-                         .filename()
-                         .string() +
-                       "', line " + std::to_string(lines[i].number)) +
-                ": '" + lines[i].text + "'\n  " +
-                std::regex_replace(message,
-                                   std::regex("^[^:]*:\\s*"),
-                                   "",
-                                   std::regex_constants::format_first_only);
-          }
-        throw InputError(
-          std::regex_replace(message, std::regex("\\s*\n\\s+"), " "));
+        set_value(
+          set.sections, set.name, set.value, entry->second, set.line->place());
+        settings[path] = {path, set.value, entry->second.default_value, ""};
       }
     ParameterAcceptor::parse_all_parameters();
+    std::vector<Setting> all;
+    for (const auto &[path, setting] : settings)
+      all.push_back(setting);
+    return all;
   }
 
   std::string
@@ -428,6 +726,25 @@ namespace geocone
         inside = inside && line != "end"; // those inside of it are indented
       }
     return text;
+  }
+
+  std::string
+  ParameterFile::value(const std::string &path)
+  {
+    const auto [sections, name] = sections_and_name(path);
+    const Declared  declared    = all_declared();
+    const Declared *here        = declared.find(sections);
+    return here == nullptr || here->entries.count(name) == 0
+             ? ""
+             : here->entries.at(name).value;
+  }
+
+  std::vector<std::string>
+  ParameterFile::declared_in(const std::string &section)
+  {
+    const Declared  declared = all_declared();
+    const Declared *here     = declared.find(split_names(section, '/'));
+    return here == nullptr ? std::vector<std::string>() : keys(here->entries);
   }
 
   void

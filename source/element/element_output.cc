@@ -3,7 +3,6 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/element/element_output.h>
-#include <geocone/output/run_folder.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,59 +28,22 @@ namespace geocone
   } // namespace
 
   ElementOutput::ElementOutput(const MPI_Comm comm, Log &log)
-    : dealii::ParameterAcceptor("/Output")
-    , comm(comm)
-    , log(log)
-  {
-    add_parameter("Folder",
-                  path,
-                  "Folder of the run; empty: results/NAME for NAME.prm. The "
-                  "option --output goes before it.");
-    add_parameter("If folder exists",
-                  if_exists,
-                  "number (take NAME-2, NAME-3, ...) | refuse | overwrite (the "
-                  "files of the run before are removed).");
-    add_parameter(
-      "Pictures",
-      pictures,
-      "Whether the pictures are drawn at the end, by scripts/plot.");
-    add_parameter("Verbosity",
-                  verbosity,
+    : OutputBase(comm,
+                 log,
+                 {false,
+                  {"none", "states"},
                   "0: results only, 1: the end of each stage, 2: each "
-                  "increment.");
-    add_parameter("Expectations",
-                  expectation_texts,
-                  "Comma-separated statements about summary.json that must "
-                  "hold at the end, else the exit code is 1: TOPIC/NAME <= "
-                  "NUMBER or >= NUMBER, e.g. final/q_Pa >= 50e3, extremes/"
-                  "R_most <= 1.0001, stages/shear/p_Pa <= 20e3.");
-    add_parameter("Report for tests",
-                  report_for_tests,
-                  "none | states: writes a file 'output' into the folder of "
-                  "the call, with the state after each stage and the "
-                  "expectations.");
-  }
+                  "increment."})
+  {}
 
   void
   ElementOutput::prepare(const std::string              &default_name,
                          const std::string              &folder_of_call,
                          const std::vector<std::string> &all_columns)
   {
-    name    = default_name;
     columns = all_columns;
-    check_choice(
-      "Output/If folder exists", if_exists, {"number", "refuse", "overwrite"});
-    check_choice(
-      "Output/Report for tests", report_for_tests, {"none", "states"});
-    for (const std::string &text : expectation_texts)
-      expectations.emplace_back(text, "Output/Expectations");
-    if (!folder_of_call.empty())
-      path = folder_of_call;
-    if (path.empty())
-      path = "results/" + default_name;
-    path = make_run_folder(comm, path, if_exists);
-    log.open(path + "/log.txt");
-    table.open(path + "/path.csv", columns);
+    make_folder(default_name, folder_of_call);
+    statistics.open(path + "/path.csv", columns);
     surface_table.open(path + "/surfaces.csv",
                        {"state", "surface", "p (Pa)", "q (Pa)"});
   }
@@ -98,7 +60,8 @@ namespace geocone
   void
   ElementOutput::add_line(const std::vector<double> &values)
   {
-    table.add_line(values);
+    check_finite(columns, values);
+    statistics.add_line(values);
     last = state(values);
     if (n_lines++ == 0)
       start = last;
@@ -141,13 +104,14 @@ namespace geocone
     summary["stages"]   = stages;
     summary["final"]    = last;
     summary["extremes"] = extremes;
-    write_file(path + "/summary.json",
-               [&](std::ostream &out) { out << summary.dump(2) << "\n"; });
+    write_summary_file();
   }
 
-  bool
-  ElementOutput::finish()
+  void
+  ElementOutput::report() const
   {
+    if (report_for_tests == "none")
+      return;
     std::string report;
     for (const auto &[stage, values] : stages.items())
       {
@@ -174,23 +138,6 @@ namespace geocone
                                          : "");
           }
       }
-    bool hold = true;
-    for (const Expectation &expectation : expectations)
-      {
-        const bool        holds = expectation.holds(summary);
-        const std::string answer =
-          "expected " + expectation.text + ": " + (holds ? "yes" : "NO");
-        const std::string line =
-          answer + " (" + expectation.found(summary) + ")";
-        hold = hold && holds;
-        if (holds)
-          log.print(line);
-        else
-          log.warn(line);
-        report += answer + "\n";
-      }
-    if (report_for_tests == "states")
-      write_file("output", [&](std::ostream &out) { out << report; });
-    return hold;
+    write_file("output", [&](std::ostream &out) { out << report; });
   }
 } // namespace geocone

@@ -186,6 +186,12 @@ namespace geocone
     if (n_increments == 0)
       throw InputError(
         parameter("Increments"), n_increments, "> 0", "100 is usual");
+    if (4. * n_increments * std::max(1U, n_cycles) > 1e8)
+      throw InputError(n_cycles > n_increments ? parameter("Cycles") :
+                                                 parameter("Increments"),
+                       std::max(n_cycles, n_increments),
+                       "at most 2.5e7 increments, of all cycles",
+                       "take fewer increments or cycles, or more stages");
     check_choice(parameter("Cycle form"), cycle_form, {"two-way", "one-way"});
     check_components(point);
     if (!stop_text.empty())
@@ -253,17 +259,14 @@ namespace geocone
 
   ElementPath::ElementPath(const ParameterFile &file)
     : dealii::ParameterAcceptor("/Path")
-    , names(file.peek_list("Path/Names", "loading"))
+    , names(file.named_sections("Path", "Names", "loading"))
   {
     add_parameter("Names",
                   names,
                   "Names of the stages, comma-separated, in their order; each "
                   "has a subsection of that name.");
-    std::size_t n_listed;
-    const auto  all = file.named_sections("Path", "Names", "loading", n_listed);
-    for (std::size_t i = 0; i < all.size(); ++i)
-      (i < n_listed ? stages : unused)
-        .push_back(std::make_unique<ElementStage>(all[i]));
+    for (const std::string &stage : names)
+      stages.push_back(std::make_unique<ElementStage>(stage));
   }
 
   void

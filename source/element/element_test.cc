@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/stop_request.h>
 #include <geocone/element/element_test.h>
 
 #include <deal.II/base/patterns.h>
@@ -34,7 +35,7 @@ namespace geocone
   }
 
   void
-  ElementTest::prepare(const std::string &name, const std::string &folder)
+  ElementTest::prepare()
   {
     materials.prepare();
     mixed_control.prepare();
@@ -52,7 +53,6 @@ namespace geocone
     std::copy(initial_stress.begin(), initial_stress.end(), stress.begin());
     point = make_element_point(materials.law(0), components, stress, changed);
     path.prepare(*point, columns());
-    element_output.prepare(name, folder, columns());
   }
 
   std::vector<std::string>
@@ -227,76 +227,51 @@ namespace geocone
               {"limited_stresses", point->counts.limited}}}};
   }
 
-  bool
-  ElementTest::run(const std::string &name, const std::string &folder)
+  void
+  ElementTest::follow_path()
   {
-    prepare(name, folder);
-    log.print(format("%s: one point of '%s', %s, results in %s",
-                     name.c_str(),
-                     materials.name(0).c_str(),
-                     point->has(2) ? "3D" : "plane strain",
-                     element_output.folder().c_str()));
-    if (!changed.empty())
-      log.warn(changed);
     const std::vector<std::string> names = columns();
     const std::size_t              p_at =
       std::find(names.begin(), names.end(), "p (Pa)") - names.begin();
     std::vector<double> values = line(0);
     element_output.add_line(values);
     largest_p = values[p_at];
-    try
+    for (unsigned int s = 0; s < path.stages.size(); ++s)
       {
-        for (unsigned int s = 0; s < path.stages.size(); ++s)
+        const ElementStage  &stage   = *path.stages[s];
+        const ElementControl control = stage.control(*point);
+        const Tensor6        start   = point->stress();
+        guess                        = {};
+        double at                    = 0.;
+        bool   stopped               = false;
+        for (const double f : stage.positions())
           {
-            const ElementStage  &stage   = *path.stages[s];
-            const ElementControl control = stage.control(*point);
-            const Tensor6        start   = point->stress();
-            guess                        = {};
-            double at                    = 0.;
-            bool   stopped               = false;
-            for (const double f : stage.positions())
-              {
-                advance(stage, control, start, at, f);
-                at     = f;
-                values = line(s + 1);
-                element_output.add_line(values);
-                largest_p = std::max(largest_p, values[p_at]);
-                if (element_output.verbosity >= 2)
-                  log.print(format("  %s: f = %.4g, p = %.6g Pa, q = %.6g Pa",
-                                   stage.name.c_str(),
-                                   f,
-                                   values[p_at],
-                                   values[p_at + 1]));
-                stopped = stops(stage, values);
-                if (stopped)
-                  break;
-              }
-            element_output.add_stage(stage.name, values);
-            if (element_output.verbosity >= 1)
-              log.print(
-                format("%s%s: p = %.6g Pa, q = %.6g Pa, eps_v = %.4g %%",
-                       stage.name.c_str(),
-                       stopped ? " (stopped)" : "",
-                       values[p_at],
-                       values[p_at + 1],
-                       100. * (strain[0] + strain[1] + strain[2])));
+            stop_if_asked(MPI_COMM_SELF);
+            advance(stage, control, start, at, f);
+            at     = f;
+            values = line(s + 1);
+            element_output.add_line(values);
+            largest_p = std::max(largest_p, values[p_at]);
+            if (element_output.verbosity >= 2)
+              log.print(format("  %s: f = %.4g, p = %.6g Pa, q = %.6g Pa",
+                               stage.name.c_str(),
+                               f,
+                               values[p_at],
+                               values[p_at + 1]));
+            stopped = stops(stage, values);
+            if (stopped)
+              break;
           }
-      }
-    catch (const StepFailure &failure)
-      {
-        element_output.write_summary(std::string("failed: ") + failure.what(),
-                                     topics());
-        throw;
+        element_output.add_stage(stage.name, values);
+        if (element_output.verbosity >= 1)
+          log.print(format("%s%s: p = %.6g Pa, q = %.6g Pa, eps_v = %.4g %%",
+                           stage.name.c_str(),
+                           stopped ? " (stopped)" : "",
+                           values[p_at],
+                           values[p_at + 1],
+                           100. * (strain[0] + strain[1] + strain[2])));
       }
     write_surfaces();
-    element_output.write_summary("finished", topics());
-    log.print(format("%u increments, %u halved, %llu substeps, %llu forced, "
-                     "%llu limited",
-                     n_increments,
-                     n_cuts,
-                     point->counts.substeps,
-                     point->counts.forced,
-                     point->counts.limited));
     if (point->counts.forced > 0)
       log.warn(format("%llu substeps were forced: their error is above the "
                       "tolerance; lower 'Smallest substep' or take more "
@@ -305,6 +280,53 @@ namespace geocone
     if (point->counts.limited > 0)
       log.warn(format("%llu stresses were kept at 'Lowest pressure'",
                       point->counts.limited));
-    return element_output.finish();
+  }
+
+  bool
+  ElementTest::run(const RunOptions &options)
+  {
+    prepare();
+    if (options.dry_run)
+      {
+        std::size_t n = 0;
+        for (const auto &stage : path.stages)
+          n += stage->positions().size();
+        log.print(format("%s: one point of '%s', %zu stages, %zu increments",
+                         options.name.c_str(),
+                         materials.name(0).c_str(),
+                         path.stages.size(),
+                         n));
+        return true;
+      }
+    element_output.prepare(options.name, options.folder, columns());
+    log.print(format("%s: one point of '%s', %s, results in %s",
+                     options.name.c_str(),
+                     materials.name(0).c_str(),
+                     point->has(2) ? "3D" : "plane strain",
+                     element_output.folder().c_str()));
+    if (!changed.empty())
+      log.warn(changed);
+    try
+      {
+        element_output.write_summary("running", topics());
+        follow_path();
+        element_output.write_summary("finished", topics());
+      }
+    catch (const std::exception &error)
+      {
+        element_output.end_with(error, [&](const std::string &status) {
+          element_output.write_summary(status, topics());
+        });
+        throw;
+      }
+    log.print(format("%u increments, %u halved, %llu substeps, %llu forced, "
+                     "%llu limited",
+                     n_increments,
+                     n_cuts,
+                     point->counts.substeps,
+                     point->counts.forced,
+                     point->counts.limited));
+    element_output.report();
+    return element_output.expectations_hold();
   }
 } // namespace geocone

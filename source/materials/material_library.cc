@@ -57,9 +57,28 @@ namespace geocone
                      "tells");
   }
 
+  ParameterFile::OfOthers
+  parameters_of_laws()
+  {
+    ParameterFile::OfOthers all;
+    for (const std::string &type : material_types())
+      {
+        {
+          const auto law = make_material(type, "Law");
+          for (const std::string &name : ParameterFile::declared_in("Law"))
+            {
+              std::string &laws = all["Materials"][name];
+              laws += (laws.empty() ? "Type = " : " or ") + type;
+            }
+        }
+        dealii::ParameterAcceptor::clear();
+      }
+    return all;
+  }
+
   Materials::Materials(const ParameterFile &file)
     : dealii::ParameterAcceptor("/Materials")
-    , names(file.peek_list("Materials/Names", "soil"))
+    , names(file.named_sections("Materials", "Names", "soil"))
   {
     add_parameter("Names",
                   names,
@@ -68,23 +87,19 @@ namespace geocone
     if (names.empty())
       throw InputError(
         "Materials/Names", "", "at least one name", "set Names = soil");
-    std::size_t n_listed;
-    const auto  all =
-      file.named_sections("Materials", "Names", "soil", n_listed);
-    types.resize(all.size());
-    for (std::size_t i = 0; i < all.size(); ++i)
+    types.resize(names.size());
+    for (std::size_t i = 0; i < names.size(); ++i)
       {
-        const std::string section = "Materials/" + all[i];
+        const std::string section = "Materials/" + names[i];
         types[i] = file.peek(section + "/Type", "Mohr-Coulomb");
         std::string documentation = "The law, one of:";
         for (const std::string &type : material_types())
           documentation += " " + type + ",";
         documentation.back() = '.';
-        enter_subsection(all[i]);
+        enter_subsection(names[i]);
         add_parameter("Type", types[i], documentation);
         leave_subsection();
-        (i < n_listed ? list : unused)
-          .push_back(make_material(types[i], section));
+        list.push_back(make_material(types[i], section));
       }
   }
 

@@ -9,6 +9,15 @@ namespace geocone
 {
   using namespace dealii;
 
+  ExplicitOutput::ExplicitOutput(const MPI_Comm comm, Log &log)
+    : OutputBase(comm,
+                 log,
+                 {true,
+                  {"none", "loads", "expectations"},
+                  "0: results only, 1: progress, 2: also the table of every "
+                  "Newton iteration."})
+  {}
+
   void
   ExplicitOutput::prepare(const std::string &default_name,
                           const std::string &folder_of_call,
@@ -17,48 +26,47 @@ namespace geocone
     scene = &scene_;
     make_folder(default_name, folder_of_call);
     point_files = std::make_unique<FieldFiles>("points", fields_format);
-    if (!writes)
-      return;
-    std::vector<std::string> columns = {"step",
-                                        "time (s)",
-                                        "explicit steps (-)",
-                                        "CPU time of rank 0 (s)",
-                                        "smallest step (s)",
-                                        "largest step (s)",
-                                        "limiting point (-)",
-                                        "limiting point x (m)",
-                                        "limiting point y (m)",
-                                        "limiting wave speed (m/s)",
-                                        "points (-)",
-                                        "mass (kg/m)",
-                                        "volume (m^2)",
-                                        "x least (m)",
-                                        "x largest (m)",
-                                        "y largest (m)",
-                                        "x of 1 % of the mass (m)",
-                                        "x of 99 % of the mass (m)",
-                                        "largest speed (m/s)",
-                                        "largest plastic strain (-)",
-                                        "unbalanced force (N/m)",
-                                        "kinetic energy (J/m)",
-                                        "potential energy (J/m)",
-                                        "stress work (J/m)",
-                                        "gravity work (J/m)",
-                                        "support work (J/m)",
-                                        "damping work (J/m)",
-                                        "stopped energy (J/m)",
-                                        "removed kinetic energy (J/m)",
-                                        "energy residual (J/m)",
-                                        "momentum x (N s/m)",
-                                        "momentum y (N s/m)",
-                                        "momentum residual x (N s/m)",
-                                        "momentum residual y (N s/m)",
-                                        "angular momentum (N m s/m)",
-                                        "removed mass (kg/m)"};
+    columns     = {"step",
+                   "time (s)",
+                   "explicit steps (-)",
+                   "CPU time of rank 0 (s)",
+                   "smallest step (s)",
+                   "largest step (s)",
+                   "limiting point (-)",
+                   "limiting point x (m)",
+                   "limiting point y (m)",
+                   "limiting wave speed (m/s)",
+                   "points (-)",
+                   "mass (kg/m)",
+                   "volume (m^2)",
+                   "x least (m)",
+                   "x largest (m)",
+                   "y largest (m)",
+                   "x of 1 % of the mass (m)",
+                   "x of 99 % of the mass (m)",
+                   "largest speed (m/s)",
+                   "largest plastic strain (-)",
+                   "unbalanced force (N/m)",
+                   "kinetic energy (J/m)",
+                   "potential energy (J/m)",
+                   "stress work (J/m)",
+                   "gravity work (J/m)",
+                   "support work (J/m)",
+                   "damping work (J/m)",
+                   "stopped energy (J/m)",
+                   "removed kinetic energy (J/m)",
+                   "energy residual (J/m)",
+                   "momentum x (N s/m)",
+                   "momentum y (N s/m)",
+                   "momentum residual x (N s/m)",
+                   "momentum residual y (N s/m)",
+                   "angular momentum (N m s/m)",
+                   "removed mass (kg/m)"};
     for (const auto &condition : scene->dirichlet.list)
       for (const char *direction : {" x", " y"})
         columns.push_back("force " + condition->name + direction + " (N/m)");
-    statistics.open(path + "/statistics.csv", columns);
+    if (writes)
+      statistics.open(path + "/statistics.csv", columns);
   }
 
   double
@@ -80,7 +88,6 @@ namespace geocone
   void
   ExplicitOutput::add_record(const ExplicitRecord &record)
   {
-    records.push_back(record);
     const ExplicitState &s = record.state;
     const Balance       &b = record.balance;
     const Tensor<1, dim> r = momentum_residual(record);
@@ -90,8 +97,6 @@ namespace geocone
                 b.impulse.norm(),
                 s.mass * scene->gravity.at(1e300).norm() * record.time,
                 std::sqrt(2. * s.mass * std::max(s.kinetic, initial.kinetic))});
-    if (!writes)
-      return;
     std::vector<double> line = {double(record.step),
                                 record.time,
                                 double(record.report.n_steps),
@@ -131,7 +136,26 @@ namespace geocone
     for (const Tensor<1, dim> &reaction : record.report.reactions)
       for (unsigned int d = 0; d < dim; ++d)
         line.push_back(reaction[d]);
-    statistics.add_line(line);
+    check_finite(columns, line);
+    records.push_back(record);
+    if (writes)
+      statistics.add_line(line);
+
+    const double created = energy_residual(record);
+    const double scale =
+      std::max({largest_kinetic, std::abs(b.gravity_work), 1e-300});
+    if (!warned_of_energy && created > 0.01 * scale && created > 1e-12)
+      {
+        warned_of_energy = true;
+        log.warn(
+          format("the numerical method has created %.3g J/m, %.2g %% of "
+                 "the energy that was turned over until t = %.4g s: take "
+                 "a smaller 'Explicit/Courant number', splines, or the "
+                 "order MUSL",
+                 created,
+                 100. * created / scale,
+                 record.time));
+      }
   }
 
   void

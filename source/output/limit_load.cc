@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/log.h>
 #include <geocone/output/limit_load.h>
 
 #include <algorithm>
@@ -11,8 +12,8 @@ namespace geocone
   namespace
   {
     /**
-     * The branch of the curve, between two reversals of the displacement, that
-     * takes the most work: the loading, not a rest, an unloading or a reloading
+     * The branch of the curve, between two reversals of the displacement, with
+     * the most work, taken (footing) or given (active wall): the loading, not a rest, an unloading or a reloading
      * that is cut short. Its displacements count from its beginning.
      */
     std::vector<LoadPoint>
@@ -32,9 +33,9 @@ namespace geocone
               start = previous;
             }
           work += change * curve[i].load;
-          if (work > best_work)
+          if (std::abs(work) > best_work)
             {
-              best_work  = work;
+              best_work  = std::abs(work);
               best_first = first;
               best_end   = i + 1;
               best_start = start;
@@ -76,7 +77,12 @@ namespace geocone
         limit.peak = point.load;
     const std::vector<LoadPoint> branch = main_branch(points);
     if (branch.size() < 2)
-      return limit;
+      {
+        limit.reason = branch.empty() ? "nothing has moved under a load"
+                                      : "the load-displacement curve has only "
+                                        "one step";
+        return limit;
+      }
 
     const double end = branch.back().displacement;
     for (const double fraction : {0.5, 0.25, 0.125})
@@ -107,6 +113,11 @@ namespace geocone
             }
         break;
       }
+    if (!limit.found)
+      limit.reason =
+        limit.value == 0.
+          ? "the load is zero"
+          : format("the load still drifts by %.2g %%", 100. * limit.drift);
     return limit;
   }
 } // namespace geocone

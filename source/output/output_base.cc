@@ -2,14 +2,43 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/parameter_file.h>
+#include <geocone/base/stop_request.h>
 #include <geocone/output/output_base.h>
 #include <geocone/output/run_folder.h>
+#include <geocone/output/run_status.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <cmath>
+#include <new>
+
 namespace geocone
 {
-  OutputBase::OutputBase(const MPI_Comm comm, Log &log)
+  namespace
+  {
+    /** The place of the first number of a summary that is not finite, or
+     *  nothing. */
+    std::string
+    first_not_finite(const Json &json, const std::string &place)
+    {
+      if (json.is_number_float() && !std::isfinite(json.get<double>()))
+        return place;
+      if (json.is_structured())
+        for (const auto &[key, value] : json.items())
+          if (const std::string found = first_not_finite(
+                value, place + (place.empty() ? "" : "/") + key);
+              !found.empty())
+            return found;
+      return "";
+    }
+
+    const char *const not_finite_remedy =
+      " is not a finite number\n  remedy:  look for absurd magnitudes among "
+      "the parameters, the formulas and the files that were read";
+  } // namespace
+
+  OutputBase::OutputBase(const MPI_Comm comm, Log &log, const Options &options)
     : dealii::ParameterAcceptor("/Output")
     , comm(comm)
     , writes(dealii::Utilities::MPI::this_mpi_process(comm) == 0)
@@ -19,36 +48,47 @@ namespace geocone
                   path,
                   "Folder of the run; empty: results/NAME for NAME.prm. The "
                   "option --output goes before it.");
-    add_parameter("If folder exists",
-                  if_exists,
-                  "number (take NAME-2, NAME-3, ...) | refuse | overwrite (the "
-                  "files of the run before are removed).");
-    add_parameter("Fields",
-                  with_fields,
-                  "Whether VTU files are written (see Loading/.../Output "
-                  "every).");
-    add_parameter("Fields format",
-                  fields_format,
-                  "vtu (for ParaView and the pictures) | hdf5 (with XDMF "
-                  "records) | both.");
+    add_choice(*this,
+               "If folder exists",
+               if_exists,
+               {"automatic", "number", "refuse", "overwrite"},
+               "What to do if it is not empty. Number: take NAME-2, NAME-3, "
+               "... Overwrite: delete the files that the files.txt of the run "
+               "before names. Automatic: refuse a folder that was named, "
+               "number results/NAME.");
+    if (options.fields)
+      {
+        add_parameter("Fields",
+                      with_fields,
+                      "Whether fields are written (see Loading/.../Output "
+                      "every).");
+        add_choice(*this,
+                   "Fields format",
+                   fields_format,
+                   {"vtu", "hdf5", "both"},
+                   "VTU files are for ParaView and the pictures, HDF5 files "
+                   "come with XDMF records.");
+      }
     add_parameter("Pictures",
                   pictures,
-                  "Whether the curve and the fields are drawn at the end, by "
+                  "Whether the pictures are drawn at the end, by "
                   "scripts/plot.");
     add_parameter("Verbosity",
                   verbosity,
-                  "0: results only, 1: progress, 2: also the table of every "
-                  "Newton iteration.");
+                  options.verbosity,
+                  prm,
+                  dealii::Patterns::Integer(0, 2));
     add_parameter("Expectations",
                   expectation_texts,
                   "Comma-separated statements about summary.json that must "
                   "hold at the end, else the exit code is 1: TOPIC/NAME <= "
                   "NUMBER or >= NUMBER, e.g. newton/iterations_mean <= 7.");
-    add_parameter("Report for tests",
-                  report_for_tests,
-                  "none | loads | expectations: writes a file 'output' into "
-                  "the folder of the call, with the load of each step and the "
-                  "expectations, or the latter only.");
+    add_choice(*this,
+               "Report for tests",
+               report_for_tests,
+               options.reports,
+               "Writes a file 'output' with results and expectations, or the "
+               "latter only, into the folder of the call.");
   }
 
   void
@@ -56,29 +96,92 @@ namespace geocone
                           const std::string &folder_of_call)
   {
     name = default_name;
-    check_choice(
-      "Output/If folder exists", if_exists, {"number", "refuse", "overwrite"});
-    check_choice(
-      "Output/Fields format", fields_format, {"vtu", "hdf5", "both"});
-    check_choice("Output/Report for tests",
-                 report_for_tests,
-                 {"none", "loads", "expectations"});
     for (const std::string &text : expectation_texts)
       expectations.emplace_back(text, "Output/Expectations");
     if (!folder_of_call.empty())
       path = folder_of_call;
-    if (path.empty())
+    const bool was_named = !path.empty();
+    if (!was_named)
       path = "results/" + default_name;
-    path = make_run_folder(comm, path, if_exists);
+    path = make_run_folder(comm,
+                           path,
+                           if_exists == "overwrite" ? IfExists::overwrite
+                           : if_exists == "number" ||
+                               (if_exists == "automatic" && !was_named)
+                             ? IfExists::number
+                             : IfExists::refuse);
     if (writes)
-      log.open(path + "/log.txt");
+      {
+        Watcher::watch(path);
+        log.open(path + "/log.txt");
+      }
+  }
+
+  bool
+  OutputBase::summary_is_old() const
+  {
+    using namespace std::chrono;
+    const bool old = steady_clock::now() - summary_written > seconds(10);
+    return dealii::Utilities::MPI::broadcast(comm, old);
   }
 
   void
-  OutputBase::write_summary_file() const
+  OutputBase::end_with(
+    const std::exception                           &error,
+    const std::function<void(const std::string &)> &write_all) const noexcept
   {
-    write_file(path + "/summary.json",
-               [&](std::ostream &out) { out << summary.dump(2) << "\n"; });
+    std::string status;
+    try
+      {
+        const bool is_stopped =
+          dynamic_cast<const Stopped *>(&error) != nullptr;
+        const bool is_step =
+          dynamic_cast<const StepFailure *>(&error) != nullptr;
+        status = is_stopped
+                   ? error.what() + std::string("; its files are whole")
+                 : dynamic_cast<const std::bad_alloc *>(&error) != nullptr
+                   ? std::string("failed: out of memory\n  remedy:  a smaller "
+                                 "run; 'geocone --dry-run FILE.prm' tells how "
+                                 "large this one is and by which parameter")
+                   : std::string("failed: ") + error.what();
+        if (is_stopped || is_step)
+          write_all(status);
+      }
+    catch (...)
+      {}
+    end_status(path, status); // unless that has been done
+  }
+
+  void
+  OutputBase::write_summary_file()
+  {
+    summary_written     = std::chrono::steady_clock::now();
+    summary["run"]      = run_topic();
+    summary["warnings"] = log.warnings();
+    std::string what;
+    if (summary["status"] == "finished")
+      {
+        what = first_not_finite(summary, "");
+        if (!what.empty())
+          summary["status"] =
+            "failed: '" + what + "' of the summary" + not_finite_remedy;
+      }
+    write_file(path + "/summary.json", [&](std::ostream &out) {
+      out << summary.dump(2, ' ', false, Json::error_handler_t::replace)
+          << "\n";
+    });
+    if (!what.empty())
+      throw RunError("'" + what + "' of the summary" + not_finite_remedy);
+  }
+
+  void
+  OutputBase::check_finite(const std::vector<std::string> &columns,
+                           const std::vector<double>      &values)
+  {
+    AssertDimension(columns.size(), values.size());
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (!std::isfinite(values[i]))
+        throw StepFailure("'" + columns[i] + "'" + not_finite_remedy);
   }
 
   bool

@@ -2,15 +2,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/files.h>
 #include <geocone/base/parameter_file.h>
 #include <geocone/output/run_folder.h>
+#include <geocone/output/run_status.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
-#include <array>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 namespace geocone
 {
@@ -19,76 +24,128 @@ namespace geocone
     namespace fs = std::filesystem;
 
     bool
-    is_used(const std::string &folder)
+    is_used(const fs::path &folder)
     {
       std::error_code error;
-      return fs::exists(folder) &&
-             (!fs::is_directory(folder) || !fs::is_empty(folder, error));
+      return fs::exists(folder, error) &&
+             (!fs::is_directory(folder, error) || !fs::is_empty(folder, error));
     }
 
-    /** Removes what a run writes, and never anything else. */
-    void
-    remove_old_run(const std::string &folder)
+    /** Deletes the files that the list of the run before names, and the list.
+     *  @return why not, or nothing */
+    std::string
+    remove_old_run(const fs::path &folder)
     {
-      static const std::array<const char *, 7> names   = {{"parameters.prm",
-                                                           "statistics.csv",
-                                                           "newton.csv",
-                                                           "path.csv",
-                                                           "surfaces.csv",
-                                                           "summary.json",
-                                                           "log.txt"}};
-      static const std::array<const char *, 6> endings = {
-        {".vtu", ".pvtu", ".pvd", ".part", ".png", ".svg"}};
-      std::error_code error;
-      for (const auto &entry : fs::directory_iterator(folder, error))
+      if (!fs::is_directory(folder))
+        return "it is no folder";
+      if (const std::string why = running_in(folder.string()); !why.empty())
+        return why;
+      std::ifstream list(folder / list_of_files);
+      if (!list)
+        return std::string("it has no ") + list_of_files +
+               " of a run before, which would say what may be deleted: empty "
+               "it yourself";
+      std::error_code ignored;
+      for (std::string name; std::getline(list, name);)
         {
-          const fs::path   &file = entry.path();
-          const std::string stem = file.stem();
-          const auto        is   = [&](const char *base) {
-            return stem.rfind(base, 0) == 0;
-          };
-          const bool is_field =
-            (file.extension() == ".h5" || file.extension() == ".xdmf") &&
-            (is("cells") || is("points") || is("frozen"));
-          if (is_field ||
-              std::count(names.begin(), names.end(), file.filename()) > 0 ||
-              std::count(endings.begin(), endings.end(), file.extension()) > 0)
-            fs::remove(file, error);
+          // The list is a file like others: only plain names in this folder.
+          const fs::path file = folder / name;
+          if (name.empty() || fs::path(name).filename() != name ||
+              name == list_of_files ||
+              fs::is_directory(fs::symlink_status(file, ignored)))
+            continue;
+          fs::remove(file, ignored);
+          fs::remove(file.string() + ".part", ignored);
         }
+      for (const char *name : {"parameters.prm",
+                               "summary.json",
+                               "statistics.csv",
+                               "newton.csv",
+                               "path.csv",
+                               "log.txt"})
+        if (fs::exists(fs::symlink_status(folder / name, ignored)))
+          return std::string("its file '") + name + "' is not in the " +
+                 list_of_files + " of the run before: empty it yourself";
+      fs::remove(folder / list_of_files, ignored);
+      return "";
+    }
+
+    /** Whether this run, and no other one, has got the folder. */
+    bool
+    claim(const fs::path &folder)
+    {
+      const int list = ::open((folder / list_of_files).c_str(),
+                              O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW,
+                              0666);
+      if (list < 0)
+        return false;
+      ::close(list);
+      return true;
     }
 
     /** Why the folder cannot be used; empty if it has been made. */
     std::string
-    make_folder(std::string &path, const std::string &if_exists)
+    make_folder(std::string &path, const IfExists if_exists)
     {
       const std::string wanted = path;
-      if (if_exists == "number")
-        for (unsigned int i = 2; is_used(path); ++i)
-          path = wanted + "-" + std::to_string(i);
-      if (is_used(path))
+      for (unsigned int i = 2;; ++i)
         {
-          if (if_exists == "refuse")
-            return "it exists and is not empty";
-          if (fs::is_directory(path))
-            remove_old_run(path);
+          std::error_code error;
+          if (is_used(path))
+            {
+              if (if_exists == IfExists::refuse)
+                return "it exists and is not empty: set 'Output/If folder "
+                       "exists' to overwrite or number";
+              if (if_exists == IfExists::overwrite)
+                {
+                  const std::string why = remove_old_run(path);
+                  if (!why.empty())
+                    return why;
+                }
+            }
+          if (!is_used(path) || if_exists == IfExists::overwrite)
+            {
+              fs::create_directories(path, error);
+              if (!fs::is_directory(path))
+                return "it cannot be made" +
+                       (error ? " (" + error.message() + ")" : "");
+              if (claim(path))
+                break;
+              const int cause = errno;
+              if (cause != EEXIST)
+                return std::string("it cannot be written (") +
+                       std::strerror(cause) + ")";
+              if (if_exists != IfExists::number)
+                return "another run has just taken it";
+            }
+          path = wanted + "-" + std::to_string(i);
         }
-      std::error_code error;
-      fs::create_directories(path, error);
-      if (!fs::is_directory(path))
-        return "it cannot be made";
-      std::ofstream parameters(path + "/parameters.prm");
-      if (parameters)
-        ParameterFile::print(parameters, false);
-      parameters.close();
-      return parameters ? "" : "it cannot be written";
+      keep_list_of_files(path);
+      try
+        {
+          write_file(path + "/parameters.prm", [](std::ostream &out) {
+            ParameterFile::print(out, false);
+          });
+        }
+      catch (const RunError &error)
+        {
+          return error.what();
+        }
+      return "";
     }
   } // namespace
 
   std::string
   make_run_folder(const MPI_Comm     comm,
                   const std::string &wanted,
-                  const std::string &if_exists)
+                  const IfExists     if_exists)
   {
+    for (const char c : wanted)
+      if (static_cast<unsigned char>(c) < 32 || c == 127)
+        throw InputError("Output/Folder",
+                         printable(wanted),
+                         "a name without control characters",
+                         "name another one with --output");
     // Rank 0 makes the folder; all learn its name, or why there is none.
     std::string path = wanted, refusal;
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
@@ -98,8 +155,9 @@ namespace geocone
     if (!refusal.empty())
       throw InputError("Output/Folder",
                        path,
-                       "a folder that can be written",
-                       refusal + "; name another one with --output");
+                       "a folder that can be written, empty or not there yet",
+                       refusal + "; or name another one with --output");
+    keep_list_of_files(path);
     return path;
   }
 } // namespace geocone

@@ -9,7 +9,12 @@
 namespace geocone
 {
   RunOutput::RunOutput(const MPI_Comm comm, Log &log)
-    : OutputBase(comm, log)
+    : OutputBase(comm,
+                 log,
+                 {true,
+                  {"none", "loads", "expectations"},
+                  "0: results only, 1: progress, 2: also the table of every "
+                  "Newton iteration."})
   {}
 
   void
@@ -21,10 +26,7 @@ namespace geocone
     make_folder(default_name, folder_of_call);
     fields = std::make_unique<Fields>(fields_format);
 
-    if (!writes)
-      return;
-    std::vector<std::string> columns = {
-      "step", "time (s)", "displacement (m)", "load (N/m)"};
+    columns = {"step", "time (s)", "displacement (m)", "load (N/m)"};
     for (const unsigned int c : scene->observation.conditions)
       for (const char *direction : {" x", " y"})
         columns.push_back("reaction " + scene->dirichlet.list[c]->name +
@@ -54,6 +56,8 @@ namespace geocone
                                "numerical loss (J/m)",
                                "energy identity error (-)"})
       columns.push_back(column);
+    if (!writes)
+      return;
     statistics.open(path + "/statistics.csv", columns);
     newton.open(path + "/newton.csv",
                 {"step",
@@ -124,12 +128,7 @@ namespace geocone
     work += e.external_work;
     dissipation += e.dissipation;
     loss += step_loss;
-    least_loss = std::min(least_loss, step_loss);
-    records.push_back(record);
-    records.back().last.newton.table.clear(); // only the numbers are kept
-    if (!writes)
-      return;
-
+    least_loss               = std::min(least_loss, step_loss);
     std::vector<double> line = {
       double(record.step), record.time, record.displacement, record.load};
     line.insert(line.end(), record.reactions.begin(), record.reactions.end());
@@ -159,7 +158,62 @@ namespace geocone
                                loss,
                                report.identity_error})
       line.push_back(value);
-    statistics.add_line(line);
+    check_finite(columns, line);
+    records.push_back(record);
+    records.back().last.newton.table.clear(); // only the numbers are kept
+    if (writes)
+      statistics.add_line(line);
+    warn_of_jump();
+    warn_of_energy(record.time);
+  }
+
+  void
+  RunOutput::warn_of_jump()
+  {
+    // The last but one load, if the support has moved on in one direction and
+    // the load was about the same before and after it.
+    const std::size_t n = records.size();
+    if (n < 3 || scene->observation.conditions.empty())
+      return;
+    const StepRecord &a = records[n - 3], &b = records[n - 2],
+                     &c   = records[n - 1];
+    const double moved_ab = b.displacement - a.displacement,
+                 moved_bc = c.displacement - b.displacement;
+    const double around   = (a.load + c.load) / 2.;
+    if (b.resets || c.resets || moved_ab * moved_bc <= 0. ||
+        std::abs(c.load - a.load) > 0.25 * std::abs(around) ||
+        std::abs(b.load - around) <= 0.5 * std::abs(around))
+      return;
+    ++n_load_jumps;
+    if (n_load_jumps == 1)
+      log.warn(
+        format("the load jumps from %.4g to %.4g N/m and back to %.4g "
+               "N/m around t = %.4g s (step %u), where its support moves "
+               "on: what it rests on may not be sound there; smaller "
+               "cells, more points or smaller steps tell",
+               a.load,
+               b.load,
+               c.load,
+               b.time,
+               b.step));
+  }
+
+  void
+  RunOutput::warn_of_energy(const double time)
+  {
+    // As in results(); what rounding leaves of nothing is no energy.
+    const double scale = std::max(
+      {std::abs(work), dissipation, std::abs(initial.potential - energy_n)});
+    if (warned_of_energy || !(loss < -0.01 * scale) || !(loss < -1e-12))
+      return;
+    warned_of_energy = true;
+    log.warn(
+      format("the numerical method has created %.3g J/m, %.2g %% of the "
+             "energy that was turned over until t = %.4g s: take smaller "
+             "steps",
+             -loss,
+             -100. * loss / scale,
+             time));
   }
 
   void
@@ -219,10 +273,13 @@ namespace geocone
         topic["band_high"]      = limit.found ? Json(limit.band_high) : nothing;
         topic["plateau_begins_at"] =
           limit.found ? Json(limit.begins_at) : nothing;
-        topic["drift"] = limit.drift;
-        topic["peak"]  = limit.peak;
-        topic["last"]  = curve.empty() ? nothing : Json(curve.back().load);
+        topic["reason"] = limit.found ? nothing : Json(limit.reason);
+        topic["drift"]  = limit.drift;
+        topic["peak"]   = limit.peak;
+        topic["last"]   = curve.empty() ? nothing : Json(curve.back().load);
       }
+    if (!scene->observation.conditions.empty())
+      json["limit_load"]["load_jumps"] = n_load_jumps;
     json["newton"] = {
       {"steps", records.size()},
       {"substeps", substeps},
@@ -289,9 +346,25 @@ namespace geocone
     if (field_errors)
       summary["field_errors"] = {{"displacement", field_errors->displacement},
                                  {"stress", field_errors->stress}};
+    if (failure)
+      summary["failure"] = {{"stage", failure->stage},
+                            {"carried_until_s", failure->carried_until},
+                            {"not_until_s", failure->not_until},
+                            {"reason", failure->reason}};
     summary["size"] = size;
     summary["cost"] = cost;
     write_summary_file();
+  }
+
+  void
+  RunOutput::set_failure(const Failure &what)
+  {
+    failure = what;
+    log.print(format("failure: the loads of the stage '%s' are carried until t "
+                     "= %.6g s, and not until %.6g s",
+                     what.stage.c_str(),
+                     what.carried_until,
+                     what.not_until));
   }
 
   void
@@ -322,8 +395,7 @@ namespace geocone
       {
         const Json &limit = summary["limit_load"];
         if (limit["value"].is_null())
-          log.print(format("limit load: none, the load still drifts by %.2g %%",
-                           100. * limit["drift"].get<double>()));
+          log.print("limit load: none, " + limit["reason"].get<std::string>());
         else
           {
             std::string line =

@@ -159,15 +159,12 @@ namespace geocone
                                          const std::string   &unset,
                                          const std::string   &documentation)
     : dealii::ParameterAcceptor("/" + section)
-    , names(file.peek_list(section + "/Names", ""))
+    , names(file.named_sections(section, "Names", ""))
   {
     add_parameter("Names", names, documentation);
-    std::size_t n_listed;
-    const auto  all = file.named_sections(section, "Names", "", n_listed);
-    for (std::size_t i = 0; i < all.size(); ++i)
-      (i < n_listed ? list : unused)
-        .push_back(std::make_unique<BoundaryCondition>(
-          section, all[i], quantity, unit, unset));
+    for (const std::string &condition : names)
+      list.push_back(std::make_unique<BoundaryCondition>(
+        section, condition, quantity, unit, unset));
   }
 
   void

@@ -390,12 +390,9 @@ namespace geocone
 
   Regions::Regions(const ParameterFile &parameter_file)
   {
-    std::size_t n_listed;
-    const auto  all =
-      parameter_file.named_sections("Materials", "Names", "soil", n_listed);
-    for (std::size_t i = 0; i < all.size(); ++i)
-      (i < n_listed ? regions : unused)
-        .push_back(std::make_unique<Region>(all[i]));
+    for (const std::string &name :
+         parameter_file.named_sections("Materials", "Names", "soil"))
+      regions.push_back(std::make_unique<Region>(name));
   }
 
   void

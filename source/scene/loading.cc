@@ -8,6 +8,11 @@
 
 namespace geocone
 {
+  namespace
+  {
+    constexpr double most_steps = 1e8; ///< of a stage
+  }
+
   Stage::Stage(const std::string &name)
     : dealii::ParameterAcceptor("/Loading/" + name)
     , name(name)
@@ -30,6 +35,12 @@ namespace geocone
                   reset_displacement,
                   "Count displacements and plastic strains from the beginning "
                   "of this stage.");
+    add_parameter("Until failure",
+                  until_failure,
+                  "FEM and MPM: the first step that cannot be solved, however "
+                  "it is cut, ends the stage and the run as wanted: loads that "
+                  "grow in time are raised until the body carries no more. "
+                  "summary.json tells until when it did (topic 'failure').");
     add_parameter("Damping",
                   damping,
                   "Explicit MPM: local damping, the part (0 to 1) of each "
@@ -124,6 +135,11 @@ namespace geocone
                        growth,
                        "> 1 where the first step is smaller than the others",
                        "2 or 3 are usual");
+    if (!(expected_steps() <= most_steps))
+      throw InputError(section + "Step size",
+                       step_size,
+                       "at most a hundred million steps in a stage",
+                       "take larger steps, or a shorter 'Duration'");
     if (!(damping >= 0. && damping < 1.))
       throw InputError(section + "Damping",
                        damping,
@@ -150,6 +166,19 @@ namespace geocone
                        "make the stage longer");
   }
 
+  double
+  Stage::expected_steps() const
+  {
+    if (first_step_size == 0. || first_step_size >= step_size)
+      return std::max(1., std::ceil(duration / step_size));
+    // Steps h g^i < step size, whose sum is h (g^n - 1)/(g - 1), then equal ones.
+    const double n =
+      std::ceil(std::log(step_size / first_step_size) / std::log(growth));
+    const double sum =
+      first_step_size * (std::pow(growth, n) - 1.) / (growth - 1.);
+    return n + std::max(0., std::ceil((duration - sum) / step_size));
+  }
+
   std::vector<double>
   Stage::step_sizes() const
   {
@@ -171,17 +200,14 @@ namespace geocone
 
   LoadingProgramme::LoadingProgramme(const ParameterFile &file)
     : dealii::ParameterAcceptor("/Loading")
-    , names(file.peek_list("Loading/Stages", "push"))
+    , names(file.named_sections("Loading", "Stages", "push"))
   {
     add_parameter("Stages",
                   names,
                   "Names of the stages in order, comma-separated; each has a "
                   "subsection of that name.");
-    std::size_t n_listed;
-    const auto all = file.named_sections("Loading", "Stages", "push", n_listed);
-    for (std::size_t i = 0; i < all.size(); ++i)
-      (i < n_listed ? stages : unused)
-        .push_back(std::make_unique<Stage>(all[i]));
+    for (const std::string &stage : names)
+      stages.push_back(std::make_unique<Stage>(stage));
   }
 
   void

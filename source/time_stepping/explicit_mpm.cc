@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/stop_request.h>
 #include <geocone/mechanics/cartesian_transfer.h>
 #include <geocone/mechanics/mesh_transfer.h>
 #include <geocone/time_stepping/explicit_mpm.h>
@@ -516,12 +517,13 @@ namespace geocone
                               group.id[p],
                               group[Field::x][p],
                               group[Field::y][p]);
-    double largest[5] = {
+    double largest[6] = {
       sums.wave_speed2,
       sums.speed2,
       sums.strain,
       double(must_refresh || some_left || transfer->must_refresh(sums)),
-      double(!obstacle.empty())};
+      double(!obstacle.empty()),
+      double(stop_request_of_rank())};
     Utilities::MPI::max(largest, comm, largest);
     sums.wave_speed2 = largest[0];
     sums.speed2      = largest[1];
@@ -529,6 +531,8 @@ namespace geocone
     must_refresh     = largest[3] > 0.;
     if (largest[4] > 0.)
       throw StepFailure(text_of_any_rank(comm, obstacle));
+    if (largest[5] > 0.)
+      throw Stopped(static_cast<int>(largest[5]));
   }
 
   ExplicitReport

@@ -44,12 +44,36 @@ cmp <(cut -d, -f1-4 a/statistics.csv) <(cut -d, -f1-4 again/statistics.csv)
 
 run --output a --set 'Output/If folder exists = number'
 [ -s a-2/summary.json ]
-if run --output a --set 'Output/If folder exists = refuse' 2>refused; then exit 1; fi
-grep -q 'exists and is not empty' refused
-touch a/mine a/mine.h5 a/cells-0000.h5 a/cells.xdmf
+# A folder that was named is not exchanged for another one by itself.
+for how in refuse automatic; do
+  if run --output a --set "Output/If folder exists = $how" 2>refused; then exit 1; fi
+  grep -q 'exists and is not empty' refused
+done
+[ ! -e a-3 ]
+
+# Only what the list of the run before names is deleted, and never anything outside
+# of its folder.
+touch a/mine a/mine.png a/mine.vtu a/points-9.h5 outside
+printf '%s\n' ../outside "$PWD/outside" . .. '' >>a/files.txt
 run --output a --set 'Output/If folder exists = overwrite'
-[ -e a/mine ] && [ -e a/mine.h5 ] && [ ! -e a/cells-0000.vtu ]
-[ ! -e a/cells-0000.h5 ] && [ ! -e a/cells.xdmf ]
+for file in a/mine a/mine.png a/mine.vtu a/points-9.h5 outside; do
+  [ -e $file ] || { echo "$file was deleted"; exit 1; }
+done
+[ ! -e a/cells-0000.vtu ]
+[ -z "$(sort a/files.txt | uniq -d)" ]
+while read -r file; do [ -e "a/$file" ]; done <a/files.txt
+rm a/files.txt
+if run --output a --set 'Output/If folder exists = overwrite' 2>refused; then exit 1; fi
+grep -q 'has no files.txt of a run before' refused
+
+# Two runs that want the same folder at once do not both get it.
+run --output both 2>both1 & one=$!
+run --output both 2>both2 & two=$!
+codes=0
+wait $one || codes=$((codes + 1))
+wait $two || codes=$((codes + 1))
+[ $codes = 1 ]
+cat both1 both2 | grep -q "parameter 'Output/Folder' = 'both'"
 
 if run --output b --set 'Output/Expectations = newton/steps >= 4' 2>failed; then
   exit 1

@@ -12,6 +12,22 @@
 
 namespace geocone
 {
+  /** A text from outside as it may be shown: control characters as \xNN, and no
+   *  more than 200 of its bytes. */
+  inline std::string
+  printable(const std::string &text)
+  {
+    static const char *const digits = "0123456789abcdef";
+    std::string              shown;
+    for (const char c : text.substr(0, 200))
+      if (const auto code = static_cast<unsigned char>(c);
+          code < 32 || code == 127)
+        shown += std::string("\\x") + digits[code / 16] + digits[code % 16];
+      else
+        shown += c;
+    return text.size() > 200 ? shown + "..." : shown;
+  }
+
   /**
    * Wrong input, found before anything is computed or written. The text names
    * the parameter (with its sections), the value, what is allowed, and how to
@@ -40,8 +56,10 @@ namespace geocone
          const std::string &allowed,
          const std::string &remedy)
     {
-      std::ostringstream out;
-      out << "parameter '" << parameter << "' = '" << value << "'\n"
+      std::ostringstream shown, out;
+      shown << value;
+      out << "parameter '" << parameter << "' = '" << printable(shown.str())
+          << "'\n"
           << "  allowed: " << allowed << "\n"
           << "  remedy:  " << remedy;
       return out.str();

@@ -4,6 +4,7 @@
 #ifndef geocone_base_files_h
 #define geocone_base_files_h
 
+#include <cstdint>
 #include <fstream>
 #include <functional>
 #include <ostream>
@@ -12,18 +13,40 @@
 
 namespace geocone
 {
+  /** Name of the list of the files that a run has written into its folder. */
+  constexpr const char *list_of_files = "files.txt";
+
+  /**
+   * Names the folder of the run. From then on each file that the functions below
+   * put into it is entered in its list (list_of_files), a name per line, before
+   * the file is there: a later run may delete what stands in that list, and
+   * nothing else.
+   */
+  void
+  keep_list_of_files(const std::string &folder);
+
+  /** Enters a file in the list of its folder, if that is the run's. */
+  void
+  enter_in_list(const std::string &file_name);
+
   /**
    * Writes a file whole: into a temporary name first, renamed when it is
    * complete, so that a reader never sees a part of it.
-   * @throws RunError naming the file if it cannot be written (full disk, ...)
+   * @throws RunError naming the file and the cause if it cannot be written
    */
   void
   write_file(const std::string                         &file_name,
              const std::function<void(std::ostream &)> &write);
 
+  /** The text of the cause @p error (errno; 0: unknown) of a failed writing,
+   *  with the remedy. */
+  std::string
+  cause_and_remedy(const int error);
+
   /**
    * A table of comma-separated values that grows by whole lines; each line is
-   * on the disk when add_line() returns. Column names carry their unit.
+   * on the disk when add_line() returns. Column names carry their unit; those
+   * with a comma, a quote or a line break are quoted (RFC 4180).
    */
   class CsvFile
   {
@@ -31,16 +54,20 @@ namespace geocone
     CsvFile() = default;
     void
     open(const std::string &file_name, const std::vector<std::string> &columns);
+
+    /** @throws RunError if the line cannot be written: what was written of it
+     *  is taken back. */
     void
     add_line(const std::vector<double> &values);
 
   private:
     void
-    check() const;
+    add_text(const std::string &line);
 
-    std::string   name;
-    std::ofstream file;
-    std::size_t   n_columns = 0;
+    std::string    name;
+    std::ofstream  file;
+    std::size_t    n_columns = 0;
+    std::uintmax_t size      = 0; ///< of the whole lines (bytes)
   };
 } // namespace geocone
 

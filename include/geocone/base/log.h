@@ -9,6 +9,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace geocone
 {
@@ -35,6 +36,13 @@ namespace geocone
     void
     warn(const std::string &text);
 
+    /** All warnings so far. */
+    const std::vector<std::string> &
+    warnings() const
+    {
+      return all_warnings;
+    }
+
     /** A line of progress, which the next one overwrites on a terminal. */
     void
     progress(const std::string &text);
@@ -42,6 +50,8 @@ namespace geocone
   private:
     void
     end_progress_line();
+
+    std::vector<std::string> all_warnings;
 
     const bool         speaks;
     const bool         quiet;

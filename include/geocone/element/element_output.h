@@ -4,14 +4,8 @@
 #ifndef geocone_element_element_output_h
 #define geocone_element_element_output_h
 
-#include <geocone/base/files.h>
-#include <geocone/base/log.h>
 #include <geocone/element/element_point.h>
-#include <geocone/output/expectations.h>
-
-#include <deal.II/base/parameter_acceptor.h>
-
-#include <mpi.h>
+#include <geocone/output/output_base.h>
 
 #include <string>
 #include <vector>
@@ -19,12 +13,12 @@
 namespace geocone
 {
   /** The folder of an element test: path.csv, surfaces.csv, summary.json. */
-  class ElementOutput : public dealii::ParameterAcceptor
+  class ElementOutput : public OutputBase
   {
   public:
     ElementOutput(const MPI_Comm comm, Log &log);
 
-    /** Checks the parameters and makes the folder. */
+    /** Makes the folder. @throws InputError */
     void
     prepare(const std::string              &name,
             const std::string              &folder,
@@ -47,43 +41,18 @@ namespace geocone
     void
     write_summary(const std::string &status, const Json &topics);
 
-    /** Whether all expectations hold; says so, and writes the test report. */
-    bool
-    finish();
-
-    const std::string &
-    folder() const
-    {
-      return path;
-    }
-
-    bool
-    wants_pictures() const
-    {
-      return pictures;
-    }
-
-    /** 0: results only, 1: the end of each stage, 2: each increment. */
-    unsigned int verbosity = 1;
+    /** The report for tests, if it is wanted; expectations come after it. */
+    void
+    report() const;
 
   private:
     Json
     state(const std::vector<double> &values) const;
 
-    const MPI_Comm           comm;
-    Log                     &log;
-    std::string              path;
-    std::string              if_exists        = "number";
-    bool                     pictures         = true;
-    std::string              report_for_tests = "none";
-    std::vector<std::string> expectation_texts;
-    std::vector<Expectation> expectations;
-
-    std::string              name;
     std::vector<std::string> columns;
-    CsvFile                  table, surface_table;
+    CsvFile                  surface_table;
     unsigned int             n_lines = 0;
-    Json                     start, last, stages, extremes, summary;
+    Json                     start, last, stages, extremes;
   };
 } // namespace geocone
 

@@ -87,8 +87,7 @@ namespace geocone
     std::vector<std::unique_ptr<ElementStage>> stages;
 
   private:
-    std::vector<std::string>                   names;
-    std::vector<std::unique_ptr<ElementStage>> unused;
+    std::vector<std::string> names;
   };
 } // namespace geocone
 

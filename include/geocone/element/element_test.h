@@ -10,6 +10,7 @@
 #include <geocone/element/element_path.h>
 #include <geocone/element/mixed_control.h>
 #include <geocone/materials/material_library.h>
+#include <geocone/run_options.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
@@ -32,13 +33,12 @@ namespace geocone
 
     /**
      * Runs the path.
-     * @param name of the test; @param folder of the results, or nothing
      * @return whether all expectations hold
      * @throws InputError before anything is written, StepFailure if the path
      * cannot be followed to its end
      */
     bool
-    run(const std::string &name, const std::string &folder);
+    run(const RunOptions &options);
 
     const ElementOutput &
     output() const
@@ -47,8 +47,13 @@ namespace geocone
     }
 
   private:
+    /** Checks everything. @throws InputError */
     void
-    prepare(const std::string &name, const std::string &folder);
+    prepare();
+
+    /** All stages. @throws RunError */
+    void
+    follow_path();
 
     /** From the present f of the stage to the end of the increment.
      *  @throws StepFailure */

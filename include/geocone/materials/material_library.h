@@ -27,6 +27,14 @@ namespace geocone
   material_types();
 
   /**
+   * The parameters of all laws, with the laws that have them, so that a file may
+   * keep those of another law than the one that it asks for. To be called before
+   * anything is declared.
+   */
+  ParameterFile::OfOthers
+  parameters_of_laws();
+
+  /**
    * The materials of a scene, in the order of "Materials/Names"; a material is
    * known by its place in the list. A point belongs to the last material whose
    * region contains it, or else to the first one.
@@ -87,7 +95,7 @@ namespace geocone
   private:
     std::vector<std::string>                      names;
     std::vector<std::string>                      types;
-    std::vector<std::unique_ptr<ConstitutiveLaw>> list, unused;
+    std::vector<std::unique_ptr<ConstitutiveLaw>> list;
     std::vector<const Material *>                 in_closed_form; ///< or null
   };
 } // namespace geocone

@@ -40,7 +40,7 @@ namespace geocone
   class ExplicitOutput : public OutputBase
   {
   public:
-    using OutputBase::OutputBase;
+    ExplicitOutput(const MPI_Comm comm, Log &log);
 
     /** Makes the folder. @throws InputError */
     void
@@ -84,12 +84,15 @@ namespace geocone
 
   private:
     const Scene                *scene = nullptr;
+    std::vector<std::string>    columns; ///< of statistics.csv
     ExplicitState               initial;
     std::vector<ExplicitRecord> records;
     std::unique_ptr<FieldFiles> point_files;
 
     /** Largest of all records, for scales. */
     double largest_kinetic = 0., largest_impulse = 0.;
+
+    bool warned_of_energy = false;
   };
 } // namespace geocone
 

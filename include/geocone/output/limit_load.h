@@ -4,6 +4,7 @@
 #ifndef geocone_output_limit_load_h
 #define geocone_output_limit_load_h
 
+#include <string>
 #include <vector>
 
 namespace geocone
@@ -25,13 +26,15 @@ namespace geocone
     double drift     = 0.;    ///< relative, over the last part tried
     double begins_at = 0.;    ///< where the plateau begins, from the start of
                               ///< the loading branch (m)
-    double peak = 0.;         ///< largest load of the whole curve
+    double      peak = 0.;    ///< largest load of the whole curve
+    std::string reason;       ///< why it has not been found
   };
 
   /**
    * Finds the limit load. Each load holds over the displacement of its step
    * (backward Euler). Of the branches of the curve between reversals of the
-   * displacement, the one that takes the most work is the loading. The plateau
+   * displacement, the one with the most work is the loading: taken from
+   * the support (footing) or given to it (active wall). The plateau
    * is the longest of the last 1/2, 1/4, 1/8 of its displacement over which the
    * load drifts by at most @p tolerance: the means of the two halves of that
    * part differ by less, relative to its mean. A part within a single step is

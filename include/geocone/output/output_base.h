@@ -10,6 +10,9 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <chrono>
+#include <exception>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,16 +20,26 @@ namespace geocone
 {
   /**
    * What the outputs of all runs have in common: the folder with parameters.prm
-   * (as used) and log.txt, statistics.csv, summary.json, and the expectations that
-   * the summary must fulfil.
+   * (as used), log.txt and files.txt (what the run has written), a table that
+   * grows, summary.json with the status of the run (run_status.h) and the
+   * warnings that it gave, and the expectations that the summary must fulfil.
    */
   class OutputBase : public dealii::ParameterAcceptor
   {
   public:
-    OutputBase(const MPI_Comm comm, Log &log);
+    /** What a run may have, as parameters of the section "Output". */
+    struct Options
+    {
+      bool                     fields;    ///< whether it writes fields
+      std::vector<std::string> reports;   ///< choices of "Report for tests"
+      std::string              verbosity; ///< documentation
+    };
+
+    OutputBase(const MPI_Comm comm, Log &log, const Options &options);
 
     /**
-     * Compares the summary with the expectations of the parameter file.
+     * Compares the summary with the expectations of the parameter file, and says
+     * so.
      * @return whether all hold
      */
     bool
@@ -44,6 +57,20 @@ namespace geocone
       return pictures;
     }
 
+    /** Whether a sign of life is due: a summary of a run that goes on. */
+    bool
+    summary_is_old() const;
+
+    /**
+     * Tells in the summary how a run ended by an exception.
+     * @param write_all writes the summary, with the status that it is given, and
+     * the last fields; it is called where all ranks have found the end together
+     */
+    void
+    end_with(
+      const std::exception                           &error,
+      const std::function<void(const std::string &)> &write_all) const noexcept;
+
     unsigned int verbosity = 1;
 
   protected:
@@ -57,9 +84,18 @@ namespace geocone
     make_folder(const std::string &default_name,
                 const std::string &folder_of_call);
 
-    /** Writes summary.json. */
+    /**
+     * Writes summary.json, with the topics "run" and "warnings" of every run.
+     * @throws StepFailure if the run says that it has finished, but a number is
+     * not finite; the summary then says so, too
+     */
     void
-    write_summary_file() const;
+    write_summary_file();
+
+    /** @throws StepFailure if a value of a line of the table is not finite */
+    static void
+    check_finite(const std::vector<std::string> &columns,
+                 const std::vector<double>      &values);
 
     const MPI_Comm comm;
     const bool     writes; ///< whether this is the rank that writes tables
@@ -74,10 +110,12 @@ namespace geocone
     Json        summary;
 
   private:
-    std::string              if_exists = "number";
+    std::string              if_exists = "automatic";
     bool                     pictures  = true;
     std::vector<std::string> expectation_texts;
     std::vector<Expectation> expectations;
+
+    std::chrono::steady_clock::time_point summary_written;
   };
 } // namespace geocone
 

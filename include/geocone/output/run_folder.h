@@ -10,19 +10,26 @@
 
 namespace geocone
 {
+  /** What to do if the folder of a run exists and is not empty. */
+  enum class IfExists
+  {
+    number,   ///< take NAME-2, NAME-3, ...
+    refuse,   ///< end
+    overwrite ///< delete the files that the list of the run before names
+  };
+
   /**
-   * Makes the folder of a run and writes the parameters as used into it.
+   * Makes the folder of a run, its list of files (files.h) and parameters.prm,
+   * the parameters as used. Two runs that want the same folder at the same time
+   * never both get it: the one that creates the list has it.
    * @param wanted its name
-   * @param if_exists what to do if it exists and is not empty: "number" (take
-   * wanted-2, ...), "refuse", or "overwrite" (remove the files of the run
-   * before, and nothing else)
    * @return the name of the folder, the same on all ranks
    * @throws InputError if it may not be used or cannot be written
    */
   std::string
   make_run_folder(const MPI_Comm     comm,
                   const std::string &wanted,
-                  const std::string &if_exists);
+                  const IfExists     if_exists);
 } // namespace geocone
 
 #endif

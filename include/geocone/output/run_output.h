@@ -33,6 +33,15 @@ namespace geocone
     StepReport          last; ///< of the last substep; works are of the step
   };
 
+  /** How a stage ended that was to go on until failure. */
+  struct Failure
+  {
+    std::string stage;
+    double      carried_until; ///< time of the last step that was solved (s)
+    double      not_until;     ///< that of the smallest step that was not (s)
+    std::string reason;
+  };
+
   /**
    * The folder of a run and what it holds: parameters.prm (as used),
    * statistics.csv (a line per step), newton.csv (a line per iteration),
@@ -94,6 +103,10 @@ namespace geocone
       field_errors = errors;
     }
 
+    /** Tells, at once and in the summaries to come, how the run ended. */
+    void
+    set_failure(const Failure &failure);
+
     /** Prints the result; in tests also a file `output` with all loads. */
     void
     print_result() const;
@@ -102,16 +115,29 @@ namespace geocone
     Json
     results() const;
 
+    /** Warns of the first load that jumps by more than half and back. */
+    void
+    warn_of_jump();
+
+    /** Warns once more than 1 % of the energy was created by the method. */
+    void
+    warn_of_energy(const double time);
+
     const Scene               *scene = nullptr;
+    std::vector<std::string>   columns; ///< of statistics.csv
     CsvFile                    newton;
     std::unique_ptr<Fields>    fields;
     std::vector<StepRecord>    records;
     std::optional<FieldErrors> field_errors;
+    std::optional<Failure>     failure;
 
     /** Sums since the start (J/m), and the least loss of a step. */
     double work = 0., dissipation = 0., loss = 0., least_loss = 0.;
     double energy_n = 0.; ///< kinetic, elastic and potential, at the last step
     Energies initial;
+
+    unsigned int n_load_jumps     = 0;
+    bool         warned_of_energy = false;
   };
 } // namespace geocone
 

@@ -137,8 +137,7 @@ namespace geocone
     std::vector<std::unique_ptr<BoundaryCondition>> list;
 
   private:
-    std::vector<std::string>                        names;
-    std::vector<std::unique_ptr<BoundaryCondition>> unused;
+    std::vector<std::string> names;
   };
 } // namespace geocone
 

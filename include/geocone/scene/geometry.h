@@ -175,7 +175,7 @@ namespace geocone
       std::vector<dealii::Point<dim>> polygon;
       int                             id = -1;
     };
-    std::vector<std::unique_ptr<Region>> regions, unused;
+    std::vector<std::unique_ptr<Region>> regions;
   };
 } // namespace geocone
 

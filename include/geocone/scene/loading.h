@@ -31,6 +31,10 @@ namespace geocone
     std::vector<double>
     step_sizes() const;
 
+    /** Their number, in closed form; within a few of step_sizes(). */
+    double
+    expected_steps() const;
+
     /** @throws InputError if it asks for what only explicit MPM can do */
     void
     check_implicit() const;
@@ -39,6 +43,9 @@ namespace geocone
     double            duration           = 1.;
     unsigned int      output_every       = 0;
     bool              reset_displacement = false;
+
+    /** Whether the first step that cannot be solved ends the run as wanted. */
+    bool until_failure = false;
 
     /** @name For explicit MPM only */
     /** @{ */
@@ -81,8 +88,7 @@ namespace geocone
     std::vector<std::unique_ptr<Stage>> stages;
 
   private:
-    std::vector<std::string>            names;
-    std::vector<std::unique_ptr<Stage>> unused;
+    std::vector<std::string> names;
   };
 
   /** Gravity g(t), at once or ramped up linearly over a duration. */

@@ -1,0 +1,70 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_output_run_status_h
+#define geocone_output_run_status_h
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+#include <sys/types.h>
+
+// How a run ended is told by the "status" of its summary.json in every case:
+// running | finished | failed: WHY | stopped: BY WHAT | killed: WHEN.
+
+namespace geocone
+{
+  /**
+   * A process of its own that outlives the program and then looks at the summary
+   * of its run: one that still says "running" is changed to "killed", for its
+   * process was ended by force (kill -9, lack of memory, a crash, an abort) and
+   * could not say so itself. If the watcher is killed, too, the topic "run" of
+   * the summary (run_topic()) still tells which process it was and when it was
+   * seen last.
+   *
+   * To be made before MPI starts, which does not like its processes to be copied.
+   */
+  class Watcher
+  {
+  public:
+    Watcher();
+    ~Watcher();
+    Watcher(const Watcher &) = delete;
+    Watcher &
+    operator=(const Watcher &) = delete;
+
+    /** The folder of the run of this process; a later call replaces it. */
+    static void
+    watch(const std::string &folder);
+
+  private:
+    pid_t watcher = -1;
+  };
+
+  /**
+   * The topic "run" of a summary: the program's process and host, when it began
+   * and when it was seen last (UTC, ISO 8601).
+   */
+  nlohmann::ordered_json
+  run_topic();
+
+  /** Seconds of CPU that this rank has used. */
+  double
+  cpu_time_of_rank();
+
+  /**
+   * Sets the status of the summary in @p folder to @p status if it is "running";
+   * where the disk is full or memory has run out, by writing over it in place.
+   * Never throws.
+   */
+  void
+  end_status(const std::string &folder, const std::string &status) noexcept;
+
+  /** Why nobody else may write into this folder: a run that goes on; or
+   *  nothing. */
+  std::string
+  running_in(const std::string &folder);
+} // namespace geocone
+
+#endif

@@ -1,0 +1,65 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_run_estimate_h
+#define geocone_run_estimate_h
+
+#include <geocone/discretisation/background_mesh.h>
+#include <geocone/discretisation/seeding.h>
+#include <geocone/scene/scene.h>
+
+#include <string>
+
+namespace geocone
+{
+  /**
+   * How large a run will be, from its parameters alone, before anything is built:
+   * to be printed, and to be refused before the machine is filled.
+   *
+   * Nodes per cell: 1/2, 2, 9/2 for P1, P2, P3 (each vertex has six triangles),
+   * p^2 for Q1 to Q3, 1 for splines. Memory, as measured (doc/performance.md):
+   * implicit runs 160 MB, 1.5 kB per unknown and 0.06 kB per entry of the matrix
+   * with its factors, and 1 kB per point and 0.1 kB per node of its cell; explicit
+   * ones 80 MB, 280 bytes per point and 200 per node.
+   */
+  struct RunEstimate
+  {
+    double      cells = 0., unknowns = 0., points = 0., steps = 0., files = 0.;
+    double      memory     = 0.; ///< of all ranks (bytes)
+    double      file_bytes = 0.;
+    std::string driver; ///< the parameter that most of the memory comes from
+
+    /** One line. */
+    std::string
+    text() const;
+
+    /**
+     * @param force allows more memory than there is
+     * @throws InputError, with the driver, where numbers exceed the range of the
+     * integers that count them, or the memory that is available
+     */
+    void
+    check(const bool force) const;
+  };
+
+  /** What the fields of a run are written as. */
+  struct FieldsAsked
+  {
+    bool   are_written = false;
+    double n_formats   = 1.;
+  };
+
+  /**
+   * The estimate. The scene and the method must be prepared.
+   * @param seeding of the particles, or nullptr for FEM
+   */
+  RunEstimate
+  estimate_run(const Scene       &scene,
+               const Method      &method,
+               BackgroundMesh    &mesh,
+               const std::string &element,
+               const Seeding     *seeding,
+               const FieldsAsked &fields);
+} // namespace geocone
+
+#endif

@@ -1,0 +1,21 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_run_options_h
+#define geocone_run_options_h
+
+#include <string>
+
+namespace geocone
+{
+  /** What the command line says of a run beyond its parameters. */
+  struct RunOptions
+  {
+    std::string name;   ///< of the parameter file, without its ending
+    std::string folder; ///< of the results; empty: that of the parameters
+    bool        dry_run = false; ///< check and estimate only
+    bool        force   = false; ///< run what is too large for the machine
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,72 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/stop_request.h>
+
+#include <csignal>
+#include <string>
+
+namespace geocone
+{
+  namespace
+  {
+    volatile std::sig_atomic_t request = 0;
+
+    extern "C" void
+    note_request(const int signal)
+    {
+      if (request != 0)
+        {
+          std::signal(signal, SIG_DFL);
+          std::raise(signal);
+        }
+      request = signal;
+    }
+
+    std::string
+    name_of(const int signal)
+    {
+      return signal == SIGINT    ? "SIGINT (Ctrl-C)"
+             : signal == SIGTERM ? "SIGTERM"
+                                 : "signal " + std::to_string(signal);
+    }
+  } // namespace
+
+  Stopped::Stopped(const int signal)
+    : RunError("stopped: by " + name_of(signal))
+    , signal(signal)
+  {}
+
+  void
+  watch_for_signals()
+  {
+    std::signal(SIGINT, &note_request);
+    std::signal(SIGTERM, &note_request);
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
+  }
+
+  int
+  stop_request_of_rank()
+  {
+    return request;
+  }
+
+  int
+  stop_request(const MPI_Comm comm)
+  {
+    int asked = request;
+    int n_ranks;
+    MPI_Comm_size(comm, &n_ranks);
+    if (n_ranks > 1)
+      MPI_Allreduce(MPI_IN_PLACE, &asked, 1, MPI_INT, MPI_MAX, comm);
+    return asked;
+  }
+
+  void
+  stop_if_asked(const MPI_Comm comm)
+  {
+    if (const int signal = stop_request(comm))
+      throw Stopped(signal);
+  }
+} // namespace geocone

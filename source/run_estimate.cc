@@ -1,0 +1,162 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/run_estimate.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include <sys/resource.h>
+
+namespace geocone
+{
+  namespace
+  {
+    /** Memory that this program may still take (bytes). */
+    double
+    available_memory()
+    {
+      double        available = std::numeric_limits<double>::max();
+      std::ifstream in("/proc/meminfo");
+      for (std::string name, unit, line; std::getline(in, line);)
+        if (line.compare(0, 13, "MemAvailable:") == 0)
+          available = 1024. * std::strtod(line.c_str() + 13, nullptr);
+      rlimit limit;
+      if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+        available = std::min(available, static_cast<double>(limit.rlim_cur));
+      return available;
+    }
+
+    std::string
+    number(const double x)
+    {
+      return x < 1e4   ? format("%.0f", x)
+             : x < 1e6 ? format("%.3g thousand", x / 1e3)
+             : x < 1e9 ? format("%.3g million", x / 1e6)
+                       : format("%.2g", x);
+    }
+
+    std::string
+    size(const double bytes)
+    {
+      return bytes < 1e9    ? format("%.0f MB", std::ceil(bytes / 1e6))
+             : bytes < 1e15 ? format("%.3g GB", bytes / 1e9)
+                            : format("%.2g GB", bytes / 1e9);
+    }
+  } // namespace
+
+  std::string
+  RunEstimate::text() const
+  {
+    return "about " + number(cells) + " cells, " + number(unknowns) +
+           " unknowns, " + number(points) + " points, " + number(steps) +
+           " steps, " + size(memory) + " of memory, " +
+           (files > 0.
+              ? number(files) + " files of fields (" + size(file_bytes) + ")"
+              : "no fields");
+  }
+
+  void
+  RunEstimate::check(const bool force) const
+  {
+    constexpr double largest_integer = std::numeric_limits<int>::max();
+    const auto       refuse          = [&](const std::string &allowed,
+                            const std::string &remedy) {
+      throw InputError(driver,
+                       ParameterFile::value(driver),
+                       allowed,
+                       "the run would have " + text() + ": " + remedy);
+    };
+    for (const double n : {cells, unknowns, points})
+      if (!(n < largest_integer))
+        refuse("what gives fewer than 2^31 cells, unknowns and points",
+               "make it coarser");
+    const double available = available_memory();
+    if (!force && memory > available)
+      refuse("what fits into the " + size(available) +
+               " of memory that are free",
+             "make it coarser, or call geocone with --force");
+  }
+
+  RunEstimate
+  estimate_run(const Scene       &scene,
+               const Method      &method,
+               BackgroundMesh    &mesh,
+               const std::string &element,
+               const Seeding     *seeding,
+               const FieldsAsked &fields)
+  {
+    RunEstimate                    e;
+    const BackgroundMesh::Expected expected = mesh.expect(scene, method);
+    e.cells                                 = expected.n_cells;
+    e.driver                                = expected.parameter;
+
+    // As Space::choose_element() will.
+    const bool spline =
+      element[0] == 'B' ||
+      (element == "automatic" && method.is_mpm() && expected.is_grid);
+    const unsigned int p = element != "automatic" ? element.back() - '0'
+                           : !method.is_mpm()     ? 3
+                           : !expected.is_grid    ? 1
+                           : method.is_explicit() ? 2
+                                                  : 3;
+    const double       nodes_per_cell = expected.is_simplicial ? (p == 1   ? 0.5
+                                                                  : p == 2 ? 2.
+                                                                           : 4.5)
+                                        : spline               ? 1.
+                                                               : p * p;
+    const double       functions =
+      expected.is_simplicial ? (p + 1) * (p + 2) / 2. : (p + 1) * (p + 1.);
+    const double nodes = e.cells * nodes_per_cell;
+    e.unknowns         = dim * nodes;
+    e.points =
+      seeding != nullptr
+        ? seeding->expected_number(scene, expected.intervals, expected.area)
+        : e.cells * (!expected.is_simplicial ? (p + 1.) * (p + 1.)
+                     : p == 1                ? 1.
+                     : p == 2                ? 3.
+                                             : 7.);
+    double outputs = seeding != nullptr ? 1. : 0.;
+    for (const auto &stage : scene.loading.stages)
+      {
+        const double n = stage->expected_steps();
+        e.steps += n;
+        outputs +=
+          stage->output_every > 0 ? std::ceil(n / stage->output_every) : 1.;
+      }
+
+    double of_points, of_nodes;
+    if (method.is_explicit())
+      {
+        of_points = 280. * e.points;
+        of_nodes  = 200. * nodes;
+        e.memory  = 80e6;
+      }
+    else
+      {
+        // Columns per row: the functions that overlap a function's support.
+        const double row =
+          dim * (spline ? (2. * p + 1.) * (2. * p + 1.) : 3.5 * functions);
+        of_points = e.points * (1000. + 100. * functions);
+        of_nodes  = e.unknowns * (1500. + 60. * row);
+        e.memory  = 160e6;
+      }
+    e.memory += of_points + of_nodes;
+    if (seeding != nullptr && of_points > of_nodes && !seeding->follows_cells())
+      e.driver = seeding->size_parameter();
+    if (fields.are_written)
+      {
+        e.files = outputs * fields.n_formats * (method.is_explicit() ? 1 : 2);
+        e.file_bytes =
+          outputs * fields.n_formats *
+          (60. * e.points +
+           (method.is_explicit()
+              ? 0.
+              : 60. * e.cells * p * p * (expected.is_simplicial ? 3. : 4.)));
+      }
+    return e;
+  }
+} // namespace geocone

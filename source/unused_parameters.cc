@@ -1,0 +1,164 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/unused_parameters.h>
+
+#include <algorithm>
+#include <map>
+
+namespace geocone
+{
+  namespace
+  {
+    /** Which parameters are used only where another one has certain values. A '*'
+     *  stands for any name. */
+    struct Rule
+    {
+      std::string              parameter;
+      std::string              chooser;
+      std::vector<std::string> values; ///< of the chooser; empty: any but none
+    };
+
+    const char *const method = "Discretisation/Method";
+
+    const std::vector<Rule> rules = {
+      {"Geometry/Box", "Geometry/Shape", {"box"}},
+      {"Geometry/Polygon", "Geometry/Shape", {"polygon"}},
+      {"Geometry/Centres", "Geometry/Shape", {"discs"}},
+      {"Geometry/Radii", "Geometry/Shape", {"discs"}},
+      {"Geometry/File", "Geometry/Shape", {"file"}},
+      {"Geometry/Run gmsh script", "Geometry/Shape", {"file"}},
+      {"Initial stress/Stress xx", "Initial stress/Type", {"given"}},
+      {"Initial stress/Stress yy", "Initial stress/Type", {"given"}},
+      {"Initial stress/Stress xy", "Initial stress/Type", {"given"}},
+      {"Initial stress/Stress zz", "Initial stress/Type", {"given"}},
+      {"Initial stress/K0", "Initial stress/Type", {"geostatic"}},
+      {"Initial stress/Surface level", "Initial stress/Type", {"geostatic"}},
+      {"Initial stress/Surcharge", "Initial stress/Type", {"geostatic"}},
+      {"Boundary conditions/*/Segments",
+       "Boundary conditions/*/Imposed on",
+       {"segments"}},
+      {"Boundary conditions/*/Segment shortening",
+       "Boundary conditions/*/Imposed on",
+       {"segments"}},
+      {"Loading/*/Until failure", method, {"FEM", "MPM"}},
+      {"Observation/Conditions", method, {"FEM", "MPM"}},
+      {"Observation/Component", "Observation/Conditions", {}},
+      {"Observation/Factor", "Observation/Conditions", {}},
+      {"Observation/Plateau tolerance", "Observation/Conditions", {}},
+      {"Observation/Reference", method, {"FEM", "MPM"}},
+      {"Observation/Reference material", "Observation/Reference", {"Prandtl"}},
+      {"Observation/Reference width", "Observation/Reference", {"Prandtl"}},
+      {"Observation/Reference surcharge", "Observation/Reference", {"Prandtl"}},
+      {"Mesh/Type", "Geometry/Shape", {"box", "polygon", "discs"}},
+      {"Mesh/Box", "Geometry/Shape", {"box", "polygon", "discs"}},
+      {"Mesh/Cells", "Geometry/Shape", {"box", "polygon", "discs"}},
+      {"Mesh/Diagonals", "Mesh/Type", {"uniform", "graded"}},
+      {"Mesh/Diagonals", method, {"FEM"}},
+      {"Mesh/Cell size", "Geometry/Shape", {"box", "polygon", "discs"}},
+      {"Mesh/Cell size", "Mesh/Type", {"uniform", "unstructured"}},
+      {"Mesh/Grading points", "Mesh/Type", {"graded", "unstructured"}},
+      {"Mesh/Smallest size", "Mesh/Type", {"graded", "unstructured"}},
+      {"Mesh/Largest size", "Mesh/Type", {"graded", "unstructured"}},
+      {"Mesh/Growth factor", "Mesh/Type", {"graded"}},
+      {"Mesh/Size ratio", "Mesh/Type", {"unstructured"}},
+      {"Mesh/Gmsh algorithm", "Mesh/Type", {"unstructured"}},
+      {"Linear solver/*", method, {"FEM", "MPM"}},
+      {"Newton/*", method, {"FEM", "MPM"}},
+      {"Time stepping/*", method, {"FEM", "MPM"}},
+      {"Time stepping/Inertia", method, {"FEM"}},
+      {"Exact solution/*", method, {"FEM", "MPM"}},
+      {"Output/Freeze steps", method, {"FEM", "MPM"}},
+      {"Output/Freeze failures", method, {"FEM", "MPM"}},
+      {"Output/Fields format", "Output/Fields", {"true"}},
+      {"Newton/First iterate sweeps",
+       "Newton/First iterate",
+       {"fixed point", "Gauss-Seidel"}},
+      {"Particles/*", method, {"MPM", "explicit MPM"}},
+      {"Particles/Points per direction",
+       "Particles/Layout",
+       {"Gauss", "sub-cells"}},
+      {"Particles/Spacing", "Particles/Layout", {"lattice"}},
+      {"Particles/Number", "Particles/Layout", {"random"}},
+      {"Particles/Random seed", "Particles/Layout", {"random"}},
+      {"Particles/File", "Particles/Layout", {"file"}},
+      {"Material point method/*", method, {"MPM"}},
+      {"Material point method/FLIP part",
+       "Material point method/Transfer",
+       {"FLIP"}},
+      {"Explicit/*", method, {"explicit MPM"}},
+      {"Explicit/FLIP part", "Explicit/Transfer", {"FLIP"}}};
+
+    std::vector<std::string>
+    parts(const std::string &path)
+    {
+      return split_names(path, '/');
+    }
+
+    /** Whether a path is one of those of a rule; @p star is what a '*' stands
+     *  for. */
+    bool
+    matches(const std::string &rule, const std::string &path, std::string &star)
+    {
+      const auto a = parts(rule), b = parts(path);
+      if (a.size() != b.size())
+        return false;
+      for (std::size_t i = 0; i < a.size(); ++i)
+        if (a[i] == "*")
+          star = b[i];
+        else if (a[i] != b[i])
+          return false;
+      return true;
+    }
+  } // namespace
+
+  std::string
+  unused_parameters(const std::vector<ParameterFile::Setting> &settings)
+  {
+    std::map<std::string, std::string> values; // of the choosers
+    std::string                        list;
+    const auto add = [&](const std::string &path, const std::string &chooser) {
+      list += (list.empty() ? "" : ", ") + printable(path) + " (needs " +
+              printable(chooser) + ")";
+    };
+    for (const ParameterFile::Setting &setting : settings)
+      {
+        if (!setting.of_other.empty())
+          {
+            add(setting.path, setting.of_other);
+            continue;
+          }
+        // A file that holds all parameters, as used, says nothing by its
+        // defaults.
+        if (setting.value == setting.default_value)
+          continue;
+        for (const Rule &rule : rules)
+          {
+            std::string star;
+            if (!matches(rule.parameter, setting.path, star))
+              continue;
+            std::string chooser = rule.chooser;
+            if (const auto place = chooser.find('*');
+                place != std::string::npos)
+              chooser.replace(place, 1, star);
+            const auto        known = values.find(chooser);
+            const std::string value =
+              known != values.end()
+                ? known->second
+                : (values[chooser] = ParameterFile::value(chooser));
+            if (rule.values.empty()
+                  ? !value.empty()
+                  : std::count(rule.values.begin(), rule.values.end(), value) >
+                      0)
+              continue;
+            std::string needed;
+            for (const std::string &choice : rule.values)
+              needed += (needed.empty() ? "" : " or ") + choice;
+            add(setting.path, chooser + (needed.empty() ? "" : " = " + needed));
+            break;
+          }
+      }
+    return list.empty() ? "" : "set, but not used by this run: " + list;
+  }
+} // namespace geocone
