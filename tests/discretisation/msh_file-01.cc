@@ -244,6 +244,8 @@ main(int argc, char **argv)
   const ParameterFile                      parameters =
     ParameterFile::from_text("subsection Materials\n"
                              "  set Names = soil, sand, clay\n"
+                             "  subsection soil\n"
+                             "  end\n"
                              "  subsection sand\n"
                              "    set Region number = 21\n"
                              "  end\n"
