@@ -102,8 +102,10 @@ namespace geocone
             points.weight.push_back(values.weight[q]);
             points.position.push_back(values.position[q]);
             points.material.push_back(cell->material_id());
-            points.stress.push_back(scene.initial_stress.at(
-              values.position[q], scene.materials, scene.regions));
+            points.stress.push_back(scene.initial_stress.at(values.position[q],
+                                                            cell->material_id(),
+                                                            scene.materials,
+                                                            scene.regions));
             for (unsigned int c = 0; c < dim; ++c)
               for (unsigned int i = 0; i < points.n_nodes; ++i)
                 points.gradients.push_back(values.gradient(i, q)[c]);

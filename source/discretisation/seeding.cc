@@ -449,8 +449,8 @@ namespace geocone
     if (!given[ParticleFile::vx])
       seed.velocity = scene.initial_velocity.at(seed.position);
     if (!given[ParticleFile::sxx])
-      seed.stress =
-        scene.initial_stress.at(seed.position, scene.materials, scene.regions);
+      seed.stress = scene.initial_stress.at(
+        seed.position, seed.material, scene.materials, scene.regions);
     seed.stress_zz = scene.initial_stress.zz_at(seed.position, seed.stress);
   }
 

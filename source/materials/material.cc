@@ -37,6 +37,14 @@ namespace geocone
   }
 
   double
+  Material::earth_pressure_at_rest() const
+  {
+    if (const std::optional<FlowCone> cone = flow_cone())
+      return 1. - cone->a;
+    return elastic.lambda / (elastic.lambda + elastic.two_G);
+  }
+
+  double
   Material::wave_modulus(const Stress &, const double *) const
   {
     return elastic.lambda + elastic.two_G;

@@ -4,6 +4,8 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/scene/loading.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <cmath>
 
 namespace geocone
@@ -311,8 +313,12 @@ namespace geocone
                   text_zz,
                   "For 'given' and laws that know it: as Stress xx; empty: "
                   "equal to it.");
-    add_parameter(
-      "K0", k0, "For 'geostatic': horizontal over vertical stress (-), > 0.");
+    add_parameter("K0",
+                  k0_text,
+                  "For 'geostatic': horizontal over vertical stress (-), > 0, "
+                  "or automatic: of each material's own, Jaky's 1 - sin(phi), "
+                  "which its strength always bears, or nu/(1 - nu) of a "
+                  "linear elastic one.");
     add_parameter("Surface level",
                   surface,
                   "For 'geostatic': y of the ground surface (m).");
@@ -345,9 +351,7 @@ namespace geocone
                            "g_x = 0 and g_y <= 0 with a geostatic initial "
                            "stress",
                            "give the initial stress by formulas instead");
-        if (!(k0 > 0.))
-          throw InputError(
-            "Initial stress/K0", k0, "> 0", "1 - sin(phi) is usual");
+        prepare_k0();
         g = -full[1];
         if (regions.have_numbers())
           throw InputError("Initial stress/Type",
@@ -360,6 +364,26 @@ namespace geocone
       }
     else
       check_choice("Initial stress/Type", type, {"zero", "given", "geostatic"});
+  }
+
+  void
+  InitialStress::prepare_k0()
+  {
+    k0.reset();
+    if (k0_text == "automatic")
+      return;
+    // Nothing but a number: "0.5 or so" is none.
+    try
+      {
+        k0 = dealii::Utilities::string_to_double(k0_text);
+      }
+    catch (const dealii::ExceptionBase &)
+      {}
+    if (!k0 || !(*k0 > 0.) || !std::isfinite(*k0))
+      throw InputError("Initial stress/K0",
+                       k0_text,
+                       "automatic | a number > 0",
+                       "automatic takes 1 - sin(phi) of each material");
   }
 
   void
@@ -398,6 +422,7 @@ namespace geocone
 
   Mandel
   InitialStress::at(const dealii::Point<dim> &x,
+                    const unsigned int        material,
                     const Materials          &materials,
                     const Regions            &regions) const
   {
@@ -420,7 +445,9 @@ namespace geocone
           materials.law(regions.material_at(above, -1)).density() * depth / n;
       }
     const double vertical = -(surcharge + g * mass);
-    return {k0 * vertical, vertical, 0.};
+    const double ratio =
+      k0 ? *k0 : materials.law(material).earth_pressure_at_rest();
+    return {ratio * vertical, vertical, 0.};
   }
 
   double

@@ -41,6 +41,17 @@ namespace geocone
       return rho;
     }
 
+    /**
+     * K0 (-), the ratio of horizontal to vertical effective stress in level
+     * ground that has never been strained sideways, and which the law can bear
+     * at any depth. One is an isotropic state.
+     */
+    virtual double
+    earth_pressure_at_rest() const
+    {
+      return 1.;
+    }
+
     /** @name Explicit steps */
     /** @{ */
 

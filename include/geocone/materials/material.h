@@ -58,6 +58,14 @@ namespace geocone
     virtual void
     update(const Increment &increment, const Response &response) const = 0;
 
+    /**
+     * Jaky's 1 - a = 1 - sin(phi) where there is a cone, which lies in it: it
+     * bears K0 >= (1 - a)/(1 + a) - 2 c cos(phi)/((1 + a) |s_yy|), Rankine's
+     * active pressure. Otherwise nu/(1 - nu), uniaxial strain.
+     */
+    double
+    earth_pressure_at_rest() const override;
+
     /** An explicit step: by the cone's kernel if there is a cone, or else by
      *  update() of the turned stress. */
     void

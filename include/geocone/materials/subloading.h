@@ -46,6 +46,13 @@ namespace geocone
     double
     wave_modulus(const Stress &stress, const double *history) const override;
 
+    /** Jaky's 1 - sin(phi), with sin(phi) = 3 Mc/(6 + Mc). */
+    double
+    earth_pressure_at_rest() const override
+    {
+      return 1. - 3. * c.Mc / (6. + c.Mc);
+    }
+
     std::vector<std::string>
     shown_names() const override;
 

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -150,7 +151,8 @@ namespace geocone
    * The stress before the first step: zero, given by formulas, or geostatic,
    *   s_yy = -(surcharge + integral of rho |g| from y to the surface),
    *   s_xx = K0 s_yy, s_xy = 0,
-   * with the densities of the materials met on the way up.
+   * with the densities of the materials met on the way up. K0 is a number, or that
+   * of each material (ConstitutiveLaw::earth_pressure_at_rest()).
    */
   class InitialStress : public dealii::ParameterAcceptor
   {
@@ -162,9 +164,10 @@ namespace geocone
             const Geometry &geometry,
             const Regions  &regions);
 
-    /** Stress at a point x (Pa). */
+    /** Stress at a point x of a material (Pa). */
     Mandel
     at(const dealii::Point<dim> &x,
+       const unsigned int        material,
        const Materials          &materials,
        const Regions            &regions) const;
 
@@ -174,6 +177,10 @@ namespace geocone
     zz_at(const dealii::Point<dim> &x, const Mandel &in_plane) const;
 
   private:
+    /** Reads K0. @throws InputError */
+    void
+    prepare_k0();
+
     void
     check_level_ground(const Geometry &geometry) const;
 
@@ -182,7 +189,8 @@ namespace geocone
     std::array<Expression, 3>  components;
     std::string                text_zz;
     Expression                 component_zz;
-    double                     k0        = 0.5;
+    std::string                k0_text = "0.5";
+    std::optional<double>      k0; ///< or nothing: that of each material
     double                     surface   = 0.;
     double                     surcharge = 0.;
     double                     g         = 0.;
