@@ -39,7 +39,8 @@ def changed(file, name, place, value):
 def grouped(file, name):
     """A group in the place of an array, which holds itself."""
     del file[name]
-    file.create_group(name)[name.split("/")[-1]] = file[name]
+    group = file.create_group(name)
+    group["itself"] = group
 
 
 def huge(file, name, **options):
