@@ -202,7 +202,7 @@ namespace geocone
                         format("line %zu has more than %zu characters: is it "
                                "a table?",
                                n_lines,
-                               longest_line - 1));
+                               longest_line));
         if (std::memchr(buffer, '\0', n) != nullptr)
           throw refused(file, format("line %zu is no text", n_lines));
         line.assign(buffer, n);
@@ -388,8 +388,9 @@ namespace geocone
     std::vector<char> start(1 << 16);
     std::ifstream     in(file_name, std::ios::binary);
     in.read(start.data(), start.size());
-    const double n_lines =
-      std::count(start.begin(), start.begin() + in.gcount(), '\n');
+    // The first one names the columns.
+    const double n_lines = std::max(
+      0., std::count(start.begin(), start.begin() + in.gcount(), '\n') - 1.);
     return in.gcount() > 0
              ? n_lines * std::filesystem::file_size(file_name, error) /
                  in.gcount()

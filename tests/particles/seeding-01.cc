@@ -270,7 +270,7 @@ main(int argc, char **argv)
   seed_csv("missing column", "x,volume\n0,1\n");
   seed_csv("half a velocity", "x,y,volume,vy\n0,0,1,1\n");
   seed_csv("blank line", "x,y,volume\n0,0,1\n\n0,0,1\n");
-  seed_csv("no text", std::string("x,y,volume\n0,0,\0,1\n", 21));
+  seed_csv("no text", std::string("x,y,volume\n0,0,\0,1\n", 19));
   seed_csv("a thousand columns", "x" + std::string(1000, ',') + "\n");
   seed_csv("a line without end", std::string(1 << 20, ','));
   seed_csv("large stress", "x,y,volume,sxx,syy,sxy\n0,0,1,1e300,0,0\n");

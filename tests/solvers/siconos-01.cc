@@ -77,10 +77,26 @@ main()
     }
 
   std::cout << "one cone" << std::endl;
-  const std::string matrix = "3 3\t3\n 2 0 0 \n 0 2 0 \n 0 0 2 \n";
-  for (const std::string head : {"3\n1\n0\n3\n", "3\n1\n1\n0\n3\n"})
+  const std::string matrix  = "3 3\t3\n 2 0 0 \n 0 2 0 \n 0 0 2 \n";
+  const std::string library = "CSparse Version 4.4.1, (c) Timothy A. Davis\n";
+  for (const std::string head :
+       {"3\n1\n0\n3\n" + matrix,
+        "3\n1\n1\n0\n3\n" + matrix,
+        "3\n1\n1\n2\n3\n3\n1\n" + library +
+          "triplet: 3-by-3, nzmax: 16 nnz: 4\n    0 0 : 2\n    1 1 : 1\n"
+          "    2 2 : 2\n    1 1 : 1\n",
+        "3\n1\n2\n3\n3\n2\n" + library +
+          "3-by-3, nzmax: 4 nnz: 4, 1-norm: 2\n"
+          "    col 0 : locations 0 to 0\n      0 : 2\n"
+          "    col 1 : locations 1 to 2\n      1 : 2\n      2 : 0\n"
+          "    col 2 : locations 3 to 3\n      2 : 2\n",
+        "3\n1\n1\n2\n3\n3\n3\n" + library +
+          "csr: 3-by-3, nzmax: 3 nnz: 4, 1-norm: 2\n"
+          "    row 0 : locations 0 to 0\n      0 : 2\n"
+          "    row 1 : locations 1 to 2\n      1 : 2\n      0 : 0\n"
+          "    row 2 : locations 3 to 3\n      2 : 2\n"})
     {
-      std::ofstream("whole.dat") << head << matrix << "-1 3 4\n0.5\n0.125\n";
+      std::ofstream("whole.dat") << head << "-1 3 4\n0.5\n0.125\n";
       const ReducedProblem one = read_siconos("whole.dat");
       std::cout << "  W = " << one.W.coeff(1, 1)
                 << " I, q = " << one.q.transpose() << ", a = " << one.cones[0].a
@@ -104,7 +120,15 @@ main()
   refuse("3 1 1 1 3 3 3 3");
   refuse("3 1 0 3 6");
   refuse("3 1 1 0 3 3 3 3 2 0 0 0 2");
-  refuse("3 1 1 0 3 3 3 3 2 0 zero");
+  refuse("3 1 1 0 3 3 3 3 2 0 zero 0 2 0 0 0 2");
+  refuse("3 1 1 0 3 3 3 3 2 0 1e99 0 2 0 0 0 2");
+  const std::string sparse = "3 1 1 2 3 3 1\nCSparse\ntriplet: 3-by-3, nzmax: ";
+  refuse("3 1 1 2 3 3 4\nCSparse\n");
+  refuse("3 1 1 2 3 3 1\ncsr:");
+  refuse(sparse + "3 nnz: 1e18\n");
+  refuse(sparse + "3 nnz: 9\n 0 0 : 1\n");
+  refuse(sparse + "3 nnz: 1\n 3 0 : 1\n");
+  refuse("3 1000000 1 0 3000000 3000000 3000000 3000000 1");
   refuse(good + "-1 3 4 0.5");
   refuse(good + "-1 3 nan 0.5 0.25");
   refuse(good + "-1 3 4 0.5 0.75");
