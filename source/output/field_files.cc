@@ -13,7 +13,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <new>
 
 #include <zlib.h>
 
@@ -29,6 +31,28 @@ namespace geocone
 
   namespace
   {
+    /** Does something unless there is a problem; says what goes wrong. */
+    void
+    attempt(std::string &problem, const std::function<void()> &action)
+    {
+      if (problem.empty())
+        try
+          {
+            action();
+          }
+        catch (const std::bad_alloc &)
+          {
+            problem =
+              "the fields cannot be written: out of memory\n"
+              "  remedy:  set 'Output/Fields format' = vtu, which needs "
+              "the least";
+          }
+        catch (const std::exception &error)
+          {
+            problem = error.what();
+          }
+    }
+
     /** A name in a text between the marks of XML. */
     std::string
     escaped(const std::string &name)
@@ -248,10 +272,15 @@ namespace geocone
                     const double       time,
                     const MPI_Comm     comm)
   {
+    // A rank that fails alone would leave the others waiting for it.
+    std::string problem;
     if (format != "hdf5")
-      write_as_vtu(table, folder, time, comm);
+      attempt(problem, [&]() { write_as_vtu(table, folder, time, comm); });
     if (format != "vtu")
-      write_as_hdf5(table, folder, time, comm);
+      write_as_hdf5(table, folder, time, comm, problem);
+    problem = text_of_any_rank(comm, problem);
+    if (!problem.empty())
+      throw StepFailure(problem);
     ++number;
   }
 
@@ -290,43 +319,45 @@ namespace geocone
   FieldFiles::write_as_hdf5(const FieldTable  &table,
                             const std::string &folder,
                             const double       time,
-                            const MPI_Comm     comm)
+                            const MPI_Comm     comm,
+                            std::string       &problem)
   {
     const std::size_t n_nodes =
       dealii::Utilities::MPI::sum(table.n_nodes, comm);
     if (n_nodes == 0)
       return; // nothing to write
     const bool writes = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
-    const unsigned int        n       = table.nodes_per_cell();
-    const std::size_t         n_cells = n_nodes / n;
+    const unsigned int        n    = table.nodes_per_cell();
     const std::string         file = base + geocone::format("-%04u.h5", number);
     std::unique_ptr<Hdf5File> out;
+    // Nothing but the arrays of all ranks is asked for between the attempts.
     if (writes)
-      {
+      attempt(problem, [&]() {
         out = std::make_unique<Hdf5File>(folder + "/" + file,
                                          Hdf5File::Access::create);
         std::vector<unsigned int> nodes(n_nodes);
         for (std::size_t i = 0; i < n_nodes; ++i)
           nodes[i] = n == 4 && i % n >= 2 ? i / n * n + 5 - i % n : i;
         out->write_table("cells", nodes, n);
-      }
+      });
     const auto write_array = [&](const std::string      &name,
                                  const FieldTable::Fill &fill,
                                  const unsigned int      n_components,
                                  const unsigned int      n_columns) {
       const std::vector<double> all =
         gather(table.values(fill, n_components), comm);
-      if (!writes)
-        return;
-      if (n_columns == n_components)
-        {
-          out->write_table(name, all, n_columns);
-          return;
-        }
-      std::vector<double> wide(n_nodes * n_columns, 0.);
-      for (std::size_t i = 0; i < all.size(); ++i)
-        wide[i / n_components * n_columns + i % n_components] = all[i];
-      out->write_table(name, wide, n_columns);
+      if (writes)
+        attempt(problem, [&]() {
+          if (n_columns == n_components)
+            {
+              out->write_table(name, all, n_columns);
+              return;
+            }
+          std::vector<double> wide(n_nodes * n_columns, 0.);
+          for (std::size_t i = 0; i < all.size(); ++i)
+            wide[i / n_components * n_columns + i % n_components] = all[i];
+          out->write_table(name, wide, n_columns);
+        });
     };
     write_array("nodes", table.positions, dim, dim);
     for (const FieldTable::Column &column : table.columns)
@@ -334,9 +365,22 @@ namespace geocone
                   column.fill,
                   column.n_components,
                   column.n_components > 1 ? 3 : 1);
-    if (!writes)
-      return;
-    out->close();
+    if (writes)
+      attempt(problem, [&]() {
+        out->close();
+        add_to_record(table, folder, file, time, n_nodes);
+      });
+  }
+
+  void
+  FieldFiles::add_to_record(const FieldTable  &table,
+                            const std::string &folder,
+                            const std::string &file,
+                            const double       time,
+                            const std::size_t  n_nodes)
+  {
+    const unsigned int n       = table.nodes_per_cell();
+    const std::size_t  n_cells = n_nodes / n;
 
     std::string entry =
       geocone::format("<Grid Name=\"mesh\" GridType=\"Uniform\">\n"

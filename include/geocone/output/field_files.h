@@ -77,7 +77,8 @@ namespace geocone
     /** @param base e.g. "points" @param format vtu | hdf5 | both */
     FieldFiles(const std::string &base, const std::string &format);
 
-    /** Writes base-NNNN and adds it to the series. Collective. @throws RunError */
+    /** Writes base-NNNN and adds it to the series. Collective.
+     *  @throws StepFailure, on all ranks, if one of them cannot write */
     void
     write(const FieldTable  &table,
           const std::string &folder,
@@ -91,11 +92,21 @@ namespace geocone
                  const double       time,
                  const MPI_Comm     comm);
 
+    /** @param problem what has gone wrong on this rank; then nothing is done */
     void
     write_as_hdf5(const FieldTable  &table,
                   const std::string &folder,
                   const double       time,
-                  const MPI_Comm     comm);
+                  const MPI_Comm     comm,
+                  std::string       &problem);
+
+    /** Adds a file to the series base.xdmf. @param n_nodes of all ranks */
+    void
+    add_to_record(const FieldTable  &table,
+                  const std::string &folder,
+                  const std::string &file,
+                  const double       time,
+                  const std::size_t  n_nodes);
 
     const std::string base, format;
     unsigned int      number = 0;
