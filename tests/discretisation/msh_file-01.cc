@@ -280,12 +280,14 @@ main(int argc, char **argv)
               mesh.boundary.boundary_lines.size());
   for (const auto &side : mesh.sides)
     std::printf("side '%s' has number %u\n", side.first.c_str(), side.second);
+  std::map<std::pair<unsigned int, std::size_t>, unsigned int> n_cells;
   for (const auto &cell : mesh.cells)
-    std::printf("cell with %zu vertices at (%.4f, %.4f), material %u\n",
-                cell.vertices.size(),
-                mesh.centre(cell)[0],
-                mesh.centre(cell)[1],
-                cell.material_id);
+    ++n_cells[{cell.material_id, cell.vertices.size()}];
+  for (const auto &[kind, n] : n_cells)
+    std::printf("material %u: %u cells with %zu vertices\n",
+                kind.first,
+                n,
+                kind.second);
 
   // The standard fixes this generator's numbers, but not the distributions'.
   std::mt19937 random(1);
