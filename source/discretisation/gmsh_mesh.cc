@@ -10,7 +10,9 @@
 #include <gmsh.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <set>
 
 // Everything that talks to gmsh. The library runs the scripts that it is given,
@@ -29,7 +31,11 @@ namespace geocone
     public:
       Session()
       {
-        // Without the files of options in the user's folders.
+        // Without the files of options in the user's folders; and without those
+        // that its toolkit would write there.
+        if (const char *home = std::getenv("HOME"))
+          user_home = home;
+        setenv("HOME", "/dev/null", 1);
         gmsh::initialize(0, nullptr, false);
         gmsh::option::setNumber("General.Terminal", 0);
       }
@@ -43,7 +49,14 @@ namespace geocone
           {
             // There is nothing left to be freed.
           }
+        if (user_home)
+          setenv("HOME", user_home->c_str(), 1);
+        else
+          unsetenv("HOME");
       }
+
+    private:
+      std::optional<std::string> user_home;
     };
 
     /**
