@@ -25,6 +25,7 @@ for n in 8 16; do
       'Boundary conditions/Names = plane_x, plane_y, bore'
     run "$element-first" $n "$degree" "${radial[@]}" \
       'Boundary conditions/Names = bore, plane_x, plane_y'
+    [ $element = Q2 ] || continue
     run "$element-normal" $n "$degree" "${bore[@]}" \
       'Boundary conditions/Names = plane_x, plane_y, bore' \
       'Boundary conditions/bore/Velocity normal = -1e-3'
@@ -50,16 +51,15 @@ def check(run, column, exact, least_order, largest_error):
 p = 6e6 * 1e-3 / 4.4
 # Radial displacement of the outside: 2 p a^2 b (1 - nu)/(2G (b^2 - a^2)).
 outside = 2 * p * 2 * 0.7 / (2e6 * 3)
-for element in "Q1", "Q2":
-    for run in "last", "first", "normal":
-        check(f"{element}-{run}", "reaction bore x (N/m)", p, 1.8, 4e-3)
-    run = f"{element}-pressure"
-    check(run, "displacement of point 1 x (m)", 1e-3 * math.sqrt(0.5), 1.8, 4e-3)
-    check(run, "displacement of point 1 y (m)", 1e-3 * math.sqrt(0.5), 1.8, 4e-3)
-    check(run, "displacement of point 2 x (m)", outside, 1.8, 4e-3)
-    # The chords of the bore span 1 m, whatever their number.
-    if abs(value(run, 8, "reaction plane_x x (N/m)") / -1363.6363636 - 1) > 1e-10:
-        failed = True
-        print("the plane does not bear the pressure")
+for run in "Q1-last", "Q1-first", "Q2-last", "Q2-first", "Q2-normal":
+    check(run, "reaction bore x (N/m)", p, 1.8, 4e-3)
+run = "Q2-pressure"
+check(run, "displacement of point 1 x (m)", 1e-3 * math.sqrt(0.5), 1.8, 4e-3)
+check(run, "displacement of point 1 y (m)", 1e-3 * math.sqrt(0.5), 1.8, 4e-3)
+check(run, "displacement of point 2 x (m)", outside, 1.8, 4e-3)
+# The chords of the bore span 1 m, whatever their number.
+if abs(value(run, 8, "reaction plane_x x (N/m)") / -1363.6363636 - 1) > 1e-10:
+    failed = True
+    print("the plane does not bear the pressure")
 raise SystemExit(failed)
 PYTHON
