@@ -10,6 +10,8 @@
 
 #include <algorithm>
 
+#include <cmath>
+
 namespace geocone
 {
   namespace
@@ -114,6 +116,11 @@ namespace geocone
     dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums.data(), 4),
                                 mesh.triangulation().get_communicator(),
                                 dealii::ArrayView<double>(sums.data(), 4));
+    for (const double sum : sums)
+      if (!std::isfinite(sum))
+        throw StepFailure("the exact solution, or the error against it, is not "
+                          "a finite number\n  remedy:  check the formulas in "
+                          "'Exact solution'");
     return {std::sqrt(sums[0] / sums[1]), std::sqrt(sums[2] / sums[3])};
   }
 } // namespace geocone

@@ -7,6 +7,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <cmath>
+
 namespace geocone
 {
   RunOutput::RunOutput(const MPI_Comm comm, Log &log)
@@ -351,8 +353,15 @@ namespace geocone
     summary = Json{{"name", name}, {"status", status}};
     summary.update(results());
     if (field_errors)
-      summary["field_errors"] = {{"displacement", field_errors->displacement},
-                                 {"stress", field_errors->stress}};
+      {
+        // Where the exact field is zero there is no relative error.
+        const auto relative = [](const double error) {
+          return std::isfinite(error) ? Json(error) : Json();
+        };
+        summary["field_errors"] = {
+          {"displacement", relative(field_errors->displacement)},
+          {"stress", relative(field_errors->stress)}};
+      }
     if (failure)
       summary["failure"] = {{"stage", failure->stage},
                             {"carried_until_s", failure->carried_until},
