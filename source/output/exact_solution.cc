@@ -9,7 +9,6 @@
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
-
 #include <cmath>
 
 namespace geocone
