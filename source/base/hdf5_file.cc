@@ -246,6 +246,9 @@ namespace geocone
          (H5Pget_chunk(properties, 1, &chunk) != 1 || !fits(chunk))))
       fail(array + "claims " + std::to_string(std::max(n, chunk)) +
            " entries, more than the file or the memory can hold");
+    // Where less is stored, the library would read beyond it.
+    if (layout != H5D_CHUNKED && n > 0 && H5Dget_storage_size(data) < n * item)
+      fail(array + "holds less than it announces");
     size = n;
     H5Iinc_ref(object);
     return object;

@@ -133,7 +133,7 @@ namespace geocone
               return;
             }
         last = position;
-        refuse("the section $" + name + " has no end",
+        refuse("the section " + shown("$" + name) + " has no end",
                "it is not complete: copy or write it again");
       }
 
@@ -146,7 +146,7 @@ namespace geocone
         if (text.compare(position, end.size(), end) != 0)
           refuse(position == text.size()
                    ? "the file ends before $End" + name
-                   : "there is more in the section $" + name +
+                   : "there is more in the section " + shown("$" + name) +
                        " than it announces, or less: " +
                        shown(text.substr(position, 60)) + " instead of $End" +
                        name,
@@ -338,7 +338,7 @@ namespace geocone
             if (known && !seen.insert(name).second)
               in.refuse("there is a second section $" + name);
             if (known && name != "MeshFormat" && seen.count("MeshFormat") == 0)
-              in.refuse("the section $" + name + " stands before $MeshFormat");
+              in.refuse("the section " + shown("$" + name) + " stands before $MeshFormat");
 
             if (!known || (name == "Entities" && !four))
               {

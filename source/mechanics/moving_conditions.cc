@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
 #include <geocone/mechanics/moving_conditions.h>
 
 #include <deal.II/base/mpi.h>
+
+#include <algorithm>
 
 namespace geocone
 {
@@ -93,47 +96,78 @@ namespace geocone
   }
 
   void
+  MovingConditions::add_traction(const BoundaryCondition    &load,
+                                 const MovingBoundary::Line &line,
+                                 const BoundaryPoint        &point,
+                                 const double                t,
+                                 Vector                     &force) const
+  {
+    // Dead loads are per length at the start.
+    Tensor<1, dim> f;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (const auto &traction = load.components[d])
+        f[d] = traction->value(point.position, t) * line.length;
+    if (load.normal || load.tangential)
+      {
+        // Pressure acts on the side as it is now; the body is to its left.
+        const Tensor<1, dim> along = line.b - line.a;
+        f += along.norm() *
+             load.vector_on_side(point.position,
+                                 Tensor<1, dim>({along[1], -along[0]}) /
+                                   along.norm(),
+                                 t);
+      }
+    for (unsigned int i = 0; i < point.nodes.size(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        force.local_element(dim * space.local_node(point.nodes[i]) + d) +=
+          point.weight * point.values[i] * f[d];
+  }
+
+  void
   MovingConditions::add_tractions(Vector &force, const double t) const
   {
+    if (loads.empty())
+      return;
+    std::vector<double> part_in_mesh;
     for (const Side &side : loads)
       for (const MovingBoundary::Line &line : side.boundary.lines)
-        for (const BoundaryPoint &point :
-             points_on_line(mesh, space, line.a, line.b))
-          {
-            if (const BoundaryCondition &load =
-                  *scene.tractions.list[side.condition];
-                load.normal || load.tangential)
-              {
-                // Pressure acts on the side as it is now; the body is to its left.
-                const Tensor<1, dim> along = line.b - line.a;
-                const Tensor<1, dim> f =
-                  load.vector_on_side(point.position,
-                                      Tensor<1, dim>({along[1], -along[0]}) /
-                                        along.norm(),
-                                      t) *
-                  (point.weight * along.norm());
-                for (unsigned int i = 0; i < point.nodes.size(); ++i)
-                  for (unsigned int d = 0; d < dim; ++d)
-                    force.local_element(dim * space.local_node(point.nodes[i]) +
-                                        d) += f[d] * point.values[i];
-              }
-            for (unsigned int d = 0; d < dim; ++d)
-              if (const auto &traction =
-                    scene.tractions.list[side.condition]->components[d])
-                {
-                  // A dead load: per length at the start.
-                  const double f = traction->value(point.position, t) *
-                                   point.weight * line.length;
-                  for (unsigned int i = 0; i < point.nodes.size(); ++i)
-                    {
-                      const unsigned int dof =
-                        dim * space.local_node(point.nodes[i]) + d;
-                      force.local_element(dof) += f * point.values[i];
-                    }
-                }
-          }
-    if (!loads.empty())
-      force.compress(VectorOperation::add);
+        {
+          part_in_mesh.push_back(0.);
+          for (const BoundaryPoint &point :
+               points_on_line(mesh, space, line.a, line.b))
+            {
+              part_in_mesh.back() += point.weight;
+              add_traction(
+                *scene.tractions.list[side.condition], line, point, t, force);
+            }
+        }
+    check_in_mesh(scene.tractions, loads, part_in_mesh);
+    force.compress(VectorOperation::add);
+  }
+
+  void
+  MovingConditions::check_in_mesh(const BoundaryConditions  &conditions,
+                                  const std::vector<Side>   &sides,
+                                  const std::vector<double> &part_in_mesh) const
+  {
+    std::vector<double> sums(part_in_mesh.size());
+    Utilities::MPI::sum(ArrayView<const double>(part_in_mesh),
+                        mesh.triangulation().get_communicator(),
+                        ArrayView<double>(sums));
+    std::size_t l = 0;
+    for (const Side &side : sides)
+      for (const MovingBoundary::Line &line : side.boundary.lines)
+        if (const double part = sums[l++]; part < 1. - 1e-6)
+          throw StepFailure(
+            format("the side of '%s' has left the background mesh: %.3g %% of "
+                   "its line from (%g, %g) to (%g, %g) is outside\n"
+                   "  remedy:  a larger Mesh/Box, so that the side stays in it",
+                   conditions.list[side.condition]->name.c_str(),
+                   100. * (1. - part),
+                   line.a[0],
+                   line.a[1],
+                   line.b[0],
+                   line.b[1]));
   }
 
   void
@@ -144,32 +178,41 @@ namespace geocone
   {
     Multipliers &rows = constraints.multipliers;
     rows.clear();
-    const auto &list = scene.dirichlet.list;
+    const auto         &list = scene.dirichlet.list;
+    std::vector<double> part_in_mesh;
     for (const Side &side : supports)
       {
         const BoundaryCondition &condition = *list[side.condition];
         unsigned int             number    = 0;
         for (const MovingBoundary::Line &line : side.boundary.lines)
           {
+            part_in_mesh.push_back(0.);
             const Tensor<1, dim> part =
               (line.b - line.a) / condition.n_segments;
             for (unsigned int s = 0; s < condition.n_segments; ++s, ++number)
               for (const BoundaryPoint &point : points_on_line(
                      mesh, space, line.a + s * part, line.a + (s + 1.) * part))
-                for (unsigned int d = 0; d < dim; ++d)
-                  if (condition.components[d])
-                    {
-                      const Multipliers::Key key{side.condition, d, number};
-                      for (unsigned int i = 0; i < point.nodes.size(); ++i)
-                        rows.add_coefficient(
-                          key, point.nodes[i], point.weight * point.values[i]);
-                      rows.add_target(
-                        key,
-                        point.weight *
-                          condition.components[d]->value(point.position, t));
-                    }
+                {
+                  part_in_mesh.back() += point.weight / condition.n_segments;
+                  for (unsigned int d = 0; d < dim; ++d)
+                    if (condition.components[d])
+                      {
+                        const Multipliers::Key key{side.condition, d, number};
+                        for (unsigned int i = 0; i < point.nodes.size(); ++i)
+                          rows.add_coefficient(
+                            key,
+                            point.nodes[i],
+                            point.weight * point.values[i]);
+                        rows.add_target(
+                          key,
+                          point.weight *
+                            condition.components[d]->value(point.position, t));
+                      }
+                }
           }
       }
+    if (!supports.empty())
+      check_in_mesh(scene.dirichlet, supports, part_in_mesh);
 
     const unsigned int                   n = points.n_nodes;
     std::vector<types::global_dof_index> nodes;
@@ -262,5 +305,13 @@ namespace geocone
           for (unsigned int d = 0; d < dim; ++d)
             (e == 0 ? boundary.lines[l].a : boundary.lines[l].b)[d] +=
               h * s[d] / s[2];
+    // There are no functions beyond the border of a grid: what rests on it stays.
+    if (!mesh.grid()[0].empty())
+      for (MovingBoundary::Line &line : boundary.lines)
+        for (Point<dim> *x : {&line.a, &line.b})
+          for (unsigned int d = 0; d < dim; ++d)
+            (*x)[d] = std::clamp((*x)[d],
+                                 mesh.grid()[d].front(),
+                                 mesh.grid()[d].back());
   }
 } // namespace geocone

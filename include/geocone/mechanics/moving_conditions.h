@@ -27,11 +27,17 @@ namespace geocone
     void
     check_held_particles(const MaterialPoints &points) const;
 
-    /** Adds the tractions at time t. Collective. */
+    /**
+     * Adds the tractions at time t. Collective.
+     * @throws StepFailure if a side is no longer in the mesh
+     */
     void
     add_tractions(Vector &force, const double t) const;
 
-    /** Makes the rows H v = q, with q at time t. Collective. */
+    /**
+     * Makes the rows H v = q, with q at time t. Collective.
+     * @throws StepFailure if a side is no longer in the mesh
+     */
     void
     make_rows(const MaterialPoints &points,
               const Vector         &prescribed,
@@ -53,7 +59,29 @@ namespace geocone
       MovingBoundary boundary;
     };
 
-    /** Moves a chain of lines by the velocity of the nodes. Collective. */
+    /** Adds the part of a load that acts at a point of a line. */
+    void
+    add_traction(const BoundaryCondition    &load,
+                 const MovingBoundary::Line &line,
+                 const BoundaryPoint        &point,
+                 const double                t,
+                 Vector                     &force) const;
+
+    /**
+     * Refuses lines of which a part lies outside the mesh, where conditions would
+     * vanish silently. Collective.
+     * @param part_in_mesh of each line, as found on this rank
+     * @throws StepFailure
+     */
+    void
+    check_in_mesh(const BoundaryConditions  &conditions,
+                  const std::vector<Side>   &sides,
+                  const std::vector<double> &part_in_mesh) const;
+
+    /**
+     * Moves a chain of lines by the velocity of the nodes, within the box of a
+     * grid. Collective.
+     */
     void
     advect(MovingBoundary &boundary, const Vector &v, const double h) const;
 
