@@ -265,7 +265,7 @@ namespace geocone
   {
     const std::string what =
       "the mesh '" + std::filesystem::path(geometry.file).filename().string() +
-      "'";
+      "' of 'Geometry/File'";
     return coarse_mesh(
       from_first_rank(comm, [&]() { return data_of_file(geometry, what); }),
       what,

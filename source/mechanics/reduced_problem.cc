@@ -124,7 +124,9 @@ namespace geocone
       [[noreturn]] void
       fail(const std::string &what) const
       {
-        throw InputError("file '" + file_name + "' " + what);
+        throw InputError("file '" + file_name + "' " + what +
+                         "\n  allowed: an argument file of Siconos' plasticity "
+                         "tests\n  remedy:  copy or write it again");
       }
 
       bool

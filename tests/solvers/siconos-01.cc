@@ -55,7 +55,8 @@ refuse(const std::string &text)
     }
   catch (const InputError &error)
     {
-      std::cout << "  " << error.what() << std::endl;
+      const std::string text = error.what();
+      std::cout << "  " << text.substr(0, text.find('\n')) << std::endl;
     }
 }
 
