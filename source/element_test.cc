@@ -79,11 +79,13 @@ namespace
         const std::string unused = unused_parameters(file.parse(of_others));
         if (!unused.empty())
           log.warn(unused);
-        const bool ok =
-          test.run({std::filesystem::path(call.file).stem().string(),
-                    call.folder,
-                    call.dry_run,
-                    call.force});
+        RunOptions options;
+        options.name           = file.name();
+        options.parameter_file = file.path();
+        options.folder         = call.folder;
+        options.dry_run        = call.dry_run;
+        options.force          = call.force;
+        const bool ok          = test.run(options);
         if (!call.dry_run && test.output().wants_pictures())
           drawing = {test.output().folder(), call.quiet};
         return ok ? 0 : 1;

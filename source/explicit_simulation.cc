@@ -1,8 +1,6 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/base/exceptions.h>
-#include <geocone/base/stop_request.h>
 #include <geocone/explicit_simulation.h>
 #include <geocone/output/run_status.h>
 #include <geocone/run_estimate.h>
@@ -16,49 +14,14 @@ namespace geocone
   ExplicitSimulation::ExplicitSimulation(const MPI_Comm       comm,
                                          const ParameterFile &file,
                                          Log                 &log)
-    : comm(comm)
-    , log(log)
-    , scene(file)
+    : Simulation(comm, file, log)
     , stepper(comm, file)
     , explicit_output(comm, log)
-  {
-    step_loop.reset();
-    output_time.reset();
-  }
+  {}
 
-  void
-  ExplicitSimulation::record(const unsigned int    step,
-                             const unsigned int    n_steps,
-                             const double          t,
-                             const ExplicitReport &report)
+  std::vector<std::string>
+  ExplicitSimulation::prepare(const RunOptions &options)
   {
-    state = stepper.state();
-    explicit_output.add_record(
-      {step,
-       t,
-       step_loop.last_cpu_time(),
-       report,
-       state,
-       stepper.balance(),
-       observed_points.displacements(stepper.points())});
-    if (explicit_output.verbosity >= 1)
-      log.progress(
-        format("step %u/%u  t = %.4g s  %lu explicit steps  kinetic energy = "
-               "%.3g J/m  plastic strain <= %.3g  %.0f s left",
-               step,
-               n_steps,
-               t,
-               stepper.n_steps,
-               state.kinetic,
-               state.largest_plastic_strain,
-               total.wall_time() / step * (n_steps - step)));
-  }
-
-  bool
-  ExplicitSimulation::run(const RunOptions &options)
-  {
-    scene.prepare();
-    method.prepare();
     const RunEstimate estimate = estimate_run(scene,
                                               method,
                                               stepper.background_mesh(),
@@ -68,80 +31,95 @@ namespace geocone
     estimate.check(options.force);
     const std::vector<std::string> remarks = stepper.prepare(scene, method);
     observed_points.prepare_points(scene, stepper.points(), comm);
-    if (options.dry_run)
-      return true;
-    explicit_output.prepare(options.name, options.folder, scene);
+    return remarks;
+  }
 
+  void
+  ExplicitSimulation::prepare_output(const RunOptions &options)
+  {
+    explicit_output.prepare(options, scene);
     state = stepper.state();
     explicit_output.set_initial(state);
-    log.print(format("%s: explicit MPM (%s), %s, %lu nodes, %lu points, %s, %u "
-                     "rank%s",
-                     options.name.c_str(),
-                     stepper.order().c_str(),
-                     stepper.element().c_str(),
-                     stepper.grid().n_all_nodes(),
-                     state.n_points,
-                     stepper.grid().description().c_str(),
-                     Utilities::MPI::n_mpi_processes(comm),
-                     Utilities::MPI::n_mpi_processes(comm) > 1 ? "s" : ""));
-    log.print("results in " + explicit_output.folder());
-    for (const std::string &remark : remarks)
-      log.warn(remark);
+  }
 
-    unsigned int n_steps = 0;
-    for (const auto &stage : scene.loading.stages)
-      n_steps += stage->step_sizes().size();
-    double       t    = 0.;
-    unsigned int step = 0;
+  std::string
+  ExplicitSimulation::headline(const std::string &name) const
+  {
+    return format("%s: explicit MPM (%s), %s, %lu nodes, %lu points, %s, %u "
+                  "rank%s",
+                  name.c_str(),
+                  stepper.order().c_str(),
+                  stepper.element().c_str(),
+                  stepper.grid().n_all_nodes(),
+                  state.n_points,
+                  stepper.grid().description().c_str(),
+                  Utilities::MPI::n_mpi_processes(comm),
+                  Utilities::MPI::n_mpi_processes(comm) > 1 ? "s" : "");
+  }
+
+  void
+  ExplicitSimulation::begin_stage(const Stage &stage, const double t)
+  {
+    for (const std::string &remark : stepper.begin_stage(stage, t))
+      log.print("stage " + stage.name + ": " + remark);
+  }
+
+  Simulation::Ended
+  ExplicitSimulation::advance(const Stage &stage,
+                              const Place &place,
+                              const double h)
+  {
+    report = stepper.advance(stage, place.time, h);
+    return Ended::well;
+  }
+
+  void
+  ExplicitSimulation::record(const Stage &, const Place &place)
+  {
+    state = stepper.state();
+    explicit_output.add_record(
+      {place.step,
+       place.time,
+       step_loop.last_cpu_time(),
+       report,
+       state,
+       stepper.balance(),
+       observed_points.displacements(stepper.points())});
+  }
+
+  std::string
+  ExplicitSimulation::progress() const
+  {
+    return format("%lu explicit steps  kinetic energy = %.3g J/m  plastic "
+                  "strain <= %.3g",
+                  stepper.n_steps,
+                  state.kinetic,
+                  state.largest_plastic_strain);
+  }
+
+  void
+  ExplicitSimulation::end_stage(const Stage &stage)
+  {
+    stepper.check_equilibrium(stage, state, report);
+  }
+
+  void
+  ExplicitSimulation::write_fields(const double t)
+  {
+    explicit_output.write_points(t, stepper.points());
+  }
+
+  void
+  ExplicitSimulation::write_summary(const std::string &status)
+  {
     explicit_output.write_summary(
-      "running", stepper.law_counts(), size(), cost());
-    try
-      {
-        explicit_output.write_points(t, stepper.points());
-        for (const auto &stage : scene.loading.stages)
-          {
-            for (const std::string &remark : stepper.begin_stage(*stage, t))
-              log.print("stage " + stage->name + ": " + remark);
-            const std::vector<double> sizes = stage->step_sizes();
-            for (std::size_t i = 0; i < sizes.size(); ++i)
-              {
-                stop_if_asked(comm);
-                step_loop.start();
-                const ExplicitReport report =
-                  stepper.advance(*stage, t, sizes[i]);
-                step_loop.stop();
-                t += sizes[i];
+      status, stepper.law_counts(), size(), cost());
+  }
 
-                output_time.start();
-                record(++step, n_steps, t, report);
-                if (i + 1 == sizes.size() ||
-                    (stage->output_every > 0 &&
-                     (i + 1) % stage->output_every == 0))
-                  {
-                    explicit_output.write_points(t, stepper.points());
-                    explicit_output.write_summary(
-                      "running", stepper.law_counts(), size(), cost());
-                  }
-                else if (explicit_output.summary_is_old())
-                  explicit_output.write_summary(
-                    "running", stepper.law_counts(), size(), cost());
-                output_time.stop();
-                if (i + 1 == sizes.size())
-                  stepper.check_equilibrium(*stage, state, report);
-              }
-          }
-        explicit_output.write_summary(
-          "finished", stepper.law_counts(), size(), cost());
-      }
-    catch (const std::exception &error)
-      {
-        explicit_output.end_with(error, [&](const std::string &status) {
-          explicit_output.write_summary(
-            status, stepper.law_counts(), size(), cost());
-          explicit_output.write_points(t, stepper.points());
-        });
-        throw;
-      }
+  void
+  ExplicitSimulation::finish(const double)
+  {
+    write_summary("finished");
     explicit_output.print_result();
     const Json costs = cost();
     log.print(format("%.1f s in all; %.1f ns per point and step (CPU, all "
@@ -149,7 +127,19 @@ namespace geocone
                      costs["total_s"].get<double>(),
                      costs["cpu_ns_per_point_step"].get<double>(),
                      costs["bytes_per_point"].get<double>()));
-    return explicit_output.expectations_hold();
+  }
+
+  void
+  ExplicitSimulation::save(Archive &archive)
+  {
+    stepper.save(archive);
+  }
+
+  void
+  ExplicitSimulation::load(const Archive &archive)
+  {
+    stepper.load(archive);
+    state = stepper.state();
   }
 
   Json

@@ -5,8 +5,8 @@
 #include <geocone/base/version.h>
 #include <geocone/command_line.h>
 #include <geocone/explicit_simulation.h>
+#include <geocone/implicit_simulation.h>
 #include <geocone/replay.h>
-#include <geocone/simulation.h>
 #include <geocone/unused_parameters.h>
 
 #include <deal.II/base/mpi.h>
@@ -27,6 +27,7 @@ namespace
     "value']...\n"
     "        [--dry-run] [--force] [--quiet]\n"
     "mpirun -np RANKS geocone FILE.prm ...\n"
+    "geocone --resume FOLDER [--quiet]\n"
     "geocone --replay FILE.h5|FILE.dat [--output FOLDER] [--set ...]...\n"
     "\n"
     "  --output FOLDER      folder of the results (default: results/NAME)\n"
@@ -37,6 +38,9 @@ namespace
     "of the\n"
     "                       solver, e.g. 'Newton/Globalisation = line "
     "search'\n"
+    "  --resume FOLDER      goes on with a run that was stopped or killed, from "
+    "its last\n"
+    "                       checkpoint (section Checkpoint), in the same folder\n"
     "  --dry-run            checks everything, prints how large the run is, "
     "and "
     "ends:\n"
@@ -65,10 +69,21 @@ namespace
       "defaults",
       {});
     Log                log(MPI_COMM_WORLD, true);
-    Simulation         simulation(MPI_COMM_WORLD, file, log);
+    ImplicitSimulation implicit_simulation(MPI_COMM_WORLD, file, log);
     ExplicitSimulation explicit_simulation(MPI_COMM_WORLD, file, log);
     file.parse();
     ParameterFile::print(out, true);
+  }
+
+  /** @throws InputError if --resume is given with what would change the run */
+  void
+  check_resume(const CommandLine &call)
+  {
+    if (!call.file.empty() || !call.folder.empty() || !call.overrides.empty())
+      throw InputError("--resume takes no parameter file, --output or --set\n"
+                       "  remedy:  'geocone --resume FOLDER' goes on with the "
+                       "parameters that the run has; start another one with "
+                       "'geocone FILE.prm'");
   }
 
   int
@@ -77,7 +92,7 @@ namespace
     const bool first =
       dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     const CommandLine call =
-      parse_command_line(argc, argv, "geocone", {"--replay"});
+      parse_command_line(argc, argv, "geocone", {"--replay", "--resume"});
     if (call.version)
       {
         if (first)
@@ -125,33 +140,41 @@ namespace
                  ? 0
                  : 1;
       }
-    if (call.file.empty())
+    const bool resumes = call.own.count("--resume") > 0;
+    if (call.file.empty() && !resumes)
       {
         if (first)
           std::cerr << "error: no parameter file\n" << usage;
         return 1;
       }
+    if (resumes)
+      check_resume(call);
 
     const ParameterFile::OfOthers of_others = parameters_of_laws();
-    const ParameterFile           file(call.file, call.overrides);
-    Log                           log(MPI_COMM_WORLD, call.quiet);
+    const ParameterFile           file =
+      resumes ? ParameterFile::of_run(call.own.at("--resume")) :
+                ParameterFile(call.file, call.overrides);
+    Log log(MPI_COMM_WORLD, call.quiet);
     // Both, so that a file may hold the parameters of all methods.
-    Simulation         simulation(MPI_COMM_WORLD, file, log);
+    ImplicitSimulation implicit_simulation(MPI_COMM_WORLD, file, log);
     ExplicitSimulation explicit_simulation(MPI_COMM_WORLD, file, log);
     const std::vector<ParameterFile::Setting> settings = file.parse(of_others);
-    const RunOptions                          options  = {
-                                std::filesystem::path(call.file).stem().string(),
-                                call.folder,
-                                call.dry_run,
-                                call.force};
-    if (const std::string unused = unused_parameters(settings); !unused.empty())
+    RunOptions                                options;
+    options.resumes        = resumes;
+    options.name           = file.name();
+    options.parameter_file = file.path();
+    options.folder         = resumes ? call.own.at("--resume") : call.folder;
+    options.dry_run        = call.dry_run;
+    options.force          = call.force || resumes;
+    if (const std::string unused = unused_parameters(settings);
+        !unused.empty() && !resumes)
       log.warn(unused);
-    const bool is_explicit =
-      ParameterFile::value("Discretisation/Method") == "explicit MPM";
-    const bool ok =
-      is_explicit ? explicit_simulation.run(options) : simulation.run(options);
-    const OutputBase &output =
-      is_explicit ? explicit_simulation.output() : simulation.output();
+    Simulation &simulation =
+      ParameterFile::value("Discretisation/Method") == "explicit MPM" ?
+        static_cast<Simulation &>(explicit_simulation) :
+        implicit_simulation;
+    const bool  ok     = simulation.run(options);
+    OutputBase &output = simulation.output();
     if (first && !call.dry_run && output.wants_pictures())
       drawing = {output.folder(), call.quiet};
     return ok ? 0 : 1;

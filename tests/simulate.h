@@ -5,7 +5,7 @@
 #define tests_simulate_h
 
 #include <geocone/base/version.h>
-#include <geocone/simulation.h>
+#include <geocone/implicit_simulation.h>
 
 #include <fstream>
 
@@ -24,9 +24,11 @@ simulate(const std::string              &file_name,
   all.insert(all.end(), overrides.begin(), overrides.end());
   const geocone::ParameterFile file(file_name, all);
   geocone::Log                 log(MPI_COMM_WORLD, true);
-  geocone::Simulation          simulation(MPI_COMM_WORLD, file, log);
+  geocone::ImplicitSimulation  simulation(MPI_COMM_WORLD, file, log);
   file.parse();
-  simulation.run({"test", "", false, false});
+  geocone::RunOptions options;
+  options.name = "test";
+  simulation.run(options);
   geocone::Json summary;
   std::ifstream("results/summary.json") >> summary;
   return summary;

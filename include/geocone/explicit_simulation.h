@@ -4,72 +4,76 @@
 #ifndef geocone_explicit_simulation_h
 #define geocone_explicit_simulation_h
 
-#include <geocone/base/log.h>
-#include <geocone/base/parameter_file.h>
-#include <geocone/base/run_options.h>
-#include <geocone/discretisation/method.h>
-#include <geocone/discretisation/observed_points.h>
 #include <geocone/output/explicit_output.h>
-#include <geocone/scene/scene.h>
+#include <geocone/simulation.h>
 #include <geocone/time_stepping/explicit_mpm.h>
-
-#include <deal.II/base/timer.h>
 
 #include <string>
 
 namespace geocone
 {
   /**
-   * A run of the explicit material point method: the scene, the stepper and the
-   * output, in the order in which data flows; run() is the story of the run. A
-   * step of the loading programme is what statistics.csv has a line of; the
-   * explicit steps within it are the stepper's own.
+   * A run of the explicit material point method. A step of the loading programme
+   * is what statistics.csv has a line of; the explicit steps within it are the
+   * stepper's own.
    */
-  class ExplicitSimulation
+  class ExplicitSimulation : public Simulation
   {
   public:
     ExplicitSimulation(const MPI_Comm       comm,
                        const ParameterFile &file,
                        Log                 &log);
 
-    /**
-     * @return whether all expectations hold
-     * @throws InputError before anything is written, RunError afterwards
-     */
-    bool
-    run(const RunOptions &options);
-
-    const OutputBase &
-    output() const
+    OutputBase &
+    output() override
     {
       return explicit_output;
     }
 
   private:
+    std::vector<std::string>
+    prepare(const RunOptions &options) override;
+    void
+    prepare_output(const RunOptions &options) override;
+    std::string
+    headline(const std::string &name) const override;
+    void
+    begin_stage(const Stage &stage, const double t) override;
+    Ended
+    advance(const Stage &stage, const Place &place, const double h) override;
+    void
+    record(const Stage &stage, const Place &place) override;
+    std::string
+    progress() const override;
+    void
+    end_stage(const Stage &stage) override;
+    bool
+    has_fields_at_start() const override
+    {
+      return true;
+    }
+    void
+    write_fields(const double t) override;
+    void
+    write_summary(const std::string &status) override;
+    void
+    finish(const double t) override;
+    void
+    save(Archive &archive) override;
+    void
+    load(const Archive &archive) override;
+
     Json
     size() const;
     Json
     cost() const;
 
-    /** Adds the record of a step and shows where the run is. */
-    void
-    record(const unsigned int    step,
-           const unsigned int    n_steps,
-           const double          t,
-           const ExplicitReport &report);
-
-    const MPI_Comm comm;
-    Log           &log;
-
-    Scene          scene;
-    Method         method;
     ExplicitMPM    stepper;
     ObservedPoints observed_points;
     ExplicitOutput explicit_output;
 
-    ExplicitState state; ///< at the last record
-
-    dealii::Timer total, step_loop, output_time;
+    ExplicitState  state;  ///< at the last record
+    ExplicitReport report; ///< of the last step
   };
 } // namespace geocone
 

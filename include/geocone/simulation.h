@@ -4,105 +4,162 @@
 #ifndef geocone_simulation_h
 #define geocone_simulation_h
 
+#include <geocone/base/log.h>
+#include <geocone/base/parameter_file.h>
 #include <geocone/base/run_options.h>
+#include <geocone/checkpoint.h>
+#include <geocone/discretisation/method.h>
 #include <geocone/discretisation/observed_points.h>
-#include <geocone/output/exact_solution.h>
-#include <geocone/output/run_output.h>
-#include <geocone/time_stepping/implicit_fem.h>
-#include <geocone/time_stepping/implicit_mpm.h>
+#include <geocone/output/output_base.h>
+#include <geocone/scene/scene.h>
+
+#include <deal.II/base/timer.h>
+
+#include <string>
+#include <vector>
 
 namespace geocone
 {
   /**
-   * How failed steps are cut and grow again. A step of the loading programme is
-   * reached in substeps: a failed one is halved, an easy one lets the next grow
-   * by half, up to the whole step.
-   */
-  class StepControl : public dealii::ParameterAcceptor
-  {
-  public:
-    StepControl();
-
-    void
-    prepare();
-
-    unsigned int max_halvings    = 9;
-    unsigned int easy_iterations = 12;
-  };
-
-  /**
-   * A run: owns everything, in the order in which data flows. Points, velocities,
-   * time and step number are locals of run().
+   * A run: the scene, and the story of the run - stages, steps, fields, summaries,
+   * checkpoints, and how it ends - which is the same for all methods. What a step
+   * is, and what is recorded of it, they say themselves.
    */
   class Simulation
   {
   public:
-    Simulation(const MPI_Comm comm, const ParameterFile &file, Log &log);
+    virtual ~Simulation() = default;
 
     /**
      * @return whether all expectations of the parameter file hold
-     * @throws InputError before anything is computed, RunError afterwards
+     * @throws InputError before anything is written, RunError afterwards
      */
     bool
     run(const RunOptions &options);
 
-    const RunOutput &
-    output() const
+    virtual OutputBase &
+    output() = 0;
+
+  protected:
+    Simulation(const MPI_Comm comm, const ParameterFile &file, Log &log);
+
+    /** Where the run is in the loading programme. */
+    struct Place
     {
-      return run_output;
-    }
+      unsigned int stage   = 0;     ///< index of the stage
+      bool         is_in   = false; ///< whether the stage has begun
+      unsigned int in_stage = 0;    ///< steps of the stage that are done
+      unsigned int step    = 0;     ///< steps that are done
+      double       time    = 0.;    ///< (s)
 
-  private:
-    /** Cheap or not, all that can be refused is refused here.
-     *  @return whether there is something to run */
-    bool
-    prepare(const RunOptions &options,
-            Kinematics       &kinematics,
-            MaterialPoints   &points);
+      void
+      state(StateRow &row)
+      {
+        row(stage, is_in, in_stage, step, time);
+      }
+    };
 
-    /** One step of the programme, from t to t + h. @throws RunError */
-    StepRecord
-    advance(Kinematics        &kinematics,
-            MaterialPoints    &points,
-            const unsigned int step,
-            const double       t,
-            const double       h,
-            double            &substep);
+    /** How a step ended. */
+    enum class Ended
+    {
+      well,
+      run ///< the run is over, as it was to be: results are those until then
+    };
 
-    /** The results, when all stages are done or one has ended by failure.
-     *  @return as run() */
-    bool
-    end_run(const Kinematics     &kinematics,
-            const MaterialPoints &points,
-            const double          t);
+    /** @name What a method does. All collective. */
+    /** @{ */
 
-    Json
-    size(const MaterialPoints &points) const;
-    Json
-    cost() const;
+    /** Cheap or not, all that can be refused is refused here, and the state at
+     *  t = 0 is made. @return warnings. @throws InputError */
+    virtual std::vector<std::string>
+    prepare(const RunOptions &options) = 0;
+
+    /** Makes the folder and its tables. @throws InputError */
+    virtual void
+    prepare_output(const RunOptions &options) = 0;
+
+    /** One line that says what is run. */
+    virtual std::string
+    headline(const std::string &name) const = 0;
+
+    virtual void
+    begin_stage(const Stage &stage, const double t) = 0;
+
+    /**
+     * A step of the programme, from place.time to h later, or what is left of it
+     * where it was stopped.
+     * @throws StepFailure, Stopped
+     */
+    virtual Ended
+    advance(const Stage &stage, const Place &place, const double h) = 0;
+
+    /** Enters the step in the tables. @param place at its end */
+    virtual void
+    record(const Stage &stage, const Place &place) = 0;
+
+    /** What the line of progress says of the last step. */
+    virtual std::string
+    progress() const = 0;
+
+    /** Tests after the last step of a stage. */
+    virtual void
+    end_stage(const Stage &)
+    {}
+
+    virtual void
+    write_fields(const double t) = 0;
+
+    virtual void
+    write_summary(const std::string &status) = 0;
+
+    /** Whether fields are written before the first step. */
+    virtual bool
+    has_fields_at_start() const = 0;
+
+    /** Adds to the results, prints them, and what they cost. @p t: the end */
+    virtual void
+    finish(const double t) = 0;
+
+    virtual void
+    save(Archive &archive) = 0;
+    virtual void
+    load(const Archive &archive) = 0;
+    /** @} */
 
     const MPI_Comm comm;
     Log           &log;
 
-    Scene           scene;
-    Method          method;
-    BackgroundMesh  mesh;
-    Space           space;
-    NonsmoothNewton newton;
-    ImplicitFEM     implicit_fem;
-    ImplicitMPM     implicit_mpm;
-    TimeStepper    *stepper = nullptr; ///< the one of the method
-    StepControl     step_control;
-    Freezer         freezer;
-    ExactSolution   exact_solution;
-    ObservedPoints  observed_points;
-    RunOutput       run_output;
+    Scene      scene;
+    Method     method;
+    Checkpoint checkpoint;
 
-    double reached = 0.; ///< time of the last substep that was solved (s)
+    dealii::Timer total, step_loop, output_time;
 
-    dealii::TimerOutput timer;
-    dealii::Timer       total, step_loop;
-    unsigned int        n_factorisations = 0;
+  private:
+    /** Steps of all stages. */
+    unsigned int
+    n_steps() const;
+
+    /** All stages, from where the run is. */
+    void
+    follow_programme();
+
+    void
+    print_progress();
+
+    /** Writes what is due after a step, or not. */
+    void
+    write_if_due(const Stage &stage, const bool is_last);
+
+    void
+    save_checkpoint();
+
+    /** Goes back to the last good checkpoint. @throws InputError if none is */
+    void
+    resume();
+
+    Place        place;
+    unsigned int first_step = 0; ///< that this process has not done itself
   };
 } // namespace geocone
 

@@ -126,11 +126,14 @@ namespace geocone
 
   void
   CsvFile::open(const std::string              &file_name,
-                const std::vector<std::string> &columns)
+                const std::vector<std::string> &columns,
+                const bool                      goes_on)
   {
     name      = file_name;
     n_columns = columns.size();
     size      = 0;
+    if (goes_on)
+      return;
     enter_in_list(name);
     errno = 0;
     file.open(name);
@@ -148,6 +151,26 @@ namespace geocone
         line += (line.empty() ? "" : ",") + text;
       }
     add_text(line + "\n");
+  }
+
+  void
+  CsvFile::state(StateRow &row)
+  {
+    row(size);
+    if (!row.is_read() || name.empty())
+      return;
+    std::error_code      error;
+    const std::uintmax_t present = fs::file_size(name, error);
+    if (error || present < size)
+      throw RunError("the table '" + name +
+                     "' is shorter than when the checkpoint was written");
+    fs::resize_file(name, size, error);
+    errno = error.value();
+    if (!error)
+      file.open(name, std::ios::app);
+    if (error || !file)
+      throw RunError("the table '" + name + "' cannot be written" +
+                     cause_and_remedy(errno));
   }
 
   void

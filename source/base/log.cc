@@ -28,12 +28,12 @@ namespace geocone
   }
 
   void
-  Log::open(const std::string &file_name)
+  Log::open(const std::string &file_name, const bool goes_on)
   {
     if (!speaks)
       return;
     enter_in_list(file_name);
-    file.open(file_name);
+    file.open(file_name, goes_on ? std::ios::app : std::ios::out);
     if (!file)
       throw RunError("the log '" + file_name + "' cannot be written" +
                      cause_and_remedy(errno));

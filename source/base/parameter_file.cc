@@ -4,6 +4,8 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/parameter_file.h>
 
+#include <nlohmann/json.hpp>
+
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/utilities.h>
 
@@ -368,7 +370,8 @@ namespace geocone
 
   ParameterFile::ParameterFile(const std::string              &file_name,
                                const std::vector<std::string> &overrides)
-    : folder_of_file(std::filesystem::path(file_name).parent_path().string())
+    : path_of_file(std::filesystem::absolute(file_name).string())
+    , folder_of_file(std::filesystem::path(file_name).parent_path().string())
   {
     read(file_name, "'" + printable(file_name) + "'", 0);
     append(overrides);
@@ -385,6 +388,38 @@ namespace geocone
     file.read_lines(in, name, "'" + printable(name) + "'", -1);
     file.append(overrides);
     return file;
+  }
+
+  ParameterFile
+  ParameterFile::of_run(const std::string &folder)
+  {
+    const std::string file_name = folder + "/parameters.prm";
+    std::error_code   error;
+    if (!std::filesystem::is_regular_file(file_name, error))
+      throw InputError("--resume",
+                       printable(folder),
+                       "the folder of a run by geocone",
+                       "it has no parameters.prm");
+    ParameterFile file(file_name, {});
+    std::ifstream in(folder + "/summary.json");
+    const auto    summary = nlohmann::json::parse(in, nullptr, false);
+    if (const auto run = summary.is_object() ? summary.find("run") :
+                                               summary.end();
+        run != summary.end() && run->is_object())
+      if (const auto path = run->find("parameter_file");
+          path != run->end() && path->is_string())
+        {
+          file.path_of_file = path->get<std::string>();
+          file.folder_of_file =
+            std::filesystem::path(file.path_of_file).parent_path().string();
+        }
+    return file;
+  }
+
+  std::string
+  ParameterFile::name() const
+  {
+    return std::filesystem::path(path_of_file).stem().string();
   }
 
   void

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/discretisation/cell_record.h>
 #include <geocone/discretisation/particles.h>
 
 #include <deal.II/base/mpi.h>
@@ -187,6 +188,59 @@ namespace geocone
     if (space.has_b_bar())
       average_gradients(points);
     return points;
+  }
+
+  void
+  Particles::save(Archive &archive, const BackgroundMesh &mesh) const
+  {
+    CellRecord          cells;
+    std::vector<double> values;
+    for (const auto &cell : mesh.own_cells())
+      {
+        cells.add(cell, handler->n_particles_in_cell(cell));
+        for (const auto &particle : handler->particles_in_cell(cell))
+          {
+            values.push_back(particle.get_id());
+            for (unsigned int d = 0; d < dim; ++d)
+              values.push_back(particle.get_location()[d]);
+            // With all its digits, which a search would not give again.
+            for (unsigned int d = 0; d < dim; ++d)
+              values.push_back(particle.get_reference_location()[d]);
+            const auto state = particle.get_properties();
+            values.insert(values.end(), state.begin(), state.end());
+          }
+      }
+    archive.write("particles/cells", cells.numbers);
+    archive.write("particles/state", values);
+    StateRow row;
+    row(const_cast<unsigned int &>(n_lost_all));
+    archive.write_row("particles/lost", row);
+  }
+
+  void
+  Particles::load(const Archive &archive, const BackgroundMesh &mesh)
+  {
+    const std::size_t         size   = 1 + 2 * dim + n_properties;
+    const std::vector<double> values = archive.read("particles/state");
+    const CellRecord          cells(archive.read("particles/cells"),
+                           values.size() / size);
+    handler->clear_particles();
+    for (const auto &cell : mesh.own_cells())
+      {
+        const auto [begin, end] = cells.range(cell);
+        for (std::size_t i = begin; i < end; ++i)
+          {
+            const double *x = &values[i * size];
+            handler->insert_particle(
+              Point<dim>(x[1], x[2]),
+              Point<dim>(x[3], x[4]),
+              static_cast<unsigned int>(x[0]),
+              cell,
+              ArrayView<const double>(x + 1 + 2 * dim, n_properties));
+          }
+      }
+    handler->update_cached_numbers();
+    archive.read_row("particles/lost")(n_lost_all);
   }
 
   void

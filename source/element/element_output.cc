@@ -37,12 +37,11 @@ namespace geocone
   {}
 
   void
-  ElementOutput::prepare(const std::string              &default_name,
-                         const std::string              &folder_of_call,
+  ElementOutput::prepare(const RunOptions               &options,
                          const std::vector<std::string> &all_columns)
   {
     columns = all_columns;
-    make_folder(default_name, folder_of_call);
+    make_folder(options);
     statistics.open(path + "/path.csv", columns);
     surface_table.open(path + "/surfaces.csv",
                        {"state", "surface", "p (Pa)", "q (Pa)"});

@@ -298,7 +298,7 @@ namespace geocone
                          n));
         return true;
       }
-    element_output.prepare(options.name, options.folder, columns());
+    element_output.prepare(options, columns());
     log.print(format("%s: one point of '%s', %s, results in %s",
                      options.name.c_str(),
                      materials.name(0).c_str(),

@@ -207,6 +207,14 @@ namespace geocone
   }
 
   bool
+  MeshTransfer::owns(const Point<dim> &x) const
+  {
+    Place place;
+    return find(x, Cell(), place) &&
+           (place.cell->is_locally_owned() || find_own(x, place));
+  }
+
+  bool
   MeshTransfer::find_own(const Point<dim> &x, Place &place) const
   {
     for (const auto &cell : mesh.own_cells())

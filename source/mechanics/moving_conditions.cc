@@ -269,6 +269,15 @@ namespace geocone
   }
 
   void
+  MovingConditions::state(StateRow &row)
+  {
+    for (std::vector<Side> *sides : {&supports, &loads})
+      for (Side &side : *sides)
+        for (MovingBoundary::Line &line : side.boundary.lines)
+          row(line.a, line.b);
+  }
+
+  void
   MovingConditions::advect(MovingBoundary &boundary,
                            const Vector   &v,
                            const double    h) const

@@ -21,12 +21,10 @@ namespace geocone
   {}
 
   void
-  ExplicitOutput::prepare(const std::string &default_name,
-                          const std::string &folder_of_call,
-                          const Scene       &scene_)
+  ExplicitOutput::prepare(const RunOptions &options, const Scene &scene_)
   {
     scene = &scene_;
-    make_folder(default_name, folder_of_call);
+    make_folder(options);
     point_files = std::make_unique<FieldFiles>("points", fields_format);
     columns     = {"step",
                    "time (s)",
@@ -69,7 +67,18 @@ namespace geocone
         columns.push_back("force " + condition->name + direction + " (N/m)");
     add_observation_columns(scene->observation, scene->dirichlet, columns);
     if (writes)
-      statistics.open(path + "/statistics.csv", columns);
+      statistics.open(path + "/statistics.csv", columns, resumes);
+  }
+
+  void
+  ExplicitOutput::state_of_run(StateRow &row)
+  {
+    OutputBase::state_of_run(row);
+    std::size_t n = records.size();
+    row(initial, *point_files, largest_kinetic, largest_impulse, warned_of_energy, n);
+    records.resize(n);
+    for (ExplicitRecord &record : records)
+      record.to_row(row);
   }
 
   double

@@ -92,23 +92,37 @@ namespace geocone
   }
 
   void
-  OutputBase::make_folder(const std::string &default_name,
-                          const std::string &folder_of_call)
+  OutputBase::make_folder(const RunOptions &options)
   {
-    name = default_name;
+    name           = options.name;
+    resumes        = options.resumes;
+    parameter_file = options.parameter_file;
     for (const std::string &text : expectation_texts)
       expectations.emplace_back(text, "Output/Expectations");
-    if (!folder_of_call.empty())
-      path = folder_of_call;
+    if (!options.folder.empty())
+      path = options.folder;
     const bool was_named = !path.empty();
     if (!was_named)
-      path = "results/" + default_name;
-    path = make_run_folder(comm, path, if_exists_of(if_exists, was_named));
+      path = "results/" + name;
+    if (resumes)
+      enter_run_folder(comm, path);
+    else
+      path = make_run_folder(comm, path, if_exists_of(if_exists, was_named));
     if (writes)
       {
         Watcher::watch(path);
-        log.open(path + "/log.txt");
+        log.open(path + "/log.txt", resumes);
       }
+  }
+
+  void
+  OutputBase::state_of_run(StateRow &row)
+  {
+    row(statistics);
+    std::vector<std::string> warnings = log.warnings();
+    row(warnings);
+    if (row.is_read())
+      log.add_earlier_warnings(warnings);
   }
 
   bool
@@ -151,6 +165,7 @@ namespace geocone
   {
     summary_written     = std::chrono::steady_clock::now();
     summary["run"]      = run_topic();
+    summary["run"]["parameter_file"] = parameter_file;
     summary["warnings"] = log.warnings();
     std::string what;
     if (summary["status"] == "finished")

@@ -172,4 +172,30 @@ namespace geocone
     keep_list_of_files(path);
     return path;
   }
+
+  void
+  enter_run_folder(const MPI_Comm comm, const std::string &path)
+  {
+    std::string why_not;
+    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+      {
+        std::error_code error;
+        if (!fs::is_directory(path, error))
+          why_not = "there is no such folder";
+        else
+          for (const char *name :
+               {list_of_files, "parameters.prm", "summary.json"})
+            if (!fs::is_regular_file(fs::path(path) / name, error))
+              why_not = std::string("it has no ") + name;
+        if (why_not.empty())
+          why_not = running_in(path);
+      }
+    why_not = dealii::Utilities::MPI::broadcast(comm, why_not);
+    if (!why_not.empty())
+      throw InputError("--resume",
+                       path,
+                       "the folder of a run that has ended, by geocone",
+                       why_not);
+    keep_list_of_files(path);
+  }
 } // namespace geocone

@@ -21,12 +21,10 @@ namespace geocone
   {}
 
   void
-  RunOutput::prepare(const std::string &default_name,
-                     const std::string &folder_of_call,
-                     const Scene       &scene_)
+  RunOutput::prepare(const RunOptions &options, const Scene &scene_)
   {
     scene = &scene_;
-    make_folder(default_name, folder_of_call);
+    make_folder(options);
     fields = std::make_unique<Fields>(fields_format);
 
     columns = {"step", "time (s)", "displacement (m)", "load (N/m)"};
@@ -62,7 +60,7 @@ namespace geocone
     add_observation_columns(scene->observation, scene->dirichlet, columns);
     if (!writes)
       return;
-    statistics.open(path + "/statistics.csv", columns);
+    statistics.open(path + "/statistics.csv", columns, resumes);
     newton.open(path + "/newton.csv",
                 {"step",
                  "time (s)",
@@ -75,7 +73,25 @@ namespace geocone
                  "friction lag (-)",
                  "cone points",
                  "apex points",
-                 "switched points"});
+                 "switched points"},
+                resumes);
+  }
+
+  void
+  RunOutput::state_of_run(StateRow &row)
+  {
+    OutputBase::state_of_run(row);
+    row(newton,
+        *fields,
+        records,
+        work,
+        dissipation,
+        loss,
+        least_loss,
+        energy_n,
+        initial,
+        n_load_jumps,
+        warned_of_energy);
   }
 
   void

@@ -536,22 +536,23 @@ namespace geocone
       double(!obstacle.empty()),
       double(stop_request_of_rank())};
     Utilities::MPI::max(largest, comm, largest);
+    asked_to_stop    = static_cast<int>(largest[5]);
     sums.wave_speed2 = largest[0];
     sums.speed2      = largest[1];
     sums.strain      = largest[2];
     must_refresh     = largest[3] > 0.;
     if (largest[4] > 0.)
       throw StepFailure(text_of_any_rank(comm, obstacle));
-    if (largest[5] > 0.)
-      throw Stopped(static_cast<int>(largest[5]));
   }
 
   ExplicitReport
   ExplicitMPM::advance(const Stage &stage, const double t, const double h)
   {
-    ExplicitReport report;
-    const double   end = t + h;
-    double         now = t;
+    if (!progress.begun)
+      progress = {true, t, {}};
+    ExplicitReport &report = progress.report;
+    double         &now    = progress.now;
+    const double    end    = t + h;
     while (now < end)
       {
         if (must_refresh || since_refresh >= sort_every)
@@ -601,6 +602,8 @@ namespace geocone
         report.largest_step = std::max(report.largest_step, dt);
         report.smallest_step =
           report.smallest_step == 0. ? dt : std::min(report.smallest_step, dt);
+        if (asked_to_stop > 0 && now < end)
+          throw Stopped(asked_to_stop);
       }
     // Those that have left are found before anybody looks.
     if (must_refresh)
@@ -611,6 +614,7 @@ namespace geocone
       report.reactions.push_back(
         {Utilities::MPI::sum(impulse.force, comm) / h,
          Utilities::MPI::sum(impulse.moment, comm) / h});
+    progress.begun = false;
     return report;
   }
 } // namespace geocone

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/discretisation/cell_record.h>
 #include <geocone/discretisation/quadrature_points.h>
 #include <geocone/time_stepping/implicit_fem.h>
 
@@ -193,5 +194,96 @@ namespace geocone
     report.energies.external_work = sums[0];
     report.energies.dissipation   = sums[1];
     return report;
+  }
+
+  namespace
+  {
+    /** The state of points that stay, of which each quantity has so many
+     *  numbers; as one list for both directions. */
+    template <typename Points, typename F>
+    void
+    for_each_state(Points &points, const F &f)
+    {
+      f("stress", points.stress);
+      f("plastic strain", points.plastic_strain);
+      f("cumulative plastic strain", points.cumulative_plastic_strain);
+      f("plastic strain rate", points.plastic_strain_rate);
+    }
+
+    constexpr unsigned int
+    n_numbers(const double)
+    {
+      return 1;
+    }
+    constexpr unsigned int
+    n_numbers(const Mandel &)
+    {
+      return n_mandel;
+    }
+    double &
+    number(double &x, const unsigned int)
+    {
+      return x;
+    }
+    double &
+    number(Mandel &x, const unsigned int c)
+    {
+      return x[c];
+    }
+  } // namespace
+
+  void
+  ImplicitFEM::save(Archive              &archive,
+                    const BackgroundMesh &mesh,
+                    const Space          &space,
+                    Kinematics           &kinematics,
+                    const MaterialPoints &points)
+  {
+    save_nodes(archive, "velocity", mesh, space, kinematics.velocity);
+    save_nodes(archive, "displacement", mesh, space, kinematics.displacement);
+    StateRow row;
+    row(kinematics.supports);
+    archive.write_row("supports", row);
+    CellRecord cells;
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      cells.add(points.cells[c],
+                points.first_point[c + 1] - points.first_point[c]);
+    archive.write("points/cells", cells.numbers);
+    for_each_state(points, [&](const std::string &name, const auto &list) {
+      std::vector<double> numbers;
+      for (auto x : list)
+        for (unsigned int c = 0; c < n_numbers(x); ++c)
+          numbers.push_back(number(x, c));
+      archive.write("points/" + name, numbers);
+    });
+  }
+
+  void
+  ImplicitFEM::load(const Archive        &archive,
+                    const BackgroundMesh &mesh,
+                    const Space          &space,
+                    Kinematics           &kinematics,
+                    MaterialPoints       &points)
+  {
+    load_nodes(archive, "velocity", mesh, space, kinematics.velocity);
+    load_nodes(archive, "displacement", mesh, space, kinematics.displacement);
+    archive.read_row("supports")(kinematics.supports);
+    const std::vector<double> cell_numbers = archive.read("points/cells");
+    for_each_state(points, [&](const std::string &name, auto &list) {
+      const std::vector<double> numbers = archive.read("points/" + name);
+      using Item = typename std::decay_t<decltype(list)>::value_type;
+      const unsigned int n = n_numbers(Item());
+      const CellRecord   cells(cell_numbers, numbers.size() / n);
+      for (unsigned int c = 0; c < points.n_cells(); ++c)
+        {
+          const auto [begin, end] = cells.range(points.cells[c]);
+          const unsigned int first = points.first_point[c];
+          if (end - begin != points.first_point[c + 1] - first)
+            throw RunError("the checkpoint has other points");
+          for (std::size_t i = begin; i < end; ++i)
+            for (unsigned int k = 0; k < n; ++k)
+              number(list[first + i - begin], k) = numbers[n * i + k];
+        }
+    });
   }
 } // namespace geocone

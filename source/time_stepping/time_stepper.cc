@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/discretisation/cell_record.h>
 #include <geocone/time_stepping/time_stepper.h>
 
 #include <deal.II/base/mpi.h>
@@ -22,6 +23,58 @@ namespace geocone
                s.dot(materials[points.material[p]].elasticity().strain(s));
       }
     return Utilities::MPI::sum(sum, comm);
+  }
+
+  void
+  save_nodes(Archive              &archive,
+             const std::string    &name,
+             const BackgroundMesh &mesh,
+             const Space          &space,
+             const Vector         &values)
+  {
+    // By cell, whose nodes have an order that does not depend on the ranks.
+    Vector all = values;
+    all.update_ghost_values();
+    CellRecord                                   cells;
+    std::vector<double>                          numbers;
+    std::vector<dealii::types::global_dof_index> nodes;
+    for (const auto &cell : mesh.own_cells())
+      {
+        space.cell_nodes(cell, nodes);
+        cells.add(cell, nodes.size());
+        for (const auto node : nodes)
+          for (unsigned int d = 0; d < dim; ++d)
+            numbers.push_back(
+              all.local_element(dim * space.local_node(node) + d));
+      }
+    archive.write(name + "/cells", cells.numbers);
+    archive.write(name + "/values", numbers);
+  }
+
+  void
+  load_nodes(const Archive        &archive,
+             const std::string    &name,
+             const BackgroundMesh &mesh,
+             const Space          &space,
+             Vector               &values)
+  {
+    const std::vector<double> numbers = archive.read(name + "/values");
+    const CellRecord          cells(archive.read(name + "/cells"),
+                           numbers.size() / dim);
+    std::vector<dealii::types::global_dof_index> nodes;
+    values = 0.;
+    for (const auto &cell : mesh.own_cells())
+      {
+        space.cell_nodes(cell, nodes);
+        const auto [begin, end] = cells.range(cell);
+        if (end - begin != nodes.size())
+          throw RunError("the checkpoint is of another element");
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+          for (unsigned int d = 0; d < dim; ++d)
+            if (const unsigned int dof = dim * space.local_node(nodes[i]) + d;
+                dof < values.locally_owned_size())
+              values.local_element(dof) = numbers[dim * (begin + i) + d];
+      }
   }
 
   double

@@ -4,6 +4,8 @@
 #ifndef geocone_base_files_h
 #define geocone_base_files_h
 
+#include <geocone/base/state_row.h>
+
 #include <cstdint>
 #include <fstream>
 #include <functional>
@@ -52,8 +54,17 @@ namespace geocone
   {
   public:
     CsvFile() = default;
+    /** Begins the table; one that @p goes_on is that of an earlier process, with
+     *  the same columns, and begins where state() says. */
     void
-    open(const std::string &file_name, const std::vector<std::string> &columns);
+    open(const std::string              &file_name,
+         const std::vector<std::string> &columns,
+         const bool                      goes_on = false);
+
+    /** Where the table ends, for a checkpoint; what stands behind that is cut off
+     *  when it is read. @throws RunError if the table is shorter */
+    void
+    state(StateRow &row);
 
     /** @throws RunError if the line cannot be written: what was written of it
      *  is taken back. */

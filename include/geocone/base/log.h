@@ -24,9 +24,17 @@ namespace geocone
     Log(const MPI_Comm comm, const bool quiet);
     ~Log();
 
-    /** Starts to copy everything into @p file_name, what was said included. */
+    /** Starts to copy everything into @p file_name, what was said included;
+     *  behind what is there if it @p goes_on. */
     void
-    open(const std::string &file_name);
+    open(const std::string &file_name, const bool goes_on = false);
+
+    /** Of an earlier process of the same run: they count, too. */
+    void
+    add_earlier_warnings(const std::vector<std::string> &earlier)
+    {
+      all_warnings.insert(all_warnings.begin(), earlier.begin(), earlier.end());
+    }
 
     /** One or several complete lines. */
     void

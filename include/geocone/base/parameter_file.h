@@ -91,6 +91,21 @@ namespace geocone
     std::vector<Setting>
     parse(const OfOthers &of_others = {}) const;
 
+    /** The parameters that a run in @p folder has used. Names of files in them
+     *  count from where they did for that run.
+     *  @throws InputError if it is not the folder of a run */
+    static ParameterFile
+    of_run(const std::string &folder);
+
+    /** The absolute name of the file, and its name without folder and ending. */
+    const std::string &
+    path() const
+    {
+      return path_of_file;
+    }
+    std::string
+    name() const;
+
     /** The folder that the file lies in; empty: that of the call. */
     const std::string &
     folder() const
@@ -158,6 +173,7 @@ namespace geocone
     set_lines(const bool checks) const;
 
     std::vector<Line> lines;
+    std::string       path_of_file;
     std::string       folder_of_file;
     unsigned int      n_files          = 0;
     bool              has_strict_lists = true;

@@ -4,6 +4,7 @@
 #ifndef geocone_discretisation_particles_h
 #define geocone_discretisation_particles_h
 
+#include <geocone/base/archive.h>
 #include <geocone/discretisation/material_points.h>
 #include <geocone/discretisation/outflow.h>
 #include <geocone/discretisation/seeding.h>
@@ -43,6 +44,16 @@ namespace geocone
      */
     void
     move(const MaterialPoints &points);
+
+    /** @name The state, as part of a checkpoint. Collective. */
+    /** @{ */
+    void
+    save(Archive &archive, const BackgroundMesh &mesh) const;
+
+    /** In place of what prepare() has seeded. */
+    void
+    load(const Archive &archive, const BackgroundMesh &mesh);
+    /** @} */
 
     /** Particles that left the mesh, of all ranks. */
     unsigned int

@@ -20,9 +20,7 @@ namespace geocone
 
     /** Makes the folder. @throws InputError */
     void
-    prepare(const std::string              &name,
-            const std::string              &folder,
-            const std::vector<std::string> &columns);
+    prepare(const RunOptions &options, const std::vector<std::string> &columns);
 
     /** A line of path.csv: an accepted increment, or the start. */
     void

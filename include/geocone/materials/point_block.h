@@ -63,6 +63,14 @@ namespace geocone
     unsigned long long limited  = 0; ///< states kept from losing all stiffness
     unsigned int       most     = 0; ///< substeps of one point in one step
 
+    /** For checkpoints; Row: StateRow. */
+    template <typename Row>
+    void
+    state(Row &row)
+    {
+      row(updates, substeps, forced, limited, most);
+    }
+
     void
     add(const LawCounts &other)
     {

@@ -4,6 +4,7 @@
 #ifndef geocone_mechanics_constraints_h
 #define geocone_mechanics_constraints_h
 
+#include <geocone/base/state_row.h>
 #include <geocone/discretisation/material_points.h>
 #include <geocone/mechanics/unknowns.h>
 
@@ -18,6 +19,12 @@ namespace geocone
   {
     dealii::Tensor<1, dim> force;       ///< sum f_i (N/m)
     double                 moment = 0.; ///< sum (x_i - c) x f_i (N m/m)
+
+    void
+    state(StateRow &row)
+    {
+      row(force, moment);
+    }
   };
 
   /**

@@ -103,6 +103,19 @@ namespace geocone
     virtual dealii::Point<dim>
     nearest_in_domain(const dealii::Point<dim> &x) const = 0;
 
+    /** Whether points of any place may be given to any rank before refresh(), or
+     *  each must be given one that owns() its place. */
+    virtual bool
+    takes_any_point() const
+    {
+      return true;
+    }
+    virtual bool
+    owns(const dealii::Point<dim> &) const
+    {
+      return true;
+    }
+
     /** Smallest side of a cell (m). */
     virtual double
     cell_size() const = 0;

@@ -5,6 +5,7 @@
 #define geocone_mechanics_incremental_problem_h
 
 #include <geocone/base/sparse_matrix.h>
+#include <geocone/base/state_row.h>
 #include <geocone/discretisation/material_points.h>
 #include <geocone/materials/material_library.h>
 #include <geocone/mechanics/natural_map.h>
@@ -47,6 +48,16 @@ namespace geocone
     /** max(0, |s_t| - a s_n - k) of the exact cone (Pa): not zero where friction
      *  is delayed, while the other numbers are those of the law that was solved. */
     double cone_excess = 0.;
+
+    void
+    state(StateRow &row)
+    {
+      row(natural_map,
+          cone_violation,
+          dual_violation,
+          complementarity,
+          cone_excess);
+    }
 
     void
     take_worse(const Quality &other)

@@ -34,6 +34,14 @@ namespace geocone
       return true;
     }
     bool
+    takes_any_point() const override
+    {
+      return false;
+    }
+    bool
+    owns(const dealii::Point<dim> &x) const override;
+
+    bool
     moves_each_step() const override
     {
       return true;

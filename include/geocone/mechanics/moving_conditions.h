@@ -4,6 +4,7 @@
 #ifndef geocone_mechanics_moving_conditions_h
 #define geocone_mechanics_moving_conditions_h
 
+#include <geocone/base/state_row.h>
 #include <geocone/discretisation/material_points.h>
 #include <geocone/mechanics/constraints.h>
 #include <geocone/mechanics/moving_boundary.h>
@@ -50,6 +51,10 @@ namespace geocone
      */
     void
     move(const Vector &v, const double h, const double t);
+
+    /** The places of the sides, for a checkpoint. */
+    void
+    state(StateRow &row);
 
   private:
     /** A support or load on a side of the body, and the side. */

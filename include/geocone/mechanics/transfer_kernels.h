@@ -74,6 +74,16 @@ namespace geocone
     /** Sum of values that are not finite if one of the points is not. */
     double check = 0.;
 
+    /** For checkpoints; Row: StateRow. */
+    template <typename Row>
+    void
+    state(Row &row)
+    {
+      row(work, wave_speed2, speed2, strain, least_volume, check);
+      for (unsigned int d = 0; d < 2; ++d)
+        row(lower[d], upper[d]);
+    }
+
     void
     add(const PassSums &other);
   };

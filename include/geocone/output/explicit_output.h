@@ -25,6 +25,13 @@ namespace geocone
     ExplicitState  state;
     Balance        balance;
     std::vector<dealii::Tensor<1, dim>> displacements; ///< of observed points
+
+    /** For checkpoints. */
+    void
+    to_row(StateRow &row)
+    {
+      row(step, time, cpu, report, state, balance, displacements);
+    }
   };
 
   /**
@@ -43,11 +50,12 @@ namespace geocone
   public:
     ExplicitOutput(const MPI_Comm comm, Log &log);
 
-    /** Makes the folder. @throws InputError */
+    /** Makes the folder, or enters that of the run before. @throws InputError */
     void
-    prepare(const std::string &default_name,
-            const std::string &folder_of_call,
-            const Scene       &scene);
+    prepare(const RunOptions &options, const Scene &scene);
+
+    void
+    state_of_run(StateRow &row) override;
 
     /** The state that gains are counted from. */
     void

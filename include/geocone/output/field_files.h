@@ -4,6 +4,8 @@
 #ifndef geocone_output_field_files_h
 #define geocone_output_field_files_h
 
+#include <geocone/base/state_row.h>
+
 #include <mpi.h>
 
 #include <cstddef>
@@ -84,6 +86,13 @@ namespace geocone
           const std::string &folder,
           const double       time,
           const MPI_Comm     comm);
+
+    /** The series so far, for a checkpoint. */
+    void
+    state(StateRow &row)
+    {
+      row(number, vtu, hdf5);
+    }
 
   private:
     void

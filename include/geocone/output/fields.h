@@ -45,6 +45,13 @@ namespace geocone
           const MaterialPoints &points,
           const Kinematics     &kinematics);
 
+    /** The series so far, for a checkpoint. */
+    void
+    state(StateRow &row)
+    {
+      row(cells, point_clouds);
+    }
+
   private:
     FieldFiles cells, point_clouds;
   };

@@ -6,6 +6,8 @@
 
 #include <geocone/base/files.h>
 #include <geocone/base/log.h>
+#include <geocone/base/run_options.h>
+#include <geocone/base/state_row.h>
 #include <geocone/output/expectations.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -86,16 +88,18 @@ namespace geocone
 
     unsigned int verbosity = 1;
 
+    /** What the tables and the summary of the rest of the run need of what was
+     *  before, for a checkpoint. */
+    virtual void
+    state_of_run(StateRow &row);
+
   protected:
     /**
      * Checks the parameters and makes the folder.
-     * @param default_name name of the parameter file without its ending
-     * @param folder_of_call folder from the command line; empty: none
      * @throws InputError if it exists and may not be used, or cannot be written
      */
     void
-    make_folder(const std::string &default_name,
-                const std::string &folder_of_call);
+    make_folder(const RunOptions &options);
 
     /**
      * Writes summary.json, with the topics "run" and "warnings" of every run.
@@ -116,6 +120,8 @@ namespace geocone
 
     std::string path;
     std::string name;
+    std::string parameter_file;
+    bool        resumes = false; ///< whether the folder is that of a run before
     bool        with_fields      = true;
     std::string fields_format    = "vtu";
     std::string report_for_tests = "none";

@@ -38,6 +38,13 @@ namespace geocone
   make_run_folder(const MPI_Comm     comm,
                   const std::string &wanted,
                   const IfExists     if_exists);
+
+  /**
+   * Enters the folder of a run that goes on.
+   * @throws InputError if it is not one, or its run has not ended
+   */
+  void
+  enter_run_folder(const MPI_Comm comm, const std::string &path);
 } // namespace geocone
 
 #endif

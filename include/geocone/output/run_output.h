@@ -33,6 +33,24 @@ namespace geocone
     std::vector<double> moments;   ///< of the same
     std::vector<dealii::Tensor<1, dim>> displacements; ///< of observed points
     StepReport last; ///< of the last substep; works are of the step
+
+    void
+    state(StateRow &row)
+    {
+      row(step,
+          substeps,
+          failures,
+          iterations,
+          regularised,
+          resets,
+          time,
+          displacement,
+          load,
+          reactions,
+          moments,
+          displacements,
+          last);
+    }
   };
 
   /** How a stage ended that was to go on until failure. */
@@ -55,15 +73,14 @@ namespace geocone
     RunOutput(const MPI_Comm comm, Log &log);
 
     /**
-     * Makes the folder.
-     * @param default_name name of the parameter file without its ending
-     * @param folder_of_call folder from the command line; empty: none
+     * Makes the folder, or enters that of the run before.
      * @throws InputError if it exists and may not be used, or cannot be written
      */
     void
-    prepare(const std::string &default_name,
-            const std::string &folder_of_call,
-            const Scene       &scene);
+    prepare(const RunOptions &options, const Scene &scene);
+
+    void
+    state_of_run(StateRow &row) override;
 
     /** The energy that the losses start from. */
     void

@@ -4,6 +4,8 @@
 #ifndef geocone_solvers_solver_report_h
 #define geocone_solvers_solver_report_h
 
+#include <geocone/base/state_row.h>
+
 #include <string>
 #include <vector>
 
@@ -37,6 +39,19 @@ namespace geocone
     std::vector<NewtonIteration> table;
     std::string                  reason; ///< why it did not converge
     std::string                  remedy; ///< what may help, if it is known
+
+    /** All but the table, for checkpoints. */
+    void
+    state(StateRow &row)
+    {
+      row(converged,
+          iterations,
+          factorisations,
+          regularised,
+          residual,
+          friction_lag,
+          at_rounding_floor);
+    }
 
     /** Puts what was tried before in front. */
     void

@@ -4,6 +4,7 @@
 #ifndef geocone_time_stepping_explicit_mpm_h
 #define geocone_time_stepping_explicit_mpm_h
 
+#include <geocone/base/archive.h>
 #include <geocone/discretisation/background_mesh.h>
 #include <geocone/discretisation/outflow.h>
 #include <geocone/discretisation/point_arrays.h>
@@ -42,6 +43,27 @@ namespace geocone
     unsigned int       limiting_id = 0;
     dealii::Point<dim> limiting_place;
     double             limiting_wave_speed = 0.;
+
+    void
+    state(StateRow &row)
+    {
+      row(n_points,
+          mass,
+          volume,
+          kinetic,
+          potential,
+          momentum,
+          angular_momentum,
+          lower,
+          upper,
+          left_front,
+          right_front,
+          largest_speed,
+          largest_plastic_strain,
+          limiting_id,
+          limiting_place,
+          limiting_wave_speed);
+    }
   };
 
   /** What happened between two records. */
@@ -55,6 +77,12 @@ namespace geocone
 
     /** Mean force on the body per condition, and mean moment. */
     std::vector<Reaction> reactions;
+
+    void
+    state(StateRow &row)
+    {
+      row(n_steps, smallest_step, largest_step, unbalanced_force, reactions);
+    }
   };
 
   /**
@@ -97,7 +125,8 @@ namespace geocone
     begin_stage(const Stage &stage, const double t);
 
     /**
-     * Steps from t to t + h.
+     * Steps from t to t + h, or from where it was stopped to t + h.
+     * @throws Stopped, at the end of an explicit step
      * @throws StepFailure where points leave the grid, volumes vanish, values are
      * not finite, or a prescribed step is unstable
      */
@@ -144,6 +173,17 @@ namespace geocone
     {
       return order_name;
     }
+
+    /** @name The state, as part of a checkpoint. Collective. */
+    /** @{ */
+    void
+    save(Archive &archive);
+
+    /** In place of what prepare() has seeded.
+     *  @throws RunError if it does not fit */
+    void
+    load(const Archive &archive);
+    /** @} */
 
     /** Bytes of points and nodes of this rank. */
     std::size_t
@@ -333,7 +373,29 @@ namespace geocone
     bool         must_refresh  = true;
     unsigned int since_refresh = 0;
     bool         some_left     = false; ///< some points have no mass
+    int          asked_to_stop = 0;     ///< signal, after gather_sums()
     std::string  obstacle;              ///< why this rank cannot go on
+
+    /** What has been done of a step of the loading programme. */
+    struct Progress
+    {
+      bool           begun = false;
+      double         now   = 0.; ///< (s)
+      ExplicitReport report;
+    };
+    Progress progress;
+
+    /** The points of a checkpoint that this rank takes. Collective. */
+    std::vector<double>
+    points_of_rank(const Archive     &archive,
+                   const std::string &name,
+                   const std::size_t  size) const;
+
+    /** All numbers that are state, but for the points. */
+    void
+    state_of_ranks(StateRow &row);
+    void
+    state_of_all(StateRow &row);
 
     /** Kinetic damping: the kinetic energy of the steps before. */
     double energy_n = 0.;

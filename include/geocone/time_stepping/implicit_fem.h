@@ -48,6 +48,19 @@ namespace geocone
             const double           t,
             const double           h) override;
 
+    void
+    save(Archive              &archive,
+         const BackgroundMesh &mesh,
+         const Space          &space,
+         Kinematics           &kinematics,
+         const MaterialPoints &points) override;
+    void
+    load(const Archive        &archive,
+         const BackgroundMesh &mesh,
+         const Space          &space,
+         Kinematics           &kinematics,
+         MaterialPoints       &points) override;
+
     unsigned int
     n_unknowns() const override
     {

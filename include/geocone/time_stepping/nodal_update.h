@@ -36,6 +36,22 @@ namespace geocone
     double stopped_energy = 0.;
 
     unsigned long small_masses = 0; ///< nodes passed over as massless
+
+    void
+    state(StateRow &row)
+    {
+      row(stress_work,
+          gravity_work,
+          damping_work,
+          support_work,
+          impulse,
+          removed_mass,
+          removed_momentum,
+          removed_energy,
+          removed_potential,
+          stopped_energy,
+          small_masses);
+    }
   };
 
   /**
@@ -101,6 +117,15 @@ namespace geocone
      *  their moments about GridTransfer::centres (N m s/m). */
     std::vector<Reaction>
     take_support_impulses();
+
+    /** What this rank has summed up since, for a checkpoint. */
+    void
+    state(StateRow &row)
+    {
+      for (Reaction &impulse : support_impulse)
+        row(impulse);
+      row(unbalanced);
+    }
 
   private:
     /** read = write/mass, and no change. */

@@ -4,6 +4,7 @@
 #ifndef geocone_time_stepping_time_stepper_h
 #define geocone_time_stepping_time_stepper_h
 
+#include <geocone/base/archive.h>
 #include <geocone/mechanics/constraints.h>
 #include <geocone/solvers/nonsmooth_newton.h>
 #include <geocone/time_stepping/freezer.h>
@@ -38,6 +39,12 @@ namespace geocone
     {
       return kinetic + elastic + potential;
     }
+
+    void
+    state(StateRow &row)
+    {
+      row(kinetic, elastic, potential, external_work, dissipation);
+    }
   };
 
   /** What a step came to. Nothing has changed if it did not converge. */
@@ -65,6 +72,21 @@ namespace geocone
      * relative to its largest term.
      */
     double identity_error = 0.;
+
+    void
+    state(StateRow &row)
+    {
+      row(converged,
+          newton,
+          quality,
+          energies,
+          reactions,
+          unknowns,
+          multipliers,
+          rows,
+          largest_plastic_strain,
+          identity_error);
+    }
   };
 
   /** sum V s'Ss/2 over the points of all ranks (J/m). */
@@ -72,6 +94,22 @@ namespace geocone
   elastic_energy(const MaterialPoints &points,
                  const Materials      &materials,
                  const MPI_Comm        comm);
+
+  /** @name Values at the nodes, as part of a checkpoint. Collective. */
+  /** @{ */
+  void
+  save_nodes(Archive              &archive,
+             const std::string    &name,
+             const BackgroundMesh &mesh,
+             const Space          &space,
+             const Vector         &values);
+  void
+  load_nodes(const Archive        &archive,
+             const std::string    &name,
+             const BackgroundMesh &mesh,
+             const Space          &space,
+             Vector               &values);
+  /** @} */
 
   /** Largest cumulative plastic strain of the points of all ranks. */
   double
@@ -132,6 +170,26 @@ namespace geocone
     /** Lets displacements and plastic strains count from now. */
     void
     reset(Kinematics &kinematics, MaterialPoints &points) const;
+
+    /** @name The state of motion and points, as part of a checkpoint.
+     *  Collective. */
+    /** @{ */
+    virtual void
+    save(Archive              &archive,
+         const BackgroundMesh &mesh,
+         const Space          &space,
+         Kinematics           &kinematics,
+         const MaterialPoints &points) = 0;
+
+    /** In place of what prepare() has made.
+     *  @throws RunError if it does not fit */
+    virtual void
+    load(const Archive        &archive,
+         const BackgroundMesh &mesh,
+         const Space          &space,
+         Kinematics           &kinematics,
+         MaterialPoints       &points) = 0;
+    /** @} */
 
     virtual unsigned int
     n_unknowns() const = 0;

@@ -1,0 +1,164 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_base_state_row_h
+#define geocone_base_state_row_h
+
+#include <geocone/base/exceptions.h>
+
+#include <array>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * Variables as a row of numbers for a checkpoint. The same list of variables
+   * writes a row and reads it again, so that each is named once:
+   *   void state(StateRow &row) { row(time, step, records); }
+   * Numbers that are exact as doubles, texts, arrays, vectors and tensors of them,
+   * and classes with a function state(StateRow &).
+   */
+  class StateRow
+  {
+  public:
+    /** To be written. */
+    StateRow()
+      : reads(false)
+    {}
+
+    /** To be read. */
+    explicit StateRow(std::vector<double> values)
+      : reads(true)
+      , row(std::move(values))
+    {}
+
+    bool
+    is_read() const
+    {
+      return reads;
+    }
+
+    const std::vector<double> &
+    values() const
+    {
+      return row;
+    }
+
+    /** Whether all that was written has been read. */
+    bool
+    at_end() const
+    {
+      return next == row.size();
+    }
+
+    template <typename... T>
+    void
+    operator()(T &...variables)
+    {
+      (item(variables), ...);
+    }
+
+  private:
+    template <typename T>
+    using HasState =
+      decltype(std::declval<T &>().state(std::declval<StateRow &>()));
+
+    template <typename T, typename = void>
+    struct IsClass : std::false_type
+    {};
+    template <typename T>
+    struct IsClass<T, std::void_t<HasState<T>>> : std::true_type
+    {};
+
+    template <typename T>
+    void
+    item(T &x)
+    {
+      if constexpr (std::is_arithmetic_v<T>)
+        {
+          double value = static_cast<double>(x);
+          number(value);
+          x = static_cast<T>(value);
+        }
+      else if constexpr (IsClass<T>::value)
+        x.state(*this);
+      else
+        // A tensor, or a point.
+        for (unsigned int d = 0; d < T::dimension; ++d)
+          item(x[d]);
+    }
+
+    template <typename T>
+    void
+    item(std::vector<T> &list)
+    {
+      resize(list);
+      for (T &x : list)
+        item(x);
+    }
+
+    void
+    item(std::string &text)
+    {
+      resize(text);
+      for (char &c : text)
+        item(c);
+    }
+
+    template <typename T, std::size_t n>
+    void
+    item(std::array<T, n> &list)
+    {
+      for (T &x : list)
+        item(x);
+    }
+
+    template <typename A, typename B>
+    void
+    item(std::pair<A, B> &two)
+    {
+      item(two.first);
+      item(two.second);
+    }
+
+    template <typename List>
+    void
+    resize(List &list)
+    {
+      double n = list.size();
+      number(n);
+      if (reads)
+        {
+          if (!(n >= 0. && n <= static_cast<double>(row.size())))
+            fail();
+          list.resize(static_cast<std::size_t>(n));
+        }
+    }
+
+    void
+    number(double &x)
+    {
+      if (!reads)
+        row.push_back(x);
+      else if (next < row.size())
+        x = row[next++];
+      else
+        fail();
+    }
+
+    [[noreturn]] static void
+    fail()
+    {
+      throw RunError("a row of its numbers is of another length");
+    }
+
+    const bool          reads;
+    std::vector<double> row;
+    std::size_t         next = 0;
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,123 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_implicit_simulation_h
+#define geocone_implicit_simulation_h
+
+#include <geocone/output/exact_solution.h>
+#include <geocone/output/run_output.h>
+#include <geocone/simulation.h>
+#include <geocone/time_stepping/implicit_fem.h>
+#include <geocone/time_stepping/implicit_mpm.h>
+
+namespace geocone
+{
+  /**
+   * How failed steps are cut and grow again. A step of the loading programme is
+   * reached in substeps: a failed one is halved, an easy one lets the next grow
+   * by half, up to the whole step.
+   */
+  class StepControl : public dealii::ParameterAcceptor
+  {
+  public:
+    StepControl();
+
+    void
+    prepare();
+
+    unsigned int max_halvings    = 9;
+    unsigned int easy_iterations = 12;
+  };
+
+  /**
+   * A run of the finite element method or the implicit material point method. A
+   * step of the loading programme is reached in substeps (StepControl).
+   */
+  class ImplicitSimulation : public Simulation
+  {
+  public:
+    ImplicitSimulation(const MPI_Comm       comm,
+                       const ParameterFile &file,
+                       Log                 &log);
+
+    OutputBase &
+    output() override
+    {
+      return run_output;
+    }
+
+  private:
+    std::vector<std::string>
+    prepare(const RunOptions &options) override;
+    void
+    prepare_output(const RunOptions &options) override;
+    std::string
+    headline(const std::string &name) const override;
+    void
+    begin_stage(const Stage &stage, const double t) override;
+    Ended
+    advance(const Stage &stage, const Place &place, const double h) override;
+    void
+    record(const Stage &stage, const Place &place) override;
+    std::string
+    progress() const override;
+    bool
+    has_fields_at_start() const override;
+    void
+    write_fields(const double t) override;
+    void
+    write_summary(const std::string &status) override;
+    void
+    finish(const double t) override;
+    void
+    save(Archive &archive) override;
+    void
+    load(const Archive &archive) override;
+
+    /** From t to t + h, in substeps. @throws StepFailure */
+    void
+    solve_step(const unsigned int step, const double t, const double h);
+
+    /** Halves the substep after a failed one of this size.
+     *  @throws StepFailure if it has been halved too often */
+    void
+    cut(const unsigned int step,
+        const double       t,
+        const double       h,
+        const double       size,
+        const SolverReport &report);
+
+    Json
+    size() const;
+    Json
+    cost() const;
+
+    BackgroundMesh  mesh;
+    Space           space;
+    NonsmoothNewton newton;
+    ImplicitFEM     implicit_fem;
+    ImplicitMPM     implicit_mpm;
+    TimeStepper    *stepper = nullptr; ///< the one of the method
+    StepControl     step_control;
+    Freezer         freezer;
+    ExactSolution   exact_solution;
+    ObservedPoints  observed_points;
+    RunOutput       run_output;
+
+    /** @name State */
+    /** @{ */
+    Kinematics     kinematics;
+    MaterialPoints points;
+    double         substep = 0.; ///< to be tried next (s)
+    double         last_size = 0.; ///< of the present or last step (s)
+    double         done    = 0.; ///< of the present step (s)
+    StepRecord     present;      ///< of the present step, or the last one
+    double         reached = 0.; ///< time of the last substep solved (s)
+    /** @} */
+
+    dealii::TimerOutput timer;
+    unsigned int        n_factorisations = 0;
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,151 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/checkpoint.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include <zlib.h>
+
+namespace geocone
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+
+    const std::string prefix = "checkpoint-", ending = ".h5";
+
+    /** Those in a folder, the last one first. */
+    std::vector<std::string>
+    checkpoints_in(const std::string &folder)
+    {
+      std::vector<std::string> names;
+      std::error_code          error;
+      for (const auto &entry : fs::directory_iterator(folder, error))
+        {
+          const std::string name = entry.path().filename().string();
+          if (name.size() > prefix.size() + ending.size() &&
+              name.compare(0, prefix.size(), prefix) == 0 &&
+              name.compare(name.size() - ending.size(),
+                           ending.size(),
+                           ending) == 0 &&
+              name.find_first_not_of("0123456789", prefix.size()) ==
+                name.size() - ending.size())
+            names.push_back(name);
+        }
+      // Numbers have the same number of digits, or more.
+      std::sort(names.begin(),
+                names.end(),
+                [](const std::string &a, const std::string &b) {
+                  return a.size() != b.size() ? a.size() > b.size() : a > b;
+                });
+      return names;
+    }
+
+    /** What a checkpoint must fit to: the parameters as used, but for those of
+     *  the output that may change. */
+    std::string
+    digest(const std::string &folder)
+    {
+      std::ifstream     in(folder + "/parameters.prm");
+      const std::string text((std::istreambuf_iterator<char>(in)), {});
+      return std::to_string(text.size()) + "-" +
+             std::to_string(crc32(
+               0, reinterpret_cast<const Bytef *>(text.data()), text.size()));
+    }
+  } // namespace
+
+  Checkpoint::Checkpoint()
+    : ParameterAcceptor("/Checkpoint")
+  {
+    add_parameter("Every steps",
+                  every_steps,
+                  "A checkpoint after so many steps of the programme, from "
+                  "which 'geocone --resume FOLDER' goes on; 0: none. A run "
+                  "that is stopped by Ctrl-C or SIGTERM writes one, too.");
+    add_parameter("Every minutes",
+                  every_minutes,
+                  "A checkpoint at the first step after so many minutes; 0: "
+                  "none.",
+                  prm,
+                  dealii::Patterns::Double(0.));
+    add_parameter("Keep",
+                  keep,
+                  "How many are kept: the older ones are deleted.",
+                  prm,
+                  dealii::Patterns::Integer(1));
+  }
+
+  void
+  Checkpoint::prepare(const MPI_Comm comm_)
+  {
+    comm = comm_;
+    last = std::chrono::steady_clock::now();
+  }
+
+  bool
+  Checkpoint::is_due(const unsigned int step)
+  {
+    if (every_steps > 0 && step % every_steps == 0)
+      return true;
+    if (every_minutes == 0.)
+      return false;
+    const std::chrono::duration<double> since =
+      std::chrono::steady_clock::now() - last;
+    return dealii::Utilities::MPI::broadcast(
+      comm, since.count() > 60. * every_minutes);
+  }
+
+  void
+  Checkpoint::write(const std::string                    &folder,
+                    const unsigned int                    step,
+                    const std::function<void(Archive &)> &save)
+  {
+    const std::string name =
+      folder + "/" + prefix + format("%06u", step) + ending;
+    Archive archive(comm, name, digest(folder));
+    save(archive);
+    archive.close();
+    last = std::chrono::steady_clock::now();
+    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+      {
+        const std::vector<std::string> names = checkpoints_in(folder);
+        std::error_code                ignored;
+        for (std::size_t i = keep; i < names.size(); ++i)
+          fs::remove(folder + "/" + names[i], ignored);
+      }
+  }
+
+  void
+  Checkpoint::read(const std::string                          &folder,
+                   Log                                        &log,
+                   const std::function<void(const Archive &)> &load)
+  {
+    const std::vector<std::string> names =
+      dealii::Utilities::MPI::broadcast(comm, checkpoints_in(folder));
+    for (const std::string &name : names)
+      {
+        std::string why_not;
+        const auto  archive =
+          Archive::open(comm, folder + "/" + name, digest(folder), why_not);
+        if (archive)
+          return load(*archive);
+        log.warn("the checkpoint '" + name + "' is left out: " +
+                 why_not.substr(0, why_not.find('\n')));
+      }
+    throw InputError("--resume",
+                     folder,
+                     "the folder of a run with a checkpoint-NNNNNN.h5",
+                     names.empty() ?
+                       "there is none: set 'Checkpoint/Every steps' or 'Every "
+                       "minutes' in the parameter file, and run it anew" :
+                       "none of those that are there can be read: run it anew");
+  }
+} // namespace geocone

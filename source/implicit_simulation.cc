@@ -1,0 +1,416 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/stop_request.h>
+#include <geocone/implicit_simulation.h>
+#include <geocone/output/run_status.h>
+#include <geocone/run_estimate.h>
+
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <iostream>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Says if points start with a stress that their soil cannot bear: the first
+     *  step then begins with a jump to another one. Collective. */
+    std::string
+    outside_strength(const MaterialPoints &points,
+                     const Materials      &materials,
+                     const MPI_Comm        comm)
+    {
+      unsigned int n = 0, first = materials.size();
+      for (unsigned int p = 0; p < points.n_points(); ++p)
+        if (const auto cone = materials[points.material[p]].flow_cone())
+          if (cone->yield_function(to_cone_axes(points.stress[p])) >
+              1e-6 * points.stress[p].norm())
+            {
+              ++n;
+              first = std::min(first, points.material[p]);
+            }
+      n     = Utilities::MPI::sum(n, comm);
+      first = Utilities::MPI::min(first, comm);
+      if (n == 0)
+        return "";
+      return format("the initial stress of %u points is outside of the "
+                    "strength, e.g. of the material '",
+                    n) +
+             materials.name(first) +
+             "': the first step jumps to another one; set 'Initial stress/K0' "
+             "= "
+             "automatic where it is geostatic, or change the stress or the "
+             "strength";
+    }
+  } // namespace
+
+  StepControl::StepControl()
+    : ParameterAcceptor("/Time stepping")
+  {
+    add_parameter("Maximum halvings",
+                  max_halvings,
+                  "How often a step may be halved before the run gives up.");
+    add_parameter(
+      "Easy iterations",
+      easy_iterations,
+      "After a substep with at most so many iterations the next one "
+      "is half as long again, up to the whole step.");
+  }
+
+  void
+  StepControl::prepare()
+  {
+    if (max_halvings > 30)
+      throw InputError("Time stepping/Maximum halvings",
+                       max_halvings,
+                       "0 to 30",
+                       "9 is usual");
+  }
+
+  ImplicitSimulation::ImplicitSimulation(const MPI_Comm       comm,
+                                         const ParameterFile &file,
+                                         Log                 &log)
+    : Simulation(comm, file, log)
+    , mesh(comm)
+    , implicit_mpm(file)
+    , run_output(comm, log)
+    , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
+  {}
+
+  std::vector<std::string>
+  ImplicitSimulation::prepare(const RunOptions &options)
+  {
+    scene.materials.check_closed_form(method.name);
+    for (const auto &stage : scene.loading.stages)
+      stage->check_implicit();
+    newton.prepare();
+    step_control.prepare();
+    exact_solution.prepare();
+    Seeding *seeding = method.is_mpm() ? &implicit_mpm.seeding() : nullptr;
+    const RunEstimate estimate =
+      estimate_run(scene, method, mesh, seeding, run_output.fields_asked());
+    log.print(options.name + ": " + estimate.text());
+    estimate.check(options.force);
+    mesh.prepare(scene, method);
+    space.prepare(mesh, method);
+    if (method.is_mpm())
+      stepper = &implicit_mpm;
+    else
+      stepper = &implicit_fem;
+    std::vector<std::string> warnings = {
+      stepper->prepare(scene, mesh, space, newton, timer, kinematics, points),
+      outside_strength(points, scene.materials, comm)};
+    warnings.erase(std::remove(warnings.begin(), warnings.end(), ""),
+                   warnings.end());
+    if (method.is_mpm())
+      observed_points.prepare_points(scene, points, comm);
+    else
+      observed_points.prepare_field(scene, mesh, space);
+    if (freezer.is_used())
+      for (const auto &condition : scene.dirichlet.list)
+        condition->refuse_normal("free where problems are frozen",
+                                 "give Velocity x and y, or leave 'Output/"
+                                 "Freeze steps' and 'Freeze failures' out");
+    freezer.check(scene.loading);
+    return warnings;
+  }
+
+  void
+  ImplicitSimulation::prepare_output(const RunOptions &options)
+  {
+    run_output.prepare(options, scene);
+    freezer.prepare(run_output.folder());
+    run_output.set_initial_energy(
+      stepper->state_energies(kinematics, points, 0.));
+  }
+
+  std::string
+  ImplicitSimulation::headline(const std::string &name) const
+  {
+    return format("%s: %s, %s, %u unknowns, %u points, %s, %u rank%s, solver "
+                  "%s",
+                  name.c_str(),
+                  method.name.c_str(),
+                  space.element().c_str(),
+                  stepper->n_unknowns(),
+                  Utilities::MPI::sum(points.n_points(), comm),
+                  stepper->has_inertia() ? "with inertia" : "quasi-static",
+                  Utilities::MPI::n_mpi_processes(comm),
+                  Utilities::MPI::n_mpi_processes(comm) > 1 ? "s" : "",
+                  stepper->linear_solver_name().c_str());
+  }
+
+  bool
+  ImplicitSimulation::has_fields_at_start() const
+  {
+    return method.is_mpm();
+  }
+
+  void
+  ImplicitSimulation::begin_stage(const Stage &stage, const double)
+  {
+    if (stage.reset_displacement)
+      stepper->reset(kinematics, points);
+    substep = stage.step_sizes()[0];
+  }
+
+  Simulation::Ended
+  ImplicitSimulation::advance(const Stage &stage,
+                              const Place &place,
+                              const double h)
+  {
+    const unsigned int step = place.step + 1;
+    if (done == 0.)
+      {
+        present      = {};
+        present.step = step;
+        present.time = place.time + h;
+        // A substep that stood for a whole step grows with the steps.
+        if (place.in_stage > 0 && substep >= last_size * (1. - 1e-6))
+          substep = h;
+        substep   = std::min(substep, h);
+        last_size = h;
+      }
+    try
+      {
+        solve_step(step, place.time, h);
+      }
+    catch (const StepFailure &failure)
+      {
+        if (!stage.until_failure)
+          throw;
+        run_output.set_failure(
+          {stage.name, reached, reached + 2. * substep, failure.what()});
+        write_fields(reached);
+        return Ended::run;
+      }
+    done = 0.;
+    return Ended::well;
+  }
+
+  void
+  ImplicitSimulation::solve_step(const unsigned int step,
+                                 const double       t,
+                                 const double       h)
+  {
+    freezer.set_step(step);
+    while (done < h)
+      {
+        // Land on the end of the step exactly, without a sliver before it.
+        stop_if_asked(comm);
+        const double left   = h - done;
+        const double size   = left <= substep * (1. + 1e-6) ? left : substep;
+        StepReport   report = stepper->advance(
+          kinematics, points, newton, freezer, timer, t + done, size);
+        run_output.add_newton_table(step, t + done + size, size, report);
+        present.iterations += report.newton.iterations;
+        n_factorisations += report.newton.factorisations;
+        present.regularised += report.newton.regularised;
+        if (!report.converged)
+          {
+            ++present.failures;
+            cut(step, t + done, h, size, report.newton);
+            continue;
+          }
+        done    = size == left ? h : done + size;
+        reached = t + done;
+        ++present.substeps;
+        // Works add up over the substeps, and the worst of them counts.
+        report.energies.external_work += present.last.energies.external_work;
+        report.energies.dissipation += present.last.energies.dissipation;
+        report.identity_error =
+          std::max(report.identity_error, present.last.identity_error);
+        report.quality.take_worse(present.last.quality);
+        report.newton.residual =
+          std::max(report.newton.residual, present.last.newton.residual);
+        report.newton.at_rounding_floor |= present.last.newton.at_rounding_floor;
+        const double last_lag      = report.newton.friction_lag;
+        report.newton.friction_lag = std::max(report.newton.friction_lag,
+                                              present.last.newton.friction_lag);
+        present.last                = std::move(report);
+        // Friction that lags stands for what smaller steps did not solve.
+        if (present.last.newton.iterations <= step_control.easy_iterations ||
+            last_lag > 0.)
+          substep = std::min(h, 1.5 * substep);
+      }
+  }
+
+  void
+  ImplicitSimulation::cut(const unsigned int  step,
+                          const double        t,
+                          const double        h,
+                          const double        size,
+                          const SolverReport &report)
+  {
+    substep = size / 2.;
+    if (run_output.verbosity >= 2)
+      log.print("    cut: " + report.reason);
+    else if (run_output.verbosity == 1)
+      log.progress(format("step %u  t = %.4g s  cut to %.3g s, %u "
+                          "iterations so far",
+                          step,
+                          t,
+                          substep,
+                          present.iterations));
+    const double smallest = h * std::pow(0.5, step_control.max_halvings);
+    if (substep >= smallest * (1. - 1e-6))
+      return;
+    const std::string jump =
+      step == 1 ? outside_strength(points, scene.materials, comm) : "";
+    throw StepFailure(
+      format("the step %u failed at t = %.6g s, also when cut to "
+             "%.3g s ('Time stepping/Maximum halvings' = %u):\n  ",
+             step,
+             t,
+             size,
+             step_control.max_halvings) +
+      report.reason + (jump.empty() ? "" : "\n  cause:   " + jump) +
+      "\n  remedy:  " +
+      (report.remedy.empty() ?
+         "take smaller steps, allow more halvings or iterations, or "
+         "check whether the body can carry its loads" :
+         report.remedy));
+  }
+
+  void
+  ImplicitSimulation::record(const Stage &stage, const Place &place)
+  {
+    const Observation &observation = scene.observation;
+    present.resets = place.in_stage == 1 && stage.reset_displacement;
+    for (const unsigned int c : observation.conditions)
+      {
+        const Reaction &reaction = present.last.reactions[c];
+        for (unsigned int d = 0; d < dim; ++d)
+          present.reactions.push_back(reaction.force[d]);
+        present.moments.push_back(reaction.moment);
+      }
+    present.displacements =
+      observed_points.displacements(points, kinematics.displacement);
+    if (!observation.conditions.empty())
+      {
+        const double sign = observation.factor < 0. ? -1. : 1.;
+        present.displacement =
+          sign * kinematics.supports[observation.conditions[0]]
+                                    [observation.component];
+        present.load =
+          observation.factor * present.reactions[observation.component];
+      }
+    run_output.add_step(present);
+  }
+
+  std::string
+  ImplicitSimulation::progress() const
+  {
+    const std::string result =
+      scene.observation.conditions.empty() ?
+        format("kinetic energy = %.3g J/m  plastic strain <= %.3g",
+               present.last.energies.kinetic,
+               present.last.largest_plastic_strain) :
+        format("u = %.4g mm  load = %.1f N/m",
+               1e3 * present.displacement,
+               present.load);
+    return result +
+           format("  %u iterations%s",
+                  present.iterations,
+                  present.last.newton.friction_lag > 0. ? " (friction lags)" :
+                                                         "");
+  }
+
+  void
+  ImplicitSimulation::write_fields(const double t)
+  {
+    run_output.write_fields(t, mesh, space, points, kinematics);
+  }
+
+  void
+  ImplicitSimulation::write_summary(const std::string &status)
+  {
+    run_output.write_summary(status, size(), cost());
+  }
+
+  void
+  ImplicitSimulation::finish(const double t)
+  {
+    if (exact_solution.is_given())
+      run_output.set_field_errors(
+        exact_solution.errors(mesh, space, points, kinematics.displacement, t));
+    write_summary("finished");
+    run_output.print_result();
+    const Json costs = cost();
+    log.print(format(
+      "%.1f s in all; step loop %.2f s = %.2f x its factorisations and solves; "
+      "%.0f MB at most",
+      costs["total_s"].get<double>(),
+      costs["step_loop_s"].get<double>(),
+      costs["ratio_to_factorise_and_solve"].is_null() ?
+        0. :
+        costs["ratio_to_factorise_and_solve"].get<double>(),
+      costs["peak_memory_MB"].get<double>()));
+  }
+
+  void
+  ImplicitSimulation::save(Archive &archive)
+  {
+    StateRow row;
+    row(substep, last_size, done, present, reached);
+    archive.write_row("step", row);
+    stepper->save(archive, mesh, space, kinematics, points);
+  }
+
+  void
+  ImplicitSimulation::load(const Archive &archive)
+  {
+    StateRow row = archive.read_row("step");
+    row(substep, last_size, done, present, reached);
+    stepper->load(archive, mesh, space, kinematics, points);
+  }
+
+  Json
+  ImplicitSimulation::size() const
+  {
+    return {{"method", method.name},
+            {"element", space.element()},
+            {"cells", mesh.triangulation().n_global_active_cells()},
+            {"dofs", stepper->n_unknowns()},
+            {"points", Utilities::MPI::sum(points.n_points(), comm)},
+            {"lost_points", stepper->n_lost()},
+            {"nonzeros", Utilities::MPI::sum(stepper->n_nonzeros(), comm)},
+            {"ranks", Utilities::MPI::n_mpi_processes(comm)}};
+  }
+
+  Json
+  ImplicitSimulation::cost() const
+  {
+    std::map<std::string, double> seconds =
+      timer.get_summary_data(TimerOutput::total_wall_time);
+    const double linear = seconds["factorise"] + seconds["solve"];
+    const double steps  = step_loop.wall_time();
+    // Of this program: getrusage() begins with what the calling one had.
+    Utilities::System::MemoryStats memory;
+    Utilities::System::get_memory_stats(memory);
+    const double megabytes =
+      Utilities::MPI::sum(memory.VmHWM / 1024., comm); // from kB
+    return {{"total_s", total.wall_time()},
+            {"cpu_s", Utilities::MPI::sum(cpu_time_of_rank(), comm)},
+            {"step_loop_s", steps},
+            {"residual_s", seconds["residual"]},
+            {"assembly_s", seconds["assemble"]},
+            {"analyse_s", seconds["analyse"]},
+            {"factorise_s", seconds["factorise"]},
+            {"solve_s", seconds["solve"]},
+            {"commit_s", seconds["commit"]},
+            {"transfer_s", seconds["transfer"]},
+            {"output_s", output_time.wall_time()},
+            {"linear_solver", stepper->linear_solver_name()},
+            {"factorisations", n_factorisations},
+            {"ratio_to_factorise_and_solve",
+             linear > 0. ? Json(steps / linear) : Json()},
+            {"peak_memory_MB", megabytes}};
+  }
+} // namespace geocone
