@@ -11,6 +11,7 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <iostream>
 
 namespace geocone
@@ -166,8 +167,9 @@ namespace geocone
                               const double h)
   {
     const unsigned int step = place.step + 1;
-    if (done == 0.)
+    if (!is_in_step)
       {
+        is_in_step   = true;
         present      = {};
         present.step = step;
         present.time = place.time + h;
@@ -190,7 +192,8 @@ namespace geocone
         write_fields(reached);
         return Ended::run;
       }
-    done = 0.;
+    done       = 0.;
+    is_in_step = false;
     return Ended::well;
   }
 
@@ -358,7 +361,7 @@ namespace geocone
   ImplicitSimulation::save(Archive &archive)
   {
     StateRow row;
-    row(substep, last_size, done, present, reached);
+    row(substep, last_size, done, is_in_step, present, reached);
     archive.write_row("step", row);
     stepper->save(archive, mesh, space, kinematics, points);
   }
@@ -367,7 +370,7 @@ namespace geocone
   ImplicitSimulation::load(const Archive &archive)
   {
     StateRow row = archive.read_row("step");
-    row(substep, last_size, done, present, reached);
+    row(substep, last_size, done, is_in_step, present, reached);
     stepper->load(archive, mesh, space, kinematics, points);
   }
 

@@ -111,6 +111,7 @@ namespace geocone
     double         substep = 0.; ///< to be tried next (s)
     double         last_size = 0.; ///< of the present or last step (s)
     double         done    = 0.; ///< of the present step (s)
+    bool           is_in_step = false; ///< whether the step has begun
     StepRecord     present;      ///< of the present step, or the last one
     double         reached = 0.; ///< time of the last substep solved (s)
     /** @} */

@@ -134,22 +134,20 @@ namespace geocone
     // Where dofs are turned, the problem has its vectors along them.
     if (loads->exist())
       constraints->turn(force);
-    constraints->turn(kinematics.velocity);
+    velocity_n = kinematics.velocity;
+    constraints->turn(velocity_n);
     problem->begin_step(
-      h, loads->exist() ? &force : nullptr, kinematics.velocity, prescribed);
+      h, loads->exist() ? &force : nullptr, velocity_n, prescribed);
 
     StepReport report;
     Vector     residual = problem->make_vector();
-    Vector     v        = kinematics.velocity;
+    Vector     v        = velocity_n;
     report.newton =
       newton.solve(*problem, matrix, *linear_solver, timer, v, residual, {});
     report.converged = report.newton.converged;
-    freezer.take(*problem, kinematics.velocity, false, report.converged);
+    freezer.take(*problem, velocity_n, false, report.converged);
     if (!report.converged)
-      {
-        constraints->turn_back(kinematics.velocity);
-        return report;
-      }
+      return report;
 
     TimerOutput::Scope scope(timer, "commit");
     report.unknowns = constraints->n_rows;
@@ -170,7 +168,7 @@ namespace geocone
                                 v.get_mpi_communicator(),
                                 dealii::ArrayView<double>(sums.data(), 2));
     report.identity_error = energy_identity_error(
-      *problem, points, scene->materials, kinematics.velocity, v, sums[0]);
+      *problem, points, scene->materials, velocity_n, v, sums[0]);
 
     for (unsigned int p = 0; p < points.n_points(); ++p)
       {

@@ -95,6 +95,7 @@ namespace geocone
     Vector                              lumped_mass;
     Vector                              weight_per_g;
     Vector                              force;
+    Vector                              velocity_n; ///< along turned dofs
   };
 } // namespace geocone
 

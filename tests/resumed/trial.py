@@ -1,0 +1,247 @@
+#!/usr/bin/python3
+# Copyright (C) 2026 by the geocone authors
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Kills runs at random moments, resumes them, and compares the results with those of
+runs that were left alone:
+
+    trial.py PROGRAM                        # each method once, on 1 and 2 ranks
+    trial.py PROGRAM --count 10 --seed 3    # ten times
+    trial.py PROGRAM --cases fem:kill:1 mpm:terminate:2 explicit:ranks:1
+    #                        METHOD:DEED:RANKS
+
+Deeds: kill (SIGKILL to all ranks, after the first checkpoint), terminate (SIGTERM at any
+moment, also within a step), truncate (killed, and the last checkpoint cut to half: the
+one before it must be taken), ranks (killed on RANKS, resumed on 1 or 2 others).
+
+On the same number of ranks all numbers of statistics.csv and of the summary must be the
+same bit by bit after SIGKILL, and to 1e-10 otherwise (the sums of a step that was
+stopped, or of other ranks, are added up in another order); and the series of fields must
+have the same times. Exit code 1 if anything else is found."""
+
+import argparse
+import csv
+import json
+import math
+import os
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+TESTS = Path(__file__).resolve().parents[1]
+METHODS = {
+    "fem": ("fem/footing-associated-01.prm", {
+        "Loading/push/Output every": "3"}),
+    "mpm": ("mpm/footing-segments-01.prm", {
+        "Loading/push/Output every": "3"}),
+    "explicit": ("explicit/collapse.prm", {
+        "Loading/fall/Step size": "0.02", "Loading/fall/Output every": "3"})}
+ALWAYS = {"Output/Expectations": "", "Output/Report for tests": "none",
+          "Output/Pictures": "false", "Output/Fields": "true", "Checkpoint/Every steps": "2"}
+DEEDS = ("kill", "terminate", "truncate", "ranks")
+NOT_COMPARED = {"run", "cost", "warnings"}  # of the summary
+TIMES = {"CPU time of rank 0 (s)"}
+PATIENCE = 300.  # s
+
+
+class Wrong(Exception):
+    """What is not as it must be."""
+
+
+def start(arguments, n_ranks, folder):
+    """A process of geocone."""
+    call = ["mpirun", "-np", str(n_ranks)] if n_ranks > 1 else []
+    with open(folder / "screen.txt", "ab") as screen:
+        return subprocess.Popen(call + [str(a) for a in arguments], cwd=folder,
+                                stdout=screen, stderr=screen, start_new_session=True)
+
+
+def ranks_of(group):
+    """The processes of a group that are geocone."""
+    found = []
+    for path in Path("/proc").glob("[0-9]*"):
+        try:
+            fields = (path / "stat").read_text()
+            if (int(fields.rsplit(")", 1)[1].split()[2]) == group and
+                    fields.split("(", 1)[1].startswith("geocone")):
+                found.append(int(path.name))
+        except (OSError, IndexError, ValueError):
+            pass
+    return found
+
+
+def run(program, method, n_ranks, folder):
+    """The call of a run into folder/results, as a process."""
+    file, settings = METHODS[method]
+    arguments = [program, TESTS / file, "--quiet", "--output", folder / "results"]
+    for name, value in {**settings, **ALWAYS}.items():
+        arguments += ["--set", f"{name} = {value}"]
+    return start(arguments, n_ranks, folder)
+
+
+def end_of(process, folder):
+    """Waits; the exit code."""
+    try:
+        return process.wait(PATIENCE)
+    except subprocess.TimeoutExpired:
+        os.killpg(process.pid, signal.SIGKILL)
+        raise Wrong(f"no end within {PATIENCE} s: see {folder}") from None
+
+
+def numbers(folder):
+    """All numbers of a run by name, and the times of its fields."""
+    found = {}
+    with open(folder / "statistics.csv", newline="") as file:
+        for i, row in enumerate(csv.DictReader(file), 1):
+            for name, value in row.items():
+                if name not in TIMES:
+                    found[f"statistics.csv, line {i}, {name}"] = float(value)
+
+    def collect(value, name):
+        if isinstance(value, dict):
+            for key, part in value.items():
+                collect(part, f"{name}/{key}")
+        elif isinstance(value, (int, float)) and not isinstance(value, bool):
+            found[name] = float(value)
+    summary = json.loads((folder / "summary.json").read_text())
+    if summary["status"] != "finished":
+        raise Wrong(f"status '{summary['status']}'")
+    for key, part in summary.items():
+        if key not in NOT_COMPARED:
+            collect(part, key)
+    series = [path.read_text() for path in sorted(folder.glob("*.pvd"))]
+    return found, [line.split('"')[1] for text in series for line in text.splitlines()
+                   if "timestep" in line]
+
+
+def compare(expected, results, tolerance):
+    """@throws Wrong if numbers differ by more than a part of the largest of a column."""
+    (numbers_a, times_a), (numbers_b, times_b) = expected, results
+    if times_a != times_b:
+        raise Wrong(f"the fields are of {times_b} instead of {times_a}")
+    if numbers_a.keys() != numbers_b.keys():
+        raise Wrong(f"other numbers: {sorted(numbers_a.keys() ^ numbers_b.keys())[:4]}")
+    scale = {}
+    for name, value in numbers_a.items():
+        column = name.split(", ")[-1]
+        scale[column] = max(scale.get(column, 0.), abs(value))
+    # What rounding leaves of nothing is compared with the largest of its unit.
+    largest = {}
+    for column, value in scale.items():
+        unit = column.rsplit("(", 1)[-1]
+        largest[unit] = max(largest.get(unit, 0.), value)
+    for name, value in numbers_a.items():
+        column = name.split(", ")[-1]
+        other = numbers_b[name]
+        allowed = tolerance * max(scale[column], 1e-3 * largest[column.rsplit("(", 1)[-1]])
+        if tolerance > 0. and any(word in column for word in (
+                "(-)", "newton", "quality", "residual", "identity", "least_step")):
+            continue  # counts and errors of rounding itself
+        if not (other == value or abs(other - value) <= allowed or
+                math.isnan(other) and math.isnan(value)):
+            raise Wrong(f"{name}: {other!r} instead of {value!r}")
+
+
+def interrupt(program, case, folder, seconds, chance):
+    """Starts a run and ends it by force at a random moment; whether it was running."""
+    method, deed, n_ranks = case
+    began = time.monotonic()
+    process = run(program, method, n_ranks, folder)
+    checkpoints = 2 if deed == "truncate" else 1
+    while (process.poll() is None and
+           len(list((folder / "results").glob("checkpoint-*.h5"))) < checkpoints):
+        time.sleep(0.005)
+    # Any moment from then on until about the end.
+    time.sleep(chance.random() * max(0., 0.9 * seconds - (time.monotonic() - began)))
+    ranks = ranks_of(process.pid)
+    for pid in ranks:
+        try:
+            os.kill(pid, signal.SIGTERM if deed == "terminate" else signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+    end_of(process, folder)
+    deadline = time.monotonic() + 10.
+    while True:
+        status = json.loads((folder / "results" / "summary.json").read_text())["status"]
+        if status != "running" or time.monotonic() > deadline:
+            break
+        time.sleep(0.05)
+    return not status.startswith("finished"), status
+
+
+def trial(program, case, folder, expected, seconds, chance):
+    """One case. @return what happened"""
+    method, deed, n_ranks = case
+    cut, status = interrupt(program, case, folder, seconds, chance)
+    results = folder / "results"
+    if not cut:
+        compare(expected, numbers(results), 0.)
+        return "had finished before"
+    checkpoints = sorted(results.glob("checkpoint-*.h5"))
+    last = int(checkpoints[-1].stem.split("-")[1])
+    if deed == "truncate":
+        if len(checkpoints) < 2:
+            return "no checkpoint before the last one"
+        size = checkpoints[-1].stat().st_size
+        os.truncate(checkpoints[-1], size // 2)
+    n_again = (1 if n_ranks > 1 else 2) if deed == "ranks" else n_ranks
+    code = end_of(start([program, "--resume", results, "--quiet"], n_again, folder), folder)
+    if code != 0:
+        raise Wrong(f"resumed after '{status}': exit code {code}:\n" +
+                    (folder / "screen.txt").read_text()[-600:])
+    compare(expected, numbers(results), 0. if deed in ("kill", "truncate") else 1e-10)
+    log = (results / "log.txt").read_text()
+    if "resumed at t" not in log:
+        raise Wrong("the log does not tell that it was resumed")
+    if deed == "truncate" and f"'{checkpoints[-1].name}' is left out" not in log:
+        raise Wrong("the log does not name the damaged checkpoint")
+    return f"{status.split(':')[0]}, resumed after step {last}"
+
+
+def main():
+    """Runs the cases."""
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", type=Path)
+    parser.add_argument("--output", type=Path, help="folder to work in, which is kept")
+    parser.add_argument("--count", type=int, default=1, help="how often each case is tried")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--cases", nargs="*", metavar="METHOD:DEED:RANKS",
+                        default=[f"{method}:{deed}:{n}" for method in METHODS
+                                 for deed in DEEDS for n in (1, 2)])
+    options = parser.parse_args()
+    program = options.program.resolve()
+    root = options.output or Path(tempfile.mkdtemp(prefix="resumed-"))
+    bad = 0
+    references = {}
+    for text in options.cases:
+        method, deed, n_ranks = text.split(":")
+        case = method, deed, int(n_ranks)
+        for i in range(options.count):
+            name = f"{method}-{deed}-{n_ranks}-{i}"
+            chance = random.Random(f"{options.seed} {name}")
+            folder = root / name
+            folder.mkdir(parents=True, exist_ok=True)
+            key = method, case[2]
+            if key not in references:
+                alone = root / f"{method}-alone-{n_ranks}"
+                alone.mkdir(parents=True, exist_ok=True)
+                began = time.monotonic()
+                if end_of(run(program, *key, alone), alone) != 0:
+                    sys.exit(f"error: {alone}: the run left alone has failed")
+                references[key] = numbers(alone / "results"), time.monotonic() - began
+            try:
+                print(f"{name}: {trial(program, case, folder, *references[key], chance)}",
+                      flush=True)
+            except Wrong as wrong:
+                bad += 1
+                print(f"{name}: WRONG: {wrong}", flush=True)
+    print(f"{bad} of {options.count * len(options.cases)} wrong; {root}")
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
