@@ -8,7 +8,6 @@
 
 #include <zlib.h>
 
-#include <set>
 #include <sstream>
 
 namespace geocone
@@ -53,7 +52,7 @@ namespace geocone
       {
         file = std::make_unique<Hdf5File>(file_name, Hdf5File::Access::create);
         file->write("format", format_name);
-        file->write("run", run);
+        file->write("belongs to", run);
       }
   }
 
@@ -118,7 +117,7 @@ namespace geocone
         const Hdf5File &file = *archive->file;
         if (file.read_text("format") != format_name)
           throw RunError("it is of another version of geocone");
-        if (file.read_text("run") != run)
+        if (file.read_text("belongs to") != run)
           throw RunError("it belongs to a run with other parameters");
         archive->names = file.read_text("names");
         // The others rely on what the first rank has seen.
