@@ -40,7 +40,18 @@ METHODS = {
         "Loading/push/Output every": "3"}),
     "explicit": ("explicit/collapse.prm", {
         "Loading/fall/Duration": "2.4", "Loading/fall/Step size": "0.08",
-        "Mesh/Cell size": "0.05", "Mesh/Box": "0, 0; 6, 2.4", "Loading/fall/Output every": "3"})}
+        "Mesh/Cell size": "0.05", "Mesh/Box": "0, 0; 6, 2.4", "Loading/fall/Output every": "3"}),
+    # Soil with history, stages with resets, points that are taken away in time.
+    "cut": ("explicit/slope_cut-01.prm", {
+        "Loading/settle/Duration": "2", "Loading/stand/Duration": "0.5",
+        "Loading/cut/Duration": "2", "Loading/cut/Removal duration": "1",
+        "Loading/cut/Output every": "3"}),
+    # Points that are found in the cells of any mesh.
+    "general": ("explicit/collapse-general-01.prm", {
+        "Mesh/Cell size": "0.1", "Loading/fall/Duration": "1",
+        "Loading/fall/Step size": "0.04", "Loading/fall/Output every": "3"}),
+    # A body that turns, with APIC, and implicit steps that are cut.
+    "slope": ("mpm/slope-dilatancy_free-01.prm", {})}
 ALWAYS = {"Output/Expectations": "", "Output/Report for tests": "none",
           "Output/Pictures": "false", "Output/Fields": "true", "Checkpoint/Every steps": "2"}
 DEEDS = ("kill", "terminate", "truncate", "ranks")
@@ -184,8 +195,11 @@ def interrupt(program, case, folder, seconds, chance):
 def trial(program, case, folder, expected, seconds, chance):
     """One case. @return what happened"""
     method, deed, n_ranks = case
-    exact = deed in ("kill", "truncate") and (n_ranks == 1 or method == "explicit")
-    tolerance = 0. if exact else 1e-10
+    exact = deed in ("kill", "truncate") and (
+        n_ranks == 1 or method in ("explicit", "cut", "general"))
+    # The soil model amplifies rounding near its similarity centre: runs that are left
+    # alone differ by 3e-7 on one and two ranks.
+    tolerance = 0. if exact else 1e-5 if method == "cut" else 1e-10
     cut, status = interrupt(program, case, folder, seconds, chance)
     results = folder / "results"
     if not cut:
