@@ -41,6 +41,10 @@ namespace geocone
   {
     list().folder = fs::path(folder).lexically_normal();
     list().names  = {list_of_files};
+    // Of a run that is resumed it has names already.
+    std::ifstream in(list().folder / list_of_files);
+    for (std::string name; std::getline(in, name);)
+      list().names.insert(name);
   }
 
   void
