@@ -66,7 +66,6 @@ check_unstructured(const std::string       &name,
       .cells.size();
   const bool holds = expected > n / 2. && expected < 2. * n;
   std::printf("%s: %s\n", name.c_str(), holds ? "yes" : "NO");
-  std::fprintf(stderr, "%s: %.0f for %zu\n", name.c_str(), expected, n);
 }
 
 int
