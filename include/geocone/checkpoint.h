@@ -26,7 +26,6 @@ namespace geocone
   public:
     Checkpoint();
 
-    /** @throws InputError */
     void
     prepare(const MPI_Comm comm);
 

@@ -64,7 +64,7 @@ namespace geocone
     names += name + "\n";
     checksum = add_to_checksum(checksum, name, values);
     if (!values.empty())
-      file->write(name, values);
+      file->write_plain(name, values);
   }
 
   void

@@ -136,7 +136,8 @@ namespace geocone
   Hdf5File::write_array(const std::string &name,
                         const T           *values,
                         const std::size_t  n,
-                        const std::size_t  n_columns)
+                        const std::size_t  n_columns,
+                        const bool         compressed)
   {
     // No column: an array of one dimension.
     const std::array<hsize_t, 2> size = {
@@ -144,7 +145,7 @@ namespace geocone
     const Handle space(
       H5Screate_simple(n_columns > 0 ? 2 : 1, size.data(), nullptr), H5Sclose);
     const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    if (n_columns == 0 && n > 0)
+    if (n_columns == 0 && n > 0 && compressed)
       {
         const hsize_t chunk = std::min<hsize_t>(n, chunk_size);
         H5Pset_chunk(properties, 1, &chunk);
@@ -292,6 +293,13 @@ namespace geocone
   Hdf5File::write(const std::string &name, const std::string &text)
   {
     write_array(name, text.data(), text.size(), 0);
+  }
+
+  void
+  Hdf5File::write_plain(const std::string         &name,
+                        const std::vector<double> &values)
+  {
+    write_array(name, values.data(), values.size(), 0, false);
   }
 
   void

@@ -67,8 +67,9 @@ if run --output a --set 'Output/If folder exists = overwrite' 2>refused; then ex
 grep -q 'has no files.txt of a run before' refused
 
 # Two runs that want the same folder at once do not both get it.
-run --output both 2>both1 & one=$!
-run --output both 2>both2 & two=$!
+new=(--output both --set 'Output/If folder exists = refuse')
+run "${new[@]}" 2>both1 & one=$!
+run "${new[@]}" 2>both2 & two=$!
 codes=0
 wait $one || codes=$((codes + 1))
 wait $two || codes=$((codes + 1))

@@ -39,7 +39,7 @@ METHODS = {
     "mpm": ("mpm/footing-segments-01.prm", {
         "Loading/push/Output every": "3"}),
     "explicit": ("explicit/collapse.prm", {
-        "Loading/fall/Duration": "2.4", "Loading/fall/Step size": "0.08",
+        "Loading/fall/Duration": "1.2", "Loading/fall/Step size": "0.04",
         "Mesh/Cell size": "0.05", "Mesh/Box": "0, 0; 6, 2.4", "Loading/fall/Output every": "3"}),
     # Soil with history, stages with resets, points that are taken away in time.
     "cut": ("explicit/slope_cut-01.prm", {

@@ -55,8 +55,11 @@ refuse(const std::string &text)
     }
   catch (const InputError &error)
     {
+      // Without the remedy that most have in common.
       const std::string text = error.what();
-      std::cout << "  " << text.substr(0, text.find('\n')) << std::endl;
+      std::cout << "  "
+                << text.substr(0, text.find("\n  allowed: an argument file"))
+                << std::endl;
     }
 }
 

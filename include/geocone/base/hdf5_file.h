@@ -49,6 +49,10 @@ namespace geocone
     write(const std::string &name, const std::string &text);
     /** @} */
 
+    /** An array with one dimension, not compressed: fast. */
+    void
+    write_plain(const std::string &name, const std::vector<double> &values);
+
     /** @name Tables with the rows one after another, not compressed */
     /** @{ */
     void
@@ -93,7 +97,8 @@ namespace geocone
     write_array(const std::string &name,
                 const T           *values,
                 const std::size_t  n,
-                const std::size_t  n_columns);
+                const std::size_t  n_columns,
+                const bool         compressed = true);
     template <typename T>
     std::vector<T>
     read_array(const std::string &name) const;
