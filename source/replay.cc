@@ -54,6 +54,24 @@ namespace geocone
       std::string if_exists = "automatic";
     };
 
+    /** Also what the file lacks is said with a remedy. */
+    FrozenProblem
+    read_frozen(const std::string &file_name)
+    {
+      try
+        {
+          return FrozenProblem::read(file_name);
+        }
+      catch (const RunError &error)
+        {
+          const std::string text = error.what();
+          if (text.find("\n  remedy:") != std::string::npos)
+            throw;
+          throw RunError(text + "\n  remedy:  name a file that 'Output/Freeze "
+                                "steps' has written, or freeze the step again");
+        }
+    }
+
     /** What is left of a replay: numbers to compare, and stresses (Pa). */
     struct Outcome
     {
@@ -66,7 +84,7 @@ namespace geocone
                        const std::vector<std::string> &overrides,
                        ResultFolder                   &folder)
     {
-      const FrozenProblem frozen = FrozenProblem::read(file_name);
+      const FrozenProblem frozen = read_frozen(file_name);
       const ParameterFile file =
         ParameterFile::from_text(frozen.materials, file_name, overrides);
       Materials       materials(file);

@@ -310,6 +310,11 @@ namespace geocone
            std::stoull(value) > std::numeric_limits<unsigned>::max()))
         refuse("a whole number from 0 to " +
                std::to_string(std::numeric_limits<unsigned>::max()));
+      // The library does not match a value with a brace: it could be a loop's.
+      const bool is_text = entry.pattern.find("[Anything") != std::string::npos ||
+                           entry.pattern.find("Name") != std::string::npos;
+      if (value.find('{') != std::string::npos && !is_text)
+        refuse(allowed_by(entry.pattern));
       std::string text;
       for (const std::string &section : sections)
         text += "subsection " + section + "\n";
@@ -767,11 +772,14 @@ namespace geocone
   ParameterFile::value(const std::string &path)
   {
     const auto [sections, name] = sections_and_name(path);
-    const Declared  declared    = all_declared();
-    const Declared *here        = declared.find(sections);
-    return here == nullptr || here->entries.count(name) == 0
-             ? ""
-             : here->entries.at(name).value;
+    try
+      {
+        return ParameterAcceptor::prm.get(sections, name);
+      }
+    catch (const ParameterHandler::ExcEntryUndeclared &)
+      {
+        return "";
+      }
   }
 
   std::vector<std::string>
