@@ -311,10 +311,12 @@ namespace geocone
         refuse("a whole number from 0 to " +
                std::to_string(std::numeric_limits<unsigned>::max()));
       // The library does not match a value with a brace: it could be a loop's.
-      const bool is_text = entry.pattern.find("[Anything") != std::string::npos ||
-                           entry.pattern.find("Name") != std::string::npos;
-      if (value.find('{') != std::string::npos && !is_text)
-        refuse(allowed_by(entry.pattern));
+      // Only names of files may have one.
+      if (value.find_first_of("{}") != std::string::npos && name != "Folder" &&
+          name != "File")
+        refuse(entry.pattern.find("[Anything") == std::string::npos ?
+                 allowed_by(entry.pattern) :
+                 "no braces");
       std::string text;
       for (const std::string &section : sections)
         text += "subsection " + section + "\n";
