@@ -36,7 +36,8 @@ namespace geocone
     std::string
     remove_old_run(const fs::path &folder)
     {
-      if (!fs::is_directory(folder))
+      std::error_code ignored;
+      if (!fs::is_directory(folder, ignored))
         return "it is no folder";
       if (const std::string why = running_in(folder.string()); !why.empty())
         return why;
@@ -45,7 +46,6 @@ namespace geocone
         return std::string("it has no ") + list_of_files +
                " of a run before, which would say what may be deleted: empty "
                "it yourself";
-      std::error_code ignored;
       for (std::string name; std::getline(list, name);)
         {
           // The list is a file like others: only plain names in this folder.
@@ -106,7 +106,7 @@ namespace geocone
           if (!is_used(path) || if_exists == IfExists::overwrite)
             {
               fs::create_directories(path, error);
-              if (!fs::is_directory(path))
+              if (std::error_code ignored; !fs::is_directory(path, ignored))
                 return "it cannot be made" +
                        (error ? " (" + error.message() + ")" : "");
               if (claim(path))
