@@ -33,9 +33,8 @@ namespace geocone
           const std::string name = entry.path().filename().string();
           if (name.size() > prefix.size() + ending.size() &&
               name.compare(0, prefix.size(), prefix) == 0 &&
-              name.compare(name.size() - ending.size(),
-                           ending.size(),
-                           ending) == 0 &&
+              name.compare(
+                name.size() - ending.size(), ending.size(), ending) == 0 &&
               name.find_first_not_of("0123456789", prefix.size()) ==
                 name.size() - ending.size())
             names.push_back(name);
@@ -137,15 +136,15 @@ namespace geocone
           Archive::open(comm, folder + "/" + name, digest(folder), why_not);
         if (archive)
           return load(*archive);
-        log.warn("the checkpoint '" + name + "' is left out: " +
-                 why_not.substr(0, why_not.find('\n')));
+        log.warn("the checkpoint '" + name +
+                 "' is left out: " + why_not.substr(0, why_not.find('\n')));
       }
-    throw InputError("--resume",
-                     folder,
-                     "the folder of a run with a checkpoint-NNNNNN.h5",
-                     names.empty() ?
-                       "there is none: set 'Checkpoint/Every steps' or 'Every "
-                       "minutes' in the parameter file, and run it anew" :
-                       "none of those that are there can be read: run it anew");
+    throw InputError(
+      "--resume",
+      folder,
+      "the folder of a run with a checkpoint-NNNNNN.h5",
+      names.empty() ? "there is none: set 'Checkpoint/Every steps' or 'Every "
+                      "minutes' in the parameter file, and run it anew"
+                    : "none of those that are there can be read: run it anew");
   }
 } // namespace geocone

@@ -112,8 +112,7 @@ namespace geocone
   void
   ExplicitSimulation::write_summary(const std::string &status)
   {
-    explicit_output.write_summary(
-      status, stepper.law_counts(), size(), cost());
+    explicit_output.write_summary(status, stepper.law_counts(), size(), cost());
   }
 
   void

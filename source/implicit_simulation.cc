@@ -7,7 +7,6 @@
 #include <geocone/output/run_status.h>
 #include <geocone/run_estimate.h>
 
-
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
@@ -232,11 +231,12 @@ namespace geocone
         report.quality.take_worse(present.last.quality);
         report.newton.residual =
           std::max(report.newton.residual, present.last.newton.residual);
-        report.newton.at_rounding_floor |= present.last.newton.at_rounding_floor;
+        report.newton.at_rounding_floor |=
+          present.last.newton.at_rounding_floor;
         const double last_lag      = report.newton.friction_lag;
         report.newton.friction_lag = std::max(report.newton.friction_lag,
                                               present.last.newton.friction_lag);
-        present.last                = std::move(report);
+        present.last               = std::move(report);
         // Friction that lags stands for what smaller steps did not solve.
         if (present.last.newton.iterations <= step_control.easy_iterations ||
             last_lag > 0.)
@@ -275,10 +275,10 @@ namespace geocone
              step_control.max_halvings) +
       report.reason + (jump.empty() ? "" : "\n  cause:   " + jump) +
       "\n  remedy:  " +
-      (report.remedy.empty() ?
-         "take smaller steps, allow more halvings or iterations, or "
-         "check whether the body can carry its loads" :
-         report.remedy));
+      (report.remedy.empty()
+         ? "take smaller steps, allow more halvings or iterations, or "
+           "check whether the body can carry its loads"
+         : report.remedy));
   }
 
   void
@@ -299,8 +299,8 @@ namespace geocone
       {
         const double sign = observation.factor < 0. ? -1. : 1.;
         present.displacement =
-          sign * kinematics.supports[observation.conditions[0]]
-                                    [observation.component];
+          sign *
+          kinematics.supports[observation.conditions[0]][observation.component];
         present.load =
           observation.factor * present.reactions[observation.component];
       }
@@ -311,18 +311,18 @@ namespace geocone
   ImplicitSimulation::progress() const
   {
     const std::string result =
-      scene.observation.conditions.empty() ?
-        format("kinetic energy = %.3g J/m  plastic strain <= %.3g",
-               present.last.energies.kinetic,
-               present.last.largest_plastic_strain) :
-        format("u = %.4g mm  load = %.1f N/m",
-               1e3 * present.displacement,
-               present.load);
-    return result +
-           format("  %u iterations%s",
-                  present.iterations,
-                  present.last.newton.friction_lag > 0. ? " (friction lags)" :
-                                                         "");
+      scene.observation.conditions.empty()
+        ? format("kinetic energy = %.3g J/m  plastic strain <= %.3g",
+                 present.last.energies.kinetic,
+                 present.last.largest_plastic_strain)
+        : format("u = %.4g mm  load = %.1f N/m",
+                 1e3 * present.displacement,
+                 present.load);
+    return result + format("  %u iterations%s",
+                           present.iterations,
+                           present.last.newton.friction_lag > 0.
+                             ? " (friction lags)"
+                             : "");
   }
 
   void
@@ -351,9 +351,9 @@ namespace geocone
       "%.0f MB at most",
       costs["total_s"].get<double>(),
       costs["step_loop_s"].get<double>(),
-      costs["ratio_to_factorise_and_solve"].is_null() ?
-        0. :
-        costs["ratio_to_factorise_and_solve"].get<double>(),
+      costs["ratio_to_factorise_and_solve"].is_null()
+        ? 0.
+        : costs["ratio_to_factorise_and_solve"].get<double>(),
       costs["peak_memory_MB"].get<double>()));
   }
 

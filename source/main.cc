@@ -38,9 +38,11 @@ namespace
     "of the\n"
     "                       solver, e.g. 'Newton/Globalisation = line "
     "search'\n"
-    "  --resume FOLDER      goes on with a run that was stopped or killed, from "
+    "  --resume FOLDER      goes on with a run that was stopped or killed, "
+    "from "
     "its last\n"
-    "                       checkpoint (section Checkpoint), in the same folder\n"
+    "                       checkpoint (section Checkpoint), in the same "
+    "folder\n"
     "  --dry-run            checks everything, prints how large the run is, "
     "and "
     "ends:\n"
@@ -152,8 +154,8 @@ namespace
 
     const ParameterFile::OfOthers of_others = parameters_of_laws();
     const ParameterFile           file =
-      resumes ? ParameterFile::of_run(call.own.at("--resume")) :
-                ParameterFile(call.file, call.overrides);
+      resumes ? ParameterFile::of_run(call.own.at("--resume"))
+                        : ParameterFile(call.file, call.overrides);
     Log log(MPI_COMM_WORLD, call.quiet);
     // Both, so that a file may hold the parameters of all methods.
     ImplicitSimulation implicit_simulation(MPI_COMM_WORLD, file, log);
@@ -170,9 +172,9 @@ namespace
         !unused.empty() && !resumes)
       log.warn(unused);
     Simulation &simulation =
-      ParameterFile::value("Discretisation/Method") == "explicit MPM" ?
-        static_cast<Simulation &>(explicit_simulation) :
-        implicit_simulation;
+      ParameterFile::value("Discretisation/Method") == "explicit MPM"
+        ? static_cast<Simulation &>(explicit_simulation)
+        : implicit_simulation;
     const bool  ok     = simulation.run(options);
     OutputBase &output = simulation.output();
     if (first && !call.dry_run && output.wants_pictures())

@@ -118,21 +118,19 @@ namespace geocone
   Simulation::print_progress()
   {
     if (output().verbosity >= 1)
-      log.progress(format("step %u/%u  t = %.4g s  ",
-                          place.step,
-                          n_steps(),
-                          place.time) +
-                   progress() +
-                   format("  %.0f s left",
-                          total.wall_time() / (place.step - first_step) *
-                            (n_steps() - place.step)));
+      log.progress(
+        format("step %u/%u  t = %.4g s  ", place.step, n_steps(), place.time) +
+        progress() +
+        format("  %.0f s left",
+               total.wall_time() / (place.step - first_step) *
+                 (n_steps() - place.step)));
   }
 
   void
   Simulation::write_if_due(const Stage &stage, const bool is_last)
   {
-    if (is_last || (stage.output_every > 0 &&
-                    place.in_stage % stage.output_every == 0))
+    if (is_last ||
+        (stage.output_every > 0 && place.in_stage % stage.output_every == 0))
       {
         write_fields(place.time);
         write_summary("running");

@@ -81,10 +81,10 @@ namespace geocone
     /** Halves the substep after a failed one of this size.
      *  @throws StepFailure if it has been halved too often */
     void
-    cut(const unsigned int step,
-        const double       t,
-        const double       h,
-        const double       size,
+    cut(const unsigned int  step,
+        const double        t,
+        const double        h,
+        const double        size,
         const SolverReport &report);
 
     Json
@@ -108,12 +108,12 @@ namespace geocone
     /** @{ */
     Kinematics     kinematics;
     MaterialPoints points;
-    double         substep = 0.; ///< to be tried next (s)
-    double         last_size = 0.; ///< of the present or last step (s)
-    double         done    = 0.; ///< of the present step (s)
+    double         substep    = 0.;    ///< to be tried next (s)
+    double         last_size  = 0.;    ///< of the present or last step (s)
+    double         done       = 0.;    ///< of the present step (s)
     bool           is_in_step = false; ///< whether the step has begun
-    StepRecord     present;      ///< of the present step, or the last one
-    double         reached = 0.; ///< time of the last substep solved (s)
+    StepRecord     present;            ///< of the present step, or the last one
+    double         reached = 0.;       ///< time of the last substep solved (s)
     /** @} */
 
     dealii::TimerOutput timer;

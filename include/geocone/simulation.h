@@ -46,11 +46,11 @@ namespace geocone
     /** Where the run is in the loading programme. */
     struct Place
     {
-      unsigned int stage   = 0;     ///< index of the stage
-      bool         is_in   = false; ///< whether the stage has begun
-      unsigned int in_stage = 0;    ///< steps of the stage that are done
-      unsigned int step    = 0;     ///< steps that are done
-      double       time    = 0.;    ///< (s)
+      unsigned int stage    = 0;     ///< index of the stage
+      bool         is_in    = false; ///< whether the stage has begun
+      unsigned int in_stage = 0;     ///< steps of the stage that are done
+      unsigned int step     = 0;     ///< steps that are done
+      double       time     = 0.;    ///< (s)
 
       void
       state(StateRow &row)

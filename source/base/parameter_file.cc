@@ -314,9 +314,9 @@ namespace geocone
       // Only names of files may have one.
       if (value.find_first_of("{}") != std::string::npos && name != "Folder" &&
           name != "File")
-        refuse(entry.pattern.find("[Anything") == std::string::npos ?
-                 allowed_by(entry.pattern) :
-                 "no braces");
+        refuse(entry.pattern.find("[Anything") == std::string::npos
+                 ? allowed_by(entry.pattern)
+                 : "no braces");
       std::string text;
       for (const std::string &section : sections)
         text += "subsection " + section + "\n";
@@ -410,8 +410,8 @@ namespace geocone
     ParameterFile file(file_name, {});
     std::ifstream in(folder + "/summary.json");
     const auto    summary = nlohmann::json::parse(in, nullptr, false);
-    if (const auto run = summary.is_object() ? summary.find("run") :
-                                               summary.end();
+    if (const auto run =
+          summary.is_object() ? summary.find("run") : summary.end();
         run != summary.end() && run->is_object())
       if (const auto path = run->find("parameter_file");
           path != run->end() && path->is_string())

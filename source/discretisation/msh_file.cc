@@ -338,7 +338,8 @@ namespace geocone
             if (known && !seen.insert(name).second)
               in.refuse("there is a second section $" + name);
             if (known && name != "MeshFormat" && seen.count("MeshFormat") == 0)
-              in.refuse("the section " + shown("$" + name) + " stands before $MeshFormat");
+              in.refuse("the section " + shown("$" + name) +
+                        " stands before $MeshFormat");
 
             if (!known || (name == "Entities" && !four))
               {

@@ -111,11 +111,11 @@ namespace geocone
       {
         // Pressure acts on the side as it is now; the body is to its left.
         const Tensor<1, dim> along = line.b - line.a;
-        f += along.norm() *
-             load.vector_on_side(point.position,
-                                 Tensor<1, dim>({along[1], -along[0]}) /
-                                   along.norm(),
-                                 t);
+        f +=
+          along.norm() * load.vector_on_side(
+                           point.position,
+                           Tensor<1, dim>({along[1], -along[0]}) / along.norm(),
+                           t);
       }
     for (unsigned int i = 0; i < point.nodes.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
@@ -199,10 +199,9 @@ namespace geocone
                       {
                         const Multipliers::Key key{side.condition, d, number};
                         for (unsigned int i = 0; i < point.nodes.size(); ++i)
-                          rows.add_coefficient(
-                            key,
-                            point.nodes[i],
-                            point.weight * point.values[i]);
+                          rows.add_coefficient(key,
+                                               point.nodes[i],
+                                               point.weight * point.values[i]);
                         rows.add_target(
                           key,
                           point.weight *
@@ -319,8 +318,7 @@ namespace geocone
       for (MovingBoundary::Line &line : boundary.lines)
         for (Point<dim> *x : {&line.a, &line.b})
           for (unsigned int d = 0; d < dim; ++d)
-            (*x)[d] = std::clamp((*x)[d],
-                                 mesh.grid()[d].front(),
-                                 mesh.grid()[d].back());
+            (*x)[d] = std::clamp(
+              (*x)[d], mesh.grid()[d].front(), mesh.grid()[d].back());
   }
 } // namespace geocone

@@ -75,7 +75,12 @@ namespace geocone
   {
     OutputBase::state_of_run(row);
     std::size_t n = records.size();
-    row(initial, *point_files, largest_kinetic, largest_impulse, warned_of_energy, n);
+    row(initial,
+        *point_files,
+        largest_kinetic,
+        largest_impulse,
+        warned_of_energy,
+        n);
     records.resize(n);
     for (ExplicitRecord &record : records)
       record.to_row(row);

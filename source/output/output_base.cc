@@ -163,10 +163,10 @@ namespace geocone
   void
   OutputBase::write_summary_file()
   {
-    summary_written     = std::chrono::steady_clock::now();
-    summary["run"]      = run_topic();
+    summary_written                  = std::chrono::steady_clock::now();
+    summary["run"]                   = run_topic();
     summary["run"]["parameter_file"] = parameter_file;
-    summary["warnings"] = log.warnings();
+    summary["warnings"]              = log.warnings();
     std::string what;
     if (summary["status"] == "finished")
       {

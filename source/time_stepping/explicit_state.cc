@@ -284,13 +284,14 @@ namespace geocone
     // Sums of ranks that are not there any more go to the first one.
     StateRow mine;
     state_of_ranks(mine);
-    const std::size_t         size = mine.values().size();
+    const std::size_t         size          = mine.values().size();
     const std::vector<double> sums_of_ranks = archive.read("explicit sums");
-    const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
-    const unsigned int n    = sums_of_ranks.size() / size;
-    std::vector<double> own(size, 0.);
+    const unsigned int        rank = Utilities::MPI::this_mpi_process(comm);
+    const unsigned int        n    = sums_of_ranks.size() / size;
+    std::vector<double>       own(size, 0.);
     if (n == Utilities::MPI::n_mpi_processes(comm))
-      own.assign(&sums_of_ranks[rank * size], &sums_of_ranks[rank * size] + size);
+      own.assign(&sums_of_ranks[rank * size],
+                 &sums_of_ranks[rank * size] + size);
     else if (rank == 0)
       for (unsigned int i = 0; i < n * size; ++i)
         if ((i + 1) % size == 0)
@@ -307,7 +308,7 @@ namespace geocone
     while (!list.at_end())
       {
         unsigned int material = 0, n_fields = 0;
-        bool         fading   = false;
+        bool         fading = false;
         list(material, fading, n_fields);
         if (material >= scene->materials.size())
           throw RunError("the checkpoint has other materials");
@@ -317,10 +318,8 @@ namespace geocone
         group.fading       = fading;
         if (group.n_fields() != n_fields)
           throw RunError("the checkpoint has other variables of points");
-        const std::vector<double> values =
-          points_of_rank(archive,
-                         "points " + std::to_string(groups.size() - 1),
-                         n_fields + 1);
+        const std::vector<double> values = points_of_rank(
+          archive, "points " + std::to_string(groups.size() - 1), n_fields + 1);
         group.reserve(values.size() / (n_fields + 1));
         for (std::size_t i = 0; i < values.size(); i += n_fields + 1)
           group.append(&values[i],

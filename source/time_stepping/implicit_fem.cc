@@ -269,12 +269,12 @@ namespace geocone
     const std::vector<double> cell_numbers = archive.read("points/cells");
     for_each_state(points, [&](const std::string &name, auto &list) {
       const std::vector<double> numbers = archive.read("points/" + name);
-      using Item = typename std::decay_t<decltype(list)>::value_type;
+      using Item           = typename std::decay_t<decltype(list)>::value_type;
       const unsigned int n = n_numbers(Item());
       const CellRecord   cells(cell_numbers, numbers.size() / n);
       for (unsigned int c = 0; c < points.n_cells(); ++c)
         {
-          const auto [begin, end] = cells.range(points.cells[c]);
+          const auto [begin, end]  = cells.range(points.cells[c]);
           const unsigned int first = points.first_point[c];
           if (end - begin != points.first_point[c + 1] - first)
             throw RunError("the checkpoint has other points");

@@ -59,8 +59,7 @@ namespace geocone
              Vector               &values)
   {
     const std::vector<double> numbers = archive.read(name + "/values");
-    const CellRecord          cells(archive.read(name + "/cells"),
-                           numbers.size() / dim);
+    const CellRecord cells(archive.read(name + "/cells"), numbers.size() / dim);
     std::vector<dealii::types::global_dof_index> nodes;
     values = 0.;
     for (const auto &cell : mesh.own_cells())

@@ -53,8 +53,7 @@ check_grid(const std::string &name, const std::vector<std::string> &overrides)
 }
 
 void
-check_unstructured(const std::string       &name,
-                   std::vector<std::string> overrides)
+check_unstructured(const std::string &name, std::vector<std::string> overrides)
 {
   overrides.push_back("Discretisation/Method = FEM");
   overrides.push_back("Mesh/Box =");

@@ -76,11 +76,13 @@ namespace geocone
     void
     add(const std::string &name, const std::vector<double> &values);
 
-    const MPI_Comm            comm;
-    const std::string         file_name;
-    std::unique_ptr<Hdf5File> file; ///< on the first rank, or all where it is read
+    const MPI_Comm    comm;
+    const std::string file_name;
     std::string               names;
     unsigned long             checksum = 0;
+
+    /** On the first rank, or on all where it is read. */
+    std::unique_ptr<Hdf5File> file;
   };
 } // namespace geocone
 

@@ -11,9 +11,9 @@ namespace geocone
   /** What the command line says of a run beyond its parameters. */
   struct RunOptions
   {
-    std::string name; ///< of the parameter file, without its ending
+    std::string name;           ///< of the parameter file, without its ending
     std::string parameter_file; ///< its absolute name
-    std::string folder;         ///< of the results; empty: that of the parameters
+    std::string folder; ///< of the results; empty: that of the parameters
     bool        dry_run = false; ///< check and estimate only
     bool        force   = false; ///< run what is too large for the machine
     bool        resumes = false; ///< go on with the run in the folder
