@@ -78,8 +78,8 @@ namespace geocone
 
     const MPI_Comm    comm;
     const std::string file_name;
-    std::string               names;
-    unsigned long             checksum = 0;
+    std::string       names;
+    unsigned long     checksum = 0;
 
     /** On the first rank, or on all where it is read. */
     std::unique_ptr<Hdf5File> file;
