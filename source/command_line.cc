@@ -124,6 +124,18 @@ namespace geocone
     return call;
   }
 
+  RunOptions
+  run_options(const CommandLine &call, const ParameterFile &file)
+  {
+    RunOptions options;
+    options.name           = file.name();
+    options.parameter_file = file.path();
+    options.folder         = call.folder;
+    options.dry_run        = call.dry_run;
+    options.force          = call.force;
+    return options;
+  }
+
   int
   run_program(int argc, char **argv, const std::function<int(Drawing &)> &run)
   {

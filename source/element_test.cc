@@ -10,7 +10,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <filesystem>
 #include <iostream>
 
 namespace
@@ -79,13 +78,7 @@ namespace
         const std::string unused = unused_parameters(file.parse(of_others));
         if (!unused.empty())
           log.warn(unused);
-        RunOptions options;
-        options.name           = file.name();
-        options.parameter_file = file.path();
-        options.folder         = call.folder;
-        options.dry_run        = call.dry_run;
-        options.force          = call.force;
-        const bool ok          = test.run(options);
+        const bool ok = test.run(run_options(call, file));
         if (!call.dry_run && test.output().wants_pictures())
           drawing = {test.output().folder(), call.quiet};
         return ok ? 0 : 1;

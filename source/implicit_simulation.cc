@@ -358,20 +358,38 @@ namespace geocone
   }
 
   void
+  ImplicitSimulation::state(StateRow &row)
+  {
+    row(substep,
+        last_size,
+        done,
+        is_in_step,
+        present,
+        reached,
+        kinematics.supports);
+  }
+
+  void
   ImplicitSimulation::save(Archive &archive)
   {
     StateRow row;
-    row(substep, last_size, done, is_in_step, present, reached);
+    state(row);
     archive.write_row("step", row);
-    stepper->save(archive, mesh, space, kinematics, points);
+    save_nodes(archive, "velocity", mesh, space, kinematics.velocity);
+    if (!method.is_mpm())
+      save_nodes(archive, "displacement", mesh, space, kinematics.displacement);
+    stepper->save(archive, points);
   }
 
   void
   ImplicitSimulation::load(const Archive &archive)
   {
     StateRow row = archive.read_row("step");
-    row(substep, last_size, done, is_in_step, present, reached);
-    stepper->load(archive, mesh, space, kinematics, points);
+    state(row);
+    load_nodes(archive, "velocity", mesh, space, kinematics.velocity);
+    if (!method.is_mpm())
+      load_nodes(archive, "displacement", mesh, space, kinematics.displacement);
+    stepper->load(archive, points);
   }
 
   Json

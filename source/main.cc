@@ -6,6 +6,7 @@
 #include <geocone/command_line.h>
 #include <geocone/explicit_simulation.h>
 #include <geocone/implicit_simulation.h>
+#include <geocone/output/run_folder.h>
 #include <geocone/replay.h>
 #include <geocone/unused_parameters.h>
 
@@ -13,7 +14,6 @@
 
 #include <omp.h>
 
-#include <filesystem>
 #include <iostream>
 
 #include <dlfcn.h>
@@ -27,7 +27,7 @@ namespace
     "value']...\n"
     "        [--dry-run] [--force] [--quiet]\n"
     "mpirun -np RANKS geocone FILE.prm ...\n"
-    "geocone --resume FOLDER [--quiet]\n"
+    "geocone --resume FOLDER [--force] [--quiet]\n"
     "geocone --replay FILE.h5|FILE.dat [--output FOLDER] [--set ...]...\n"
     "\n"
     "  --output FOLDER      folder of the results (default: results/NAME)\n"
@@ -153,21 +153,20 @@ namespace
       check_resume(call);
 
     const ParameterFile::OfOthers of_others = parameters_of_laws();
-    const ParameterFile           file =
-      resumes ? ParameterFile::of_run(call.own.at("--resume"))
-                        : ParameterFile(call.file, call.overrides);
-    Log log(MPI_COMM_WORLD, call.quiet);
+    const ParameterFile           file      = resumes
+                                                ? parameters_of_run(call.own.at("--resume"))
+                                                : ParameterFile(call.file, call.overrides);
+    Log                           log(MPI_COMM_WORLD, call.quiet);
     // Both, so that a file may hold the parameters of all methods.
     ImplicitSimulation implicit_simulation(MPI_COMM_WORLD, file, log);
     ExplicitSimulation explicit_simulation(MPI_COMM_WORLD, file, log);
     const std::vector<ParameterFile::Setting> settings = file.parse(of_others);
-    RunOptions                                options;
-    options.resumes        = resumes;
-    options.name           = file.name();
-    options.parameter_file = file.path();
-    options.folder         = resumes ? call.own.at("--resume") : call.folder;
-    options.dry_run        = call.dry_run;
-    options.force          = call.force || resumes;
+    RunOptions                                options = run_options(call, file);
+    if (resumes)
+      {
+        options.resumes = true;
+        options.folder  = call.own.at("--resume");
+      }
     if (const std::string unused = unused_parameters(settings);
         !unused.empty() && !resumes)
       log.warn(unused);

@@ -18,21 +18,14 @@ namespace geocone
     output_time.reset();
   }
 
-  unsigned int
-  Simulation::n_steps() const
-  {
-    unsigned int n = 0;
-    for (const auto &stage : scene.loading.stages)
-      n += stage->step_sizes().size();
-    return n;
-  }
-
   bool
   Simulation::run(const RunOptions &options)
   {
     scene.prepare();
     method.prepare();
     checkpoint.prepare(comm);
+    for (const auto &stage : scene.loading.stages)
+      n_steps += stage->step_sizes().size();
     const std::vector<std::string> warnings = prepare(options);
     if (options.dry_run)
       return true;
@@ -119,11 +112,11 @@ namespace geocone
   {
     if (output().verbosity >= 1)
       log.progress(
-        format("step %u/%u  t = %.4g s  ", place.step, n_steps(), place.time) +
+        format("step %u/%u  t = %.4g s  ", place.step, n_steps, place.time) +
         progress() +
         format("  %.0f s left",
                total.wall_time() / (place.step - first_step) *
-                 (n_steps() - place.step)));
+                 (n_steps - place.step)));
   }
 
   void
@@ -164,6 +157,6 @@ namespace geocone
     log.print(format("resumed at t = %.6g s, after step %u of %u",
                      place.time,
                      place.step,
-                     n_steps()));
+                     n_steps));
   }
 } // namespace geocone

@@ -4,6 +4,9 @@
 #ifndef geocone_command_line_h
 #define geocone_command_line_h
 
+#include <geocone/base/parameter_file.h>
+#include <geocone/base/run_options.h>
+
 #include <functional>
 #include <map>
 #include <string>
@@ -37,6 +40,10 @@ namespace geocone
                      char                          **argv,
                      const std::string              &program,
                      const std::vector<std::string> &own = {});
+
+  /** The run of a parameter file that was called for. */
+  RunOptions
+  run_options(const CommandLine &call, const ParameterFile &file);
 
   /** What a run leaves to be drawn. */
   struct Drawing

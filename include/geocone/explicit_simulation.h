@@ -69,7 +69,6 @@ namespace geocone
     cost() const;
 
     ExplicitMPM    stepper;
-    ObservedPoints observed_points;
     ExplicitOutput explicit_output;
 
     ExplicitState  state;  ///< at the last record

@@ -87,6 +87,10 @@ namespace geocone
         const double        size,
         const SolverReport &report);
 
+    /** What is state here, but for fields. */
+    void
+    state(StateRow &row);
+
     Json
     size() const;
     Json
@@ -101,7 +105,6 @@ namespace geocone
     StepControl     step_control;
     Freezer         freezer;
     ExactSolution   exact_solution;
-    ObservedPoints  observed_points;
     RunOutput       run_output;
 
     /** @name State */

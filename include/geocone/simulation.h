@@ -129,17 +129,14 @@ namespace geocone
     const MPI_Comm comm;
     Log           &log;
 
-    Scene      scene;
-    Method     method;
-    Checkpoint checkpoint;
+    Scene          scene;
+    Method         method;
+    Checkpoint     checkpoint;
+    ObservedPoints observed_points;
 
     dealii::Timer total, step_loop, output_time;
 
   private:
-    /** Steps of all stages. */
-    unsigned int
-    n_steps() const;
-
     /** All stages, from where the run is. */
     void
     follow_programme();
@@ -159,7 +156,8 @@ namespace geocone
     resume();
 
     Place        place;
-    unsigned int first_step = 0; ///< that this process has not done itself
+    unsigned int n_steps    = 0; ///< of all stages
+    unsigned int first_step = 0; ///< steps that an earlier process has done
   };
 } // namespace geocone
 

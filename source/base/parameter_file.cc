@@ -1,25 +1,18 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/declared_parameters.h>
 #include <geocone/base/exceptions.h>
 #include <geocone/base/parameter_file.h>
-
-#include <nlohmann/json.hpp>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/utilities.h>
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <numeric>
 #include <ostream>
-#include <regex>
 #include <set>
 #include <sstream>
 
@@ -31,10 +24,9 @@ namespace geocone
     using dealii::ParameterHandler;
     using dealii::Utilities::trim;
 
-    constexpr std::uintmax_t largest_file  = 16000000; ///< (bytes)
-    constexpr unsigned int   most_files    = 1000;
-    constexpr std::size_t    longest_name  = 60;
-    constexpr double         largest_value = 1e100;
+    constexpr std::uintmax_t largest_file = 16000000; ///< (bytes)
+    constexpr unsigned int   most_files   = 1000;
+    constexpr std::size_t    longest_name = 60;
 
     std::pair<std::vector<std::string>, std::string>
     sections_and_name(const std::string &path)
@@ -116,222 +108,6 @@ namespace geocone
              "are";
     }
 
-    /** A name as ParameterHandler writes it into JSON: what is neither a letter
-     *  nor a digit stands there as _XX. */
-    std::string
-    demangle(const std::string &text)
-    {
-      std::string name;
-      for (std::size_t i = 0; i < text.size(); ++i)
-        if (text[i] == '_' && i + 2 < text.size())
-          {
-            name += static_cast<char>(
-              std::strtol(text.substr(i + 1, 2).c_str(), nullptr, 16));
-            i += 2;
-          }
-        else
-          name += text[i];
-      return name;
-    }
-
-    /** The declared parameters. */
-    struct Declared
-    {
-      struct Entry
-      {
-        std::string value, default_value, pattern;
-      };
-      std::map<std::string, Entry>    entries;
-      std::map<std::string, Declared> sections;
-
-      const Declared *
-      find(const std::vector<std::string> &path) const
-      {
-        const Declared *here = this;
-        for (const std::string &name : path)
-          {
-            const auto below = here->sections.find(name);
-            if (below == here->sections.end())
-              return nullptr;
-            here = &below->second;
-          }
-        return here;
-      }
-    };
-
-    template <typename T>
-    std::vector<std::string>
-    keys(const std::map<std::string, T> &map)
-    {
-      std::vector<std::string> all;
-      for (const auto &[key, value] : map)
-        all.push_back(key);
-      return all;
-    }
-
-    Declared
-    from_json(const nlohmann::json &json)
-    {
-      Declared declared;
-      for (const auto &[key, value] : json.items())
-        if (value.contains("pattern_description"))
-          declared.entries[demangle(key)] = {
-            value.at("value").get<std::string>(),
-            value.at("default_value").get<std::string>(),
-            value.at("pattern_description").get<std::string>()};
-        else
-          declared.sections[demangle(key)] = from_json(value);
-      return declared;
-    }
-
-    Declared
-    all_declared()
-    {
-      std::ostringstream out;
-      ParameterAcceptor::prm.print_parameters(out, ParameterHandler::JSON);
-      return from_json(nlohmann::json::parse(out.str()));
-    }
-
-    std::string
-    joined(const std::vector<std::string> &sections, const std::string &name)
-    {
-      std::string path;
-      for (const std::string &section : sections)
-        path += section + "/";
-      return path + name;
-    }
-
-    /** The bounds in a pattern like "[Double 0...1 (inclusive)]". */
-    std::string
-    bounds(const std::string &pattern)
-    {
-      std::smatch match;
-      if (!std::regex_search(
-            pattern, match, std::regex("([-+.eE\\w]+)\\.\\.\\.([-+.\\w]+) ")))
-        return "";
-      const auto is_limit = [](const std::string &text) {
-        return text.find("MAX_DOUBLE") != std::string::npos ||
-               text == std::to_string(std::numeric_limits<int>::min()) ||
-               text == std::to_string(std::numeric_limits<int>::max()) ||
-               text == std::to_string(std::numeric_limits<unsigned>::max());
-      };
-      const bool from = !is_limit(match[1]), to = !is_limit(match[2]);
-      return from && to ? " from " + match.str(1) + " to " + match.str(2)
-             : from     ? " >= " + match.str(1)
-             : to       ? " <= " + match.str(2)
-                        : "";
-    }
-
-    /** What a pattern of the library allows, in words. */
-    std::string
-    allowed_by(const std::string &pattern)
-    {
-      const auto begins = [&](const std::string &text) {
-        return pattern.compare(0, text.size(), text) == 0;
-      };
-      if (begins("[Selection "))
-        {
-          std::string choices = trim(pattern.substr(11, pattern.size() - 12));
-          for (std::size_t i = choices.find('|'); i != std::string::npos;
-               i             = choices.find('|', i + 3))
-            choices.replace(i, 1, " | ");
-          return choices;
-        }
-      if (begins("[Bool"))
-        return "true | false";
-      if (begins("[Integer"))
-        {
-          return "a whole number" + bounds(pattern);
-        }
-      if (begins("[Double"))
-        return "a number" + bounds(pattern);
-      if (begins("[List"))
-        {
-          const bool doubles = pattern.find("[Double") != std::string::npos;
-          if (pattern.find("[List", 5) != std::string::npos)
-            return "points x, y; x, y; ... of numbers";
-          if (pattern.find("length 2...2 ") != std::string::npos)
-            return "two numbers x, y";
-          return doubles ? "numbers, separated by commas"
-                         : "names, separated by commas";
-        }
-      return "text";
-    }
-
-    /** The numbers in a text, which commas, semicolons and blanks separate, are
-     *  finite and not absurd. */
-    bool
-    is_sensible(const std::string &value)
-    {
-      std::string text = value;
-      for (char &c : text)
-        if (c == ',' || c == ';' || c == ':')
-          c = ' ';
-      std::istringstream in(text);
-      for (std::string word; in >> word;)
-        {
-          char        *end    = nullptr;
-          const double number = std::strtod(word.c_str(), &end);
-          if (end != word.c_str() && *end == '\0' &&
-              !(std::abs(number) <= largest_value))
-            return false;
-        }
-      return true;
-    }
-
-    /** Gives a declared parameter its value.
-     *  @throws InputError if it does not fit */
-    void
-    set_value(const std::vector<std::string> &sections,
-              const std::string              &name,
-              const std::string              &value,
-              const Declared::Entry          &entry,
-              const std::string              &place)
-    {
-      const std::string path   = joined(sections, name);
-      const auto        refuse = [&](const std::string &allowed) {
-        throw InputError(
-          path,
-          value,
-          allowed,
-          (entry.default_value.empty()
-                    ? "leave it out for the default"
-                    : "e.g. " + printable(entry.default_value) + ", the default") +
-            " (" + place + ")");
-      };
-      if (entry.pattern.find("[Double") != std::string::npos &&
-          !is_sensible(value))
-        refuse("finite numbers of magnitude <= 1e100");
-      // The library takes a number without sign for one with it.
-      if (entry.pattern == "[Integer]" &&
-          (value.empty() ||
-           value.find_first_not_of("0123456789") != std::string::npos ||
-           value.size() > 10 ||
-           std::stoull(value) > std::numeric_limits<unsigned>::max()))
-        refuse("a whole number from 0 to " +
-               std::to_string(std::numeric_limits<unsigned>::max()));
-      // The library does not match a value with a brace: it could be a loop's.
-      // Only names of files may have one.
-      if (value.find_first_of("{}") != std::string::npos && name != "Folder" &&
-          name != "File")
-        refuse(entry.pattern.find("[Anything") == std::string::npos
-                 ? allowed_by(entry.pattern)
-                 : "no braces");
-      std::string text;
-      for (const std::string &section : sections)
-        text += "subsection " + section + "\n";
-      text += "set " + name + " = " + value + "\n";
-      for (std::size_t i = 0; i < sections.size(); ++i)
-        text += "end\n";
-      try
-        {
-          ParameterAcceptor::prm.parse_input_from_string(text);
-        }
-      catch (const dealii::ExceptionBase &)
-        {
-          refuse(allowed_by(entry.pattern));
-        }
-    }
   } // namespace
 
   std::vector<std::string>
@@ -376,9 +152,15 @@ namespace geocone
   }
 
   ParameterFile::ParameterFile(const std::string              &file_name,
-                               const std::vector<std::string> &overrides)
-    : path_of_file(std::filesystem::absolute(file_name).string())
-    , folder_of_file(std::filesystem::path(file_name).parent_path().string())
+                               const std::vector<std::string> &overrides,
+                               const std::string              &original)
+    : path_of_file(
+        std::filesystem::absolute(original.empty() ? file_name : original)
+          .string())
+    , folder_of_file(
+        std::filesystem::path(original.empty() ? file_name : original)
+          .parent_path()
+          .string())
   {
     read(file_name, "'" + printable(file_name) + "'", 0);
     append(overrides);
@@ -394,32 +176,6 @@ namespace geocone
     file.has_strict_lists = false;
     file.read_lines(in, name, "'" + printable(name) + "'", -1);
     file.append(overrides);
-    return file;
-  }
-
-  ParameterFile
-  ParameterFile::of_run(const std::string &folder)
-  {
-    const std::string file_name = folder + "/parameters.prm";
-    std::error_code   error;
-    if (!std::filesystem::is_regular_file(file_name, error))
-      throw InputError("--resume",
-                       printable(folder),
-                       "the folder of a run by geocone",
-                       "it has no parameters.prm");
-    ParameterFile file(file_name, {});
-    std::ifstream in(folder + "/summary.json");
-    const auto    summary = nlohmann::json::parse(in, nullptr, false);
-    if (const auto run =
-          summary.is_object() ? summary.find("run") : summary.end();
-        run != summary.end() && run->is_object())
-      if (const auto path = run->find("parameter_file");
-          path != run->end() && path->is_string())
-        {
-          file.path_of_file = path->get<std::string>();
-          file.folder_of_file =
-            std::filesystem::path(file.path_of_file).parent_path().string();
-        }
     return file;
   }
 

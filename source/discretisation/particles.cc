@@ -191,7 +191,7 @@ namespace geocone
   }
 
   void
-  Particles::save(Archive &archive, const BackgroundMesh &mesh) const
+  Particles::save(Archive &archive, const BackgroundMesh &mesh)
   {
     CellRecord          cells;
     std::vector<double> values;
@@ -213,7 +213,7 @@ namespace geocone
     archive.write("particles/cells", cells.numbers);
     archive.write("particles/state", values);
     StateRow row;
-    row(const_cast<unsigned int &>(n_lost_all));
+    row(n_lost_all);
     archive.write_row("particles/lost", row);
   }
 

@@ -15,6 +15,7 @@
 #include <fstream>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 namespace geocone
@@ -173,23 +174,54 @@ namespace geocone
     return path;
   }
 
+  ParameterFile
+  parameters_of_run(const std::string &folder)
+  {
+    const std::string file_name = folder + "/parameters.prm";
+    std::error_code   error;
+    if (!fs::is_regular_file(file_name, error))
+      throw InputError("--resume",
+                       printable(folder),
+                       "the folder of a run by geocone",
+                       "it has no parameters.prm");
+    const nlohmann::ordered_json summary =
+      read_summary(folder + "/summary.json");
+    std::string original;
+    if (summary.contains("run") && summary["run"].is_object())
+      if (const auto path = summary["run"].find("parameter_file");
+          path != summary["run"].end() && path->is_string())
+        original = path->get<std::string>();
+    return ParameterFile(file_name, {}, original);
+  }
+
+  namespace
+  {
+    /** Why this process may not go on with the run in a folder; or nothing. */
+    std::string
+    why_not_enter(const std::string &path)
+    {
+      std::error_code error;
+      for (const char *name : {list_of_files, "summary.json"})
+        if (!fs::is_regular_file(fs::path(path) / name, error))
+          return std::string("it has no ") + name;
+      if (const std::string why = running_in(path); !why.empty())
+        return why;
+      // Held until the process ends, however it does.
+      const int list =
+        ::open((fs::path(path) / list_of_files).c_str(), O_RDWR | O_CLOEXEC);
+      if (list < 0 || ::flock(list, LOCK_EX | LOCK_NB) != 0)
+        return std::string("it cannot be locked (") + std::strerror(errno) +
+               "): another process may be going on with it";
+      return "";
+    }
+  } // namespace
+
   void
   enter_run_folder(const MPI_Comm comm, const std::string &path)
   {
     std::string why_not;
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
-      {
-        std::error_code error;
-        if (!fs::is_directory(path, error))
-          why_not = "there is no such folder";
-        else
-          for (const char *name :
-               {list_of_files, "parameters.prm", "summary.json"})
-            if (!fs::is_regular_file(fs::path(path) / name, error))
-              why_not = std::string("it has no ") + name;
-        if (why_not.empty())
-          why_not = running_in(path);
-      }
+      why_not = why_not_enter(path);
     why_not = dealii::Utilities::MPI::broadcast(comm, why_not);
     if (!why_not.empty())
       throw InputError("--resume",

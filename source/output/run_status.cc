@@ -42,14 +42,6 @@ namespace geocone
       return name;
     }
 
-    Json
-    read_summary(const std::string &file_name)
-    {
-      std::ifstream in(file_name);
-      const Json    summary = Json::parse(in, nullptr, false);
-      return summary.is_object() ? summary : Json();
-    }
-
     bool
     is_running(const Json &summary)
     {
@@ -148,6 +140,20 @@ namespace geocone
       std::filesystem::absolute(folder, error).string() + '\0';
     if (::write(to_watcher, path.data(), path.size()) < 0)
       to_watcher = -1; // it is gone: the sign of life is what is left
+  }
+
+  Json
+  read_summary(const std::string &file_name)
+  {
+    // A folder may hold anything; no summary is that large.
+    constexpr std::uintmax_t largest = 64 << 20;
+    std::error_code          error;
+    if (!std::filesystem::is_regular_file(file_name, error) ||
+        std::filesystem::file_size(file_name, error) > largest)
+      return Json();
+    std::ifstream in(file_name);
+    const Json    summary = Json::parse(in, nullptr, false);
+    return summary.is_object() ? summary : Json();
   }
 
   Json

@@ -196,92 +196,51 @@ namespace geocone
 
   namespace
   {
-    /** The state of points that stay, of which each quantity has so many
-     *  numbers; as one list for both directions. */
-    template <typename Points, typename F>
+    /** The state of a point that stays. */
     void
-    for_each_state(Points &points, const F &f)
+    state_of_point(StateRow &row, MaterialPoints &points, const unsigned int p)
     {
-      f("stress", points.stress);
-      f("plastic strain", points.plastic_strain);
-      f("cumulative plastic strain", points.cumulative_plastic_strain);
-      f("plastic strain rate", points.plastic_strain_rate);
-    }
-
-    constexpr unsigned int
-    n_numbers(const double)
-    {
-      return 1;
-    }
-    constexpr unsigned int
-    n_numbers(const Mandel &)
-    {
-      return n_mandel;
-    }
-    double &
-    number(double &x, const unsigned int)
-    {
-      return x;
-    }
-    double &
-    number(Mandel &x, const unsigned int c)
-    {
-      return x[c];
+      row(points.stress[p],
+          points.plastic_strain[p],
+          points.cumulative_plastic_strain[p],
+          points.plastic_strain_rate[p]);
     }
   } // namespace
 
   void
-  ImplicitFEM::save(Archive              &archive,
-                    const BackgroundMesh &mesh,
-                    const Space          &space,
-                    Kinematics           &kinematics,
-                    const MaterialPoints &points)
+  ImplicitFEM::save(Archive &archive, MaterialPoints &points)
   {
-    save_nodes(archive, "velocity", mesh, space, kinematics.velocity);
-    save_nodes(archive, "displacement", mesh, space, kinematics.displacement);
-    StateRow row;
-    row(kinematics.supports);
-    archive.write_row("supports", row);
     CellRecord cells;
+    StateRow   row;
     for (unsigned int c = 0; c < points.n_cells(); ++c)
-      cells.add(points.cells[c],
-                points.first_point[c + 1] - points.first_point[c]);
+      {
+        const std::size_t before = row.values().size();
+        for (unsigned int p = points.first_point[c];
+             p < points.first_point[c + 1];
+             ++p)
+          state_of_point(row, points, p);
+        cells.add(points.cells[c], row.values().size() - before);
+      }
     archive.write("points/cells", cells.numbers);
-    for_each_state(points, [&](const std::string &name, const auto &list) {
-      std::vector<double> numbers;
-      for (auto x : list)
-        for (unsigned int c = 0; c < n_numbers(x); ++c)
-          numbers.push_back(number(x, c));
-      archive.write("points/" + name, numbers);
-    });
+    archive.write("points/state", row.values());
   }
 
   void
-  ImplicitFEM::load(const Archive        &archive,
-                    const BackgroundMesh &mesh,
-                    const Space          &space,
-                    Kinematics           &kinematics,
-                    MaterialPoints       &points)
+  ImplicitFEM::load(const Archive &archive, MaterialPoints &points)
   {
-    load_nodes(archive, "velocity", mesh, space, kinematics.velocity);
-    load_nodes(archive, "displacement", mesh, space, kinematics.displacement);
-    archive.read_row("supports")(kinematics.supports);
-    const std::vector<double> cell_numbers = archive.read("points/cells");
-    for_each_state(points, [&](const std::string &name, auto &list) {
-      const std::vector<double> numbers = archive.read("points/" + name);
-      using Item           = typename std::decay_t<decltype(list)>::value_type;
-      const unsigned int n = n_numbers(Item());
-      const CellRecord   cells(cell_numbers, numbers.size() / n);
-      for (unsigned int c = 0; c < points.n_cells(); ++c)
-        {
-          const auto [begin, end]  = cells.range(points.cells[c]);
-          const unsigned int first = points.first_point[c];
-          if (end - begin != points.first_point[c + 1] - first)
-            throw RunError("the checkpoint has other points");
-          for (std::size_t i = begin; i < end; ++i)
-            for (unsigned int k = 0; k < n; ++k)
-              number(list[first + i - begin], k) = numbers[n * i + k];
-        }
-    });
+    const std::vector<double> numbers = archive.read("points/state");
+    const CellRecord cells(archive.read("points/cells"), numbers.size());
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      {
+        const auto [begin, end] = cells.range(points.cells[c]);
+        StateRow row(
+          std::vector<double>(numbers.begin() + begin, numbers.begin() + end));
+        for (unsigned int p = points.first_point[c];
+             p < points.first_point[c + 1];
+             ++p)
+          state_of_point(row, points, p);
+        if (!row.at_end())
+          throw RunError("the checkpoint has other points");
+      }
   }
 } // namespace geocone

@@ -661,42 +661,30 @@ namespace geocone
   }
 
   void
-  ImplicitMPM::save(Archive              &archive,
-                    const BackgroundMesh &mesh,
-                    const Space          &space,
-                    Kinematics           &kinematics,
-                    const MaterialPoints &)
+  ImplicitMPM::save(Archive &archive, MaterialPoints &)
   {
-    particles.save(archive, mesh);
-    save_nodes(archive, "velocity", mesh, space, kinematics.velocity);
-    Vector mass = kinematics.velocity;
+    particles.save(archive, *mesh);
+    Vector mass(velocity_L);
     for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
       mass.local_element(i) = had_mass.empty() || had_mass[i];
-    save_nodes(archive, "had mass", mesh, space, mass);
+    save_nodes(archive, "had mass", *mesh, *space, mass);
     StateRow row;
-    row(kinematics.supports);
     moving->state(row);
     archive.write_row("sides", row);
   }
 
   void
-  ImplicitMPM::load(const Archive        &archive,
-                    const BackgroundMesh &mesh,
-                    const Space          &space,
-                    Kinematics           &kinematics,
-                    MaterialPoints       &points)
+  ImplicitMPM::load(const Archive &archive, MaterialPoints &points)
   {
-    particles.load(archive, mesh);
-    load_nodes(archive, "velocity", mesh, space, kinematics.velocity);
-    Vector mass = kinematics.velocity;
-    load_nodes(archive, "had mass", mesh, space, mass);
+    particles.load(archive, *mesh);
+    Vector mass(velocity_L);
+    load_nodes(archive, "had mass", *mesh, *space, mass);
     had_mass.resize(mass.locally_owned_size());
     for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
       had_mass[i] = mass.local_element(i) > 0.;
     StateRow row = archive.read_row("sides");
-    row(kinematics.supports);
     moving->state(row);
-    points = particles.collect(mesh, space);
+    points = particles.collect(*mesh, *space);
     begun  = false;
   }
 } // namespace geocone

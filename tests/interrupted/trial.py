@@ -36,6 +36,9 @@ from pathlib import Path
 import h5py
 
 TESTS = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(TESTS))
+from processes import ranks_of  # noqa: E402
+
 METHODS = {  # a scene that would go on for hours, with fields at each step
     "fem": ("footing_coarse.prm", {"Loading/push/Duration": "1000",
                                    "Loading/push/Output every": "1"}),
@@ -73,26 +76,6 @@ def wait_for(condition, seconds):
     while not (found := condition()) and time.monotonic() < end:
         time.sleep(0.02)
     return found
-
-
-def ranks_of(child, program):
-    """The processes of a call that compute: itself, or the children of mpirun. Another
-    process that a rank may have is none."""
-    def runs_program(pid):
-        try:
-            return os.path.samefile(f"/proc/{pid}/exe", program)
-        except OSError:
-            return False
-
-    def parent(pid):
-        try:
-            return int(Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[1])
-        except OSError:
-            return None
-    if runs_program(child.pid):
-        return [child.pid]
-    return [int(path.name) for path in Path("/proc").glob("[0-9]*")
-            if parent(path.name) == child.pid and runs_program(path.name)]
 
 
 def command(program, method, deed, folder, n_ranks):

@@ -33,6 +33,9 @@ import time
 from pathlib import Path
 
 TESTS = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(TESTS))
+from processes import ranks_of  # noqa: E402
+
 METHODS = {
     "fem": ("fem/footing-associated-01.prm", {
         "Loading/push/Output every": "3"}),
@@ -73,26 +76,6 @@ def start(arguments, n_ranks, folder):
     with open(folder / "screen.txt", "ab") as screen:
         return subprocess.Popen(call + [str(a) for a in arguments], cwd=folder,
                                 stdout=screen, stderr=screen, start_new_session=True)
-
-
-def ranks_of(child, program):
-    """The processes of a call that compute: itself, or the children of mpirun. Another
-    process that a rank may have is none."""
-    def runs_program(pid):
-        try:
-            return os.path.samefile(f"/proc/{pid}/exe", program)
-        except OSError:
-            return False
-
-    def parent(pid):
-        try:
-            return int(Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[1])
-        except OSError:
-            return None
-    if runs_program(child.pid):
-        return [child.pid]
-    return [int(path.name) for path in Path("/proc").glob("[0-9]*")
-            if parent(path.name) == child.pid and runs_program(path.name)]
 
 
 def run(program, method, n_ranks, folder):

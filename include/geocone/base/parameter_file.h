@@ -48,11 +48,14 @@ namespace geocone
     /**
      * @param file_name the parameter file
      * @param overrides texts of the form "Section/Subsection/Name = value"
+     * @param original the file that it stands for: names of files in it count
+     * from there; empty: itself
      * @throws InputError if a file is missing or no text, a section does not end,
      * or an override is malformed
      */
     ParameterFile(const std::string              &file_name,
-                  const std::vector<std::string> &overrides);
+                  const std::vector<std::string> &overrides,
+                  const std::string              &original = "");
 
     /**
      * The same from a text, which includes nothing; @p name is what errors call
@@ -90,12 +93,6 @@ namespace geocone
      */
     std::vector<Setting>
     parse(const OfOthers &of_others = {}) const;
-
-    /** The parameters that a run in @p folder has used. Names of files in them
-     *  count from where they did for that run.
-     *  @throws InputError if it is not the folder of a run */
-    static ParameterFile
-    of_run(const std::string &folder);
 
     /** The absolute name of the file, and its name without folder and ending. */
     const std::string &

@@ -73,6 +73,20 @@ namespace geocone
     struct IsClass<T, std::void_t<HasState<T>>> : std::true_type
     {};
 
+    /** Of a tensor or a point, or of a Mandel vector. */
+    template <typename T>
+    static constexpr auto
+    n_components() -> decltype(int(T::dimension))
+    {
+      return T::dimension;
+    }
+    template <typename T>
+    static constexpr auto
+    n_components() -> decltype(int(T::SizeAtCompileTime))
+    {
+      return T::SizeAtCompileTime;
+    }
+
     template <typename T>
     void
     item(T &x)
@@ -86,8 +100,7 @@ namespace geocone
       else if constexpr (IsClass<T>::value)
         x.state(*this);
       else
-        // A tensor, or a point.
-        for (unsigned int d = 0; d < T::dimension; ++d)
+        for (int d = 0; d < n_components<T>(); ++d)
           item(x[d]);
     }
 

@@ -48,7 +48,7 @@ namespace geocone
     /** @name The state, as part of a checkpoint. Collective. */
     /** @{ */
     void
-    save(Archive &archive, const BackgroundMesh &mesh) const;
+    save(Archive &archive, const BackgroundMesh &mesh);
 
     /** In place of what prepare() has seeded. */
     void

@@ -4,6 +4,8 @@
 #ifndef geocone_output_run_folder_h
 #define geocone_output_run_folder_h
 
+#include <geocone/base/parameter_file.h>
+
 #include <mpi.h>
 
 #include <string>
@@ -40,7 +42,16 @@ namespace geocone
                   const IfExists     if_exists);
 
   /**
-   * Enters the folder of a run that goes on.
+   * The parameters that the run in a folder has used. Names of files in them count
+   * from where they did for that run.
+   * @throws InputError if it is not the folder of a run
+   */
+  ParameterFile
+  parameters_of_run(const std::string &folder);
+
+  /**
+   * Enters the folder of a run that goes on; as long as this process lives, no
+   * other one can.
    * @throws InputError if it is not one, or its run has not ended
    */
   void

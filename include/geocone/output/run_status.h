@@ -42,6 +42,10 @@ namespace geocone
     pid_t watcher = -1;
   };
 
+  /** The summary in a file; empty if there is none that can be read. */
+  nlohmann::ordered_json
+  read_summary(const std::string &file_name);
+
   /**
    * The topic "run" of a summary: the program's process and host, when it began
    * and when it was seen last (UTC, ISO 8601).

@@ -61,17 +61,9 @@ namespace geocone
             const double           h) override;
 
     void
-    save(Archive              &archive,
-         const BackgroundMesh &mesh,
-         const Space          &space,
-         Kinematics           &kinematics,
-         const MaterialPoints &points) override;
+    save(Archive &archive, MaterialPoints &points) override;
     void
-    load(const Archive        &archive,
-         const BackgroundMesh &mesh,
-         const Space          &space,
-         Kinematics           &kinematics,
-         MaterialPoints       &points) override;
+    load(const Archive &archive, MaterialPoints &points) override;
 
     unsigned int
     n_unknowns() const override

@@ -171,24 +171,16 @@ namespace geocone
     void
     reset(Kinematics &kinematics, MaterialPoints &points) const;
 
-    /** @name The state of motion and points, as part of a checkpoint.
+    /** @name The state but for the motion (Kinematics), as part of a checkpoint.
      *  Collective. */
     /** @{ */
     virtual void
-    save(Archive              &archive,
-         const BackgroundMesh &mesh,
-         const Space          &space,
-         Kinematics           &kinematics,
-         const MaterialPoints &points) = 0;
+    save(Archive &archive, MaterialPoints &points) = 0;
 
     /** In place of what prepare() has made.
      *  @throws RunError if it does not fit */
     virtual void
-    load(const Archive        &archive,
-         const BackgroundMesh &mesh,
-         const Space          &space,
-         Kinematics           &kinematics,
-         MaterialPoints       &points) = 0;
+    load(const Archive &archive, MaterialPoints &points) = 0;
     /** @} */
 
     virtual unsigned int

@@ -1,0 +1,71 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_base_declared_parameters_h
+#define geocone_base_declared_parameters_h
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /** The parameters that objects have declared to dealii::ParameterAcceptor: what a
+   *  file may set. A section of them. */
+  struct Declared
+  {
+    struct Entry
+    {
+      std::string value, default_value, pattern;
+    };
+    std::map<std::string, Entry>    entries;
+    std::map<std::string, Declared> sections;
+
+    const Declared *
+    find(const std::vector<std::string> &path) const
+    {
+      const Declared *here = this;
+      for (const std::string &name : path)
+        {
+          const auto below = here->sections.find(name);
+          if (below == here->sections.end())
+            return nullptr;
+          here = &below->second;
+        }
+      return here;
+    }
+  };
+
+  /** All of them, with their present values. */
+  Declared
+  all_declared();
+
+  /** The names in a map. */
+  template <typename T>
+  std::vector<std::string>
+  keys(const std::map<std::string, T> &map)
+  {
+    std::vector<std::string> all;
+    for (const auto &[key, value] : map)
+      all.push_back(key);
+    return all;
+  }
+
+  /** SECTION/SUBSECTION/NAME. */
+  std::string
+  joined(const std::vector<std::string> &sections, const std::string &name);
+
+  /**
+   * Gives a declared parameter its value.
+   * @param place where it is set, for messages
+   * @throws InputError if it does not fit, with what is allowed
+   */
+  void
+  set_value(const std::vector<std::string> &sections,
+            const std::string              &name,
+            const std::string              &value,
+            const Declared::Entry          &entry,
+            const std::string              &place);
+} // namespace geocone
+
+#endif

@@ -1,0 +1,208 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/declared_parameters.h>
+#include <geocone/base/exceptions.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+#include <deal.II/base/utilities.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <regex>
+#include <sstream>
+
+namespace geocone
+{
+  using dealii::ParameterAcceptor;
+  using dealii::ParameterHandler;
+
+  namespace
+  {
+    using dealii::Utilities::trim;
+
+    constexpr double largest_value = 1e100;
+
+    /** A name as ParameterHandler writes it into JSON: what is neither a letter
+     *  nor a digit stands there as _XX. */
+    std::string
+    demangle(const std::string &text)
+    {
+      std::string name;
+      for (std::size_t i = 0; i < text.size(); ++i)
+        if (text[i] == '_' && i + 2 < text.size())
+          {
+            name += static_cast<char>(
+              std::strtol(text.substr(i + 1, 2).c_str(), nullptr, 16));
+            i += 2;
+          }
+        else
+          name += text[i];
+      return name;
+    }
+
+    Declared
+    from_json(const nlohmann::json &json)
+    {
+      Declared declared;
+      for (const auto &[key, value] : json.items())
+        if (value.contains("pattern_description"))
+          declared.entries[demangle(key)] = {
+            value.at("value").get<std::string>(),
+            value.at("default_value").get<std::string>(),
+            value.at("pattern_description").get<std::string>()};
+        else
+          declared.sections[demangle(key)] = from_json(value);
+      return declared;
+    }
+
+    /** The bounds in a pattern like "[Double 0...1 (inclusive)]". */
+    std::string
+    bounds(const std::string &pattern)
+    {
+      std::smatch match;
+      if (!std::regex_search(
+            pattern, match, std::regex("([-+.eE\\w]+)\\.\\.\\.([-+.\\w]+) ")))
+        return "";
+      const auto is_limit = [](const std::string &text) {
+        return text.find("MAX_DOUBLE") != std::string::npos ||
+               text == std::to_string(std::numeric_limits<int>::min()) ||
+               text == std::to_string(std::numeric_limits<int>::max()) ||
+               text == std::to_string(std::numeric_limits<unsigned>::max());
+      };
+      const bool from = !is_limit(match[1]), to = !is_limit(match[2]);
+      return from && to ? " from " + match.str(1) + " to " + match.str(2)
+             : from     ? " >= " + match.str(1)
+             : to       ? " <= " + match.str(2)
+                        : "";
+    }
+
+    /** What a pattern of the library allows, in words. */
+    std::string
+    allowed_by(const std::string &pattern)
+    {
+      const auto begins = [&](const std::string &text) {
+        return pattern.compare(0, text.size(), text) == 0;
+      };
+      if (begins("[Selection "))
+        {
+          std::string choices = trim(pattern.substr(11, pattern.size() - 12));
+          for (std::size_t i = choices.find('|'); i != std::string::npos;
+               i             = choices.find('|', i + 3))
+            choices.replace(i, 1, " | ");
+          return choices;
+        }
+      if (begins("[Bool"))
+        return "true | false";
+      if (begins("[Integer"))
+        {
+          return "a whole number" + bounds(pattern);
+        }
+      if (begins("[Double"))
+        return "a number" + bounds(pattern);
+      if (begins("[List"))
+        {
+          const bool doubles = pattern.find("[Double") != std::string::npos;
+          if (pattern.find("[List", 5) != std::string::npos)
+            return "points x, y; x, y; ... of numbers";
+          if (pattern.find("length 2...2 ") != std::string::npos)
+            return "two numbers x, y";
+          return doubles ? "numbers, separated by commas"
+                         : "names, separated by commas";
+        }
+      return "text";
+    }
+
+    /** The numbers in a text, which commas, semicolons and blanks separate, are
+     *  finite and not absurd. */
+    bool
+    is_sensible(const std::string &value)
+    {
+      std::string text = value;
+      for (char &c : text)
+        if (c == ',' || c == ';' || c == ':')
+          c = ' ';
+      std::istringstream in(text);
+      for (std::string word; in >> word;)
+        {
+          char        *end    = nullptr;
+          const double number = std::strtod(word.c_str(), &end);
+          if (end != word.c_str() && *end == '\0' &&
+              !(std::abs(number) <= largest_value))
+            return false;
+        }
+      return true;
+    }
+  } // namespace
+
+  Declared
+  all_declared()
+  {
+    std::ostringstream out;
+    ParameterAcceptor::prm.print_parameters(out, ParameterHandler::JSON);
+    return from_json(nlohmann::json::parse(out.str()));
+  }
+
+  std::string
+  joined(const std::vector<std::string> &sections, const std::string &name)
+  {
+    std::string path;
+    for (const std::string &section : sections)
+      path += section + "/";
+    return path + name;
+  }
+
+  void
+  set_value(const std::vector<std::string> &sections,
+            const std::string              &name,
+            const std::string              &value,
+            const Declared::Entry          &entry,
+            const std::string              &place)
+  {
+    const std::string path   = joined(sections, name);
+    const auto        refuse = [&](const std::string &allowed) {
+      throw InputError(
+        path,
+        value,
+        allowed,
+        (entry.default_value.empty()
+                  ? "leave it out for the default"
+                  : "e.g. " + printable(entry.default_value) + ", the default") +
+          " (" + place + ")");
+    };
+    if (entry.pattern.find("[Double") != std::string::npos &&
+        !is_sensible(value))
+      refuse("finite numbers of magnitude <= 1e100");
+    // The library takes a number without sign for one with it.
+    if (entry.pattern == "[Integer]" &&
+        (value.empty() ||
+         value.find_first_not_of("0123456789") != std::string::npos ||
+         value.size() > 10 ||
+         std::stoull(value) > std::numeric_limits<unsigned>::max()))
+      refuse("a whole number from 0 to " +
+             std::to_string(std::numeric_limits<unsigned>::max()));
+    // Not as a line of text, in which the library would neither match a value
+    // with a brace nor take it.
+    auto &prm = ParameterAcceptor::prm;
+    for (const std::string &section : sections)
+      prm.enter_subsection(section);
+    const bool fits = [&]() {
+      try
+        {
+          prm.set(name, value);
+          return true;
+        }
+      catch (const dealii::ExceptionBase &)
+        {
+          return false;
+        }
+    }();
+    for (std::size_t i = 0; i < sections.size(); ++i)
+      prm.leave_subsection();
+    if (!fits)
+      refuse(allowed_by(entry.pattern));
+  }
+} // namespace geocone
