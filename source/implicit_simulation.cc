@@ -28,7 +28,8 @@ namespace geocone
     {
       unsigned int n = 0, first = materials.size();
       for (unsigned int p = 0; p < points.n_points(); ++p)
-        if (const auto cone = materials[points.material[p]].flow_cone())
+        if (const auto cone =
+              materials[points.material[p]].flow_cone(points.history_of(p)))
           if (cone->yield_function(to_cone_axes(points.stress[p])) >
               1e-6 * points.stress[p].norm())
             {

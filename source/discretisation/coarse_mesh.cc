@@ -113,12 +113,7 @@ namespace geocone
   {
     if (!method.is_mpm())
       {
-        if (!box.empty())
-          throw InputError("Mesh/Box",
-                           dealii::Patterns::Tools::to_string(box),
-                           "empty with FEM, whose mesh fits the body",
-                           "give the body in 'Geometry', or set "
-                           "Discretisation/Method = MPM");
+        // The mesh fits the body: 'Mesh/Box' is not used.
         outline = geometry.outline;
         return;
       }

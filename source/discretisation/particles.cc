@@ -14,24 +14,6 @@ namespace geocone
 
   namespace
   {
-    /** Places of the state of a particle among its properties. */
-    enum Property : unsigned int
-    {
-      mass,
-      volume,
-      velocity,
-      displacement              = velocity + dim,
-      stress                    = displacement + dim,
-      plastic_strain            = stress + n_mandel,
-      cumulative_plastic_strain = plastic_strain + n_mandel,
-      plastic_strain_rate,
-      affine,
-      material = affine + dim * dim,
-      held_by,
-      still_to_go,
-      n_properties = still_to_go + dim
-    };
-
     /**
      * Whether a particle lies in the first row under the part of the body's
      * sides that a condition holds: nearer than the side of its own square.
@@ -68,8 +50,17 @@ namespace geocone
     seeding.prepare(scene);
     const std::vector<Seed> seeds = seeding.make(scene, mesh);
 
+    // What a particle has is one row of numbers: its state and, while it moves,
+    // how far it has still to go.
+    MaterialPoints one;
+    one.n_history = n_history = scene.materials.n_history();
+    one.resize(1, true);
+    StateRow row;
+    one.state(0, row);
+    n_state = row.values().size();
+
     handler = std::make_unique<dealii::Particles::ParticleHandler<dim>>(
-      mesh.triangulation(), mesh.mapping(), n_properties);
+      mesh.triangulation(), mesh.mapping(), n_state + dim);
     handler->signals.particle_lost.connect(
       [this](const auto &particle, const auto &cell) {
         const auto properties = particle->get_properties();
@@ -87,16 +78,16 @@ namespace geocone
     const auto cells = mesh.own_cells();
     for (unsigned int i = 0; i < n; ++i)
       {
-        const Seed         &seed = seeds[i];
-        std::vector<double> properties(n_properties, 0.);
-        properties[volume]   = seed.volume;
-        properties[material] = seed.material;
-        properties[mass] =
-          seed.volume * scene.materials[seed.material].density();
-        for (unsigned int c = 0; c < dim; ++c)
-          properties[velocity + c] = seed.velocity[c];
-        for (unsigned int c = 0; c < n_mandel; ++c)
-          properties[stress + c] = seed.stress[c];
+        const Seed            &seed = seeds[i];
+        const ConstitutiveLaw &law  = scene.materials.law(seed.material);
+        one.weight[0]               = seed.volume;
+        one.material[0]             = seed.material;
+        one.mass[0]                 = seed.volume * law.density();
+        one.velocity[0]             = seed.velocity;
+        one.stress[0]               = seed.stress;
+        law.initialise(plane_strain_stress(seed.stress, seed.stress_zz),
+                       one.history.data());
+        one.held_by[0] = 0;
         for (unsigned int c = 0; c < conditions.size(); ++c)
           if (conditions[c]->imposition ==
                 BoundaryCondition::Imposition::points ||
@@ -104,7 +95,10 @@ namespace geocone
                 BoundaryCondition::Imposition::cell_averages)
             if (in_first_row(
                   *conditions[c], scene.geometry, seed.position, seed.volume))
-              properties[held_by] = c + 1;
+              one.held_by[0] = c + 1;
+        std::vector<double> properties(n_state + dim, 0.);
+        StateRow            row(properties.data(), false);
+        one.state(0, row);
         handler->insert_particle(seed.position,
                                  Point<dim>(-1., -1.),
                                  first + i,
@@ -130,6 +124,8 @@ namespace geocone
     const unsigned int n_points = handler->n_locally_owned_particles();
     const unsigned int n        = space.nodes_per_cell();
     points.n_nodes              = n;
+    points.n_history            = n_history;
+    points.resize(n_points, true);
     points.values.resize(n_points * n);
     points.gradients.resize(n_points * dim * n);
 
@@ -145,7 +141,7 @@ namespace geocone
         space.cell_nodes(cell, nodes);
         for (const types::global_dof_index node : nodes)
           points.nodes.push_back(space.local_node(node));
-        for (const auto &particle : particles)
+        for (auto &particle : particles)
           {
             const Point<dim>    &unit    = particle.get_reference_location();
             const Tensor<2, dim> inverse = mesh.inverse_jacobian(cell, unit);
@@ -157,31 +153,11 @@ namespace geocone
                 for (unsigned int c = 0; c < dim; ++c)
                   points.gradients[(p * dim + c) * n + i] = gradient[c];
               }
+            points.position[p] = particle.get_location();
+            points.id[p]       = particle.get_id();
+            StateRow row(particle.get_properties().begin(), true);
+            points.state(p, row);
             ++p;
-
-            const auto state  = particle.get_properties();
-            const auto mandel = [&](const unsigned int place) {
-              return Mandel(state[place], state[place + 1], state[place + 2]);
-            };
-            const auto vector = [&](const unsigned int place) {
-              return Tensor<1, dim>({state[place], state[place + 1]});
-            };
-            points.position.push_back(particle.get_location());
-            points.id.push_back(particle.get_id());
-            points.mass.push_back(state[mass]);
-            points.weight.push_back(state[volume]);
-            points.velocity.push_back(vector(velocity));
-            points.displacement.push_back(vector(displacement));
-            points.stress.push_back(mandel(stress));
-            points.plastic_strain.push_back(mandel(plastic_strain));
-            points.cumulative_plastic_strain.push_back(
-              state[cumulative_plastic_strain]);
-            points.plastic_strain_rate.push_back(state[plastic_strain_rate]);
-            points.affine.push_back(
-              Tensor<2, dim>({{state[affine], state[affine + 1]},
-                              {state[affine + 2], state[affine + 3]}}));
-            points.material.push_back(std::lround(state[material]));
-            points.held_by.push_back(std::lround(state[held_by]));
           }
         points.first_point.push_back(p);
       }
@@ -220,7 +196,7 @@ namespace geocone
   void
   Particles::load(const Archive &archive, const BackgroundMesh &mesh)
   {
-    const std::size_t         size   = 1 + 2 * dim + n_properties;
+    const std::size_t         size   = 1 + 2 * dim + n_state + dim;
     const std::vector<double> values = archive.read("particles/state");
     const CellRecord          cells(archive.read("particles/cells"),
                            values.size() / size);
@@ -236,7 +212,7 @@ namespace geocone
               Point<dim>(x[3], x[4]),
               static_cast<unsigned int>(x[0]),
               cell,
-              ArrayView<const double>(x + 1 + 2 * dim, n_properties));
+              ArrayView<const double>(x + 1 + 2 * dim, n_state + dim));
           }
       }
     handler->update_cached_numbers();
@@ -270,7 +246,7 @@ namespace geocone
   }
 
   void
-  Particles::move(const MaterialPoints &points)
+  Particles::move(MaterialPoints &points)
   {
     // The library finds a particle in the cells around its old one, which on
     // several ranks may be all that is known: far moves go in parts.
@@ -283,28 +259,13 @@ namespace geocone
             points.position[p] - particle.get_location();
           for (unsigned int c = 0; c < dim; ++c)
             {
-              state[still_to_go + c] = move[c];
-              n_parts                = std::max<unsigned int>(
+              state[n_state + c] = move[c];
+              n_parts            = std::max<unsigned int>(
                 n_parts,
                 std::ceil(std::abs(move[c]) / cell->extent_in_direction(c)));
             }
-          state[volume] = points.weight[p];
-          for (unsigned int c = 0; c < dim; ++c)
-            {
-              state[velocity + c]     = points.velocity[p][c];
-              state[displacement + c] = points.displacement[p][c];
-              for (unsigned int d = 0; d < dim; ++d)
-                state[affine + dim * c + d] = points.affine[p][c][d];
-            }
-          for (unsigned int c = 0; c < n_mandel; ++c)
-            {
-              state[stress + c]         = points.stress[p][c];
-              state[plastic_strain + c] = points.plastic_strain[p][c];
-            }
-          state[cumulative_plastic_strain] =
-            points.cumulative_plastic_strain[p];
-          state[plastic_strain_rate] = points.plastic_strain_rate[p];
-          ++p;
+          StateRow row(state.begin(), false);
+          points.state(p++, row);
         }
     lost.clear();
     n_parts = Utilities::MPI::n_mpi_processes(comm) == 1
@@ -317,8 +278,8 @@ namespace geocone
             const auto state = particle.get_properties();
             particle.set_location(
               particle.get_location() +
-              Tensor<1, dim>({state[still_to_go] / n_parts,
-                              state[still_to_go + 1] / n_parts}));
+              Tensor<1, dim>(
+                {state[n_state] / n_parts, state[n_state + 1] / n_parts}));
           }
         sort();
       }

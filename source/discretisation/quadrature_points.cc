@@ -87,7 +87,8 @@ namespace geocone
                          const Space          &space)
   {
     MaterialPoints points;
-    points.n_nodes = space.nodes_per_cell();
+    points.n_nodes   = space.nodes_per_cell();
+    points.n_history = scene.materials.n_history();
     CellValues values(space, mesh, stress_quadrature(space, mesh));
     std::vector<types::global_dof_index> nodes;
     for (const auto &cell : mesh.own_cells())
@@ -99,13 +100,20 @@ namespace geocone
           points.nodes.push_back(space.local_node(node));
         for (unsigned int q = 0; q < values.quadrature.size(); ++q)
           {
-            points.weight.push_back(values.weight[q]);
-            points.position.push_back(values.position[q]);
-            points.material.push_back(cell->material_id());
-            points.stress.push_back(scene.initial_stress.at(values.position[q],
-                                                            cell->material_id(),
-                                                            scene.materials,
-                                                            scene.regions));
+            const unsigned int p        = points.n_points();
+            const Point<dim>  &x        = values.position[q];
+            const unsigned int material = cell->material_id();
+            points.resize(p + 1, false);
+            points.weight[p]   = values.weight[q];
+            points.position[p] = x;
+            points.material[p] = material;
+            points.stress[p]   = scene.initial_stress.at(
+              x, material, scene.materials, scene.regions);
+            scene.materials.law(material).initialise(
+              plane_strain_stress(
+                points.stress[p],
+                scene.initial_stress.zz_at(x, points.stress[p])),
+              &points.history[points.n_history * p]);
             for (unsigned int c = 0; c < dim; ++c)
               for (unsigned int i = 0; i < points.n_nodes; ++i)
                 points.gradients.push_back(values.gradient(i, q)[c]);
@@ -124,9 +132,6 @@ namespace geocone
                          "'\n  allowed: one cell or more\n"
                          "  remedy:  take smaller cells, or check 'Region "
                          "polygon' and 'Region number'");
-    points.plastic_strain.assign(points.n_points(), Mandel::Zero());
-    points.cumulative_plastic_strain.assign(points.n_points(), 0.);
-    points.plastic_strain_rate.assign(points.n_points(), 0.);
     if (space.has_b_bar())
       average_gradients(points);
     return points;

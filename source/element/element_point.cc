@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 namespace geocone
 {
@@ -146,7 +145,7 @@ namespace geocone
                    std::string           &changed)
         : law(law)
         , subloading(dynamic_cast<const Subloading *>(&law))
-        , shown(law.shown_names())
+        , shown(law.shown())
       {
         now.stress = {{stress[0], stress[1], stress[3]}};
         now.history.resize(law.n_history());
@@ -230,10 +229,10 @@ namespace geocone
       names() const override
       {
         std::vector<std::string> all;
-        if (std::count(shown.begin(), shown.end(), "mean_pressure") == 0)
+        if (!shows_pressure())
           all = {"p (Pa)", "q (Pa)"};
-        for (const std::string &name : shown)
-          all.push_back(title(name));
+        for (const ConstitutiveLaw::Shown &one : shown)
+          all.push_back(one.title);
         all.push_back("plastic strain (-)");
         return all;
       }
@@ -242,9 +241,9 @@ namespace geocone
       values() const override
       {
         std::vector<double> all;
-        if (std::count(shown.begin(), shown.end(), "mean_pressure") == 0)
+        if (!shows_pressure())
           {
-            // The out-of-plane stress is not known: those of the plane.
+            // Those of the plane, on which yielding depends.
             const double half = (now.stress[0] - now.stress[1]) / 2.;
             all               = {-(now.stress[0] + now.stress[1]) / 2.,
                                  2. * std::hypot(half, now.stress[2])};
@@ -268,10 +267,10 @@ namespace geocone
             stress,
             axis);
         const auto *material = dynamic_cast<const Material *>(&law);
-        if (material == nullptr || !material->flow_cone())
+        if (material == nullptr || !material->flow_cone(now.history.data()))
           return {};
         // |s_t| <= a s_n + k with s_n = sqrt2 p, |s_t| = q/sqrt2.
-        const FlowCone cone = *material->flow_cone();
+        const FlowCone cone = *material->flow_cone(now.history.data());
         const double   tip =
           cone.a > 0. ? -cone.k / (sqrt2 * cone.a) : std::min(0., -largest_p);
         const double q      = 2. * cone.a * largest_p + sqrt2 * cone.k;
@@ -290,41 +289,28 @@ namespace geocone
         double                wave           = 0.;
       };
 
-      /** With zz if the law tells it. */
       Tensor6
       stress_of(const State &state) const
       {
-        Tensor6 all = {{state.stress[0], state.stress[1], 0., state.stress[2]}};
-        const auto zz = std::find(shown.begin(), shown.end(), "stress_zz");
-        if (zz != shown.end())
-          {
-            std::vector<double> values(shown.size());
-            law.show(state.stress, state.history.data(), values.data());
-            all[2] = values[zz - shown.begin()];
-          }
-        return all;
+        return {{state.stress[0],
+                 state.stress[1],
+                 law.stress_zz(state.stress, state.history.data()),
+                 state.stress[2]}};
       }
 
-      /** The name of a column, with its unit. */
-      static std::string
-      title(const std::string &name)
+      /** Whether the law has a pressure of its own. */
+      bool
+      shows_pressure() const
       {
-        static const std::map<std::string, std::string> known = {
-          {"stress_zz", "stress zz (Pa)"},
-          {"mean_pressure", "p (Pa)"},
-          {"deviatoric_stress", "q (Pa)"},
-          {"subloading_ratio", "R (-)"},
-          {"structure_ratio", "Rb (-)"},
-          {"yield_surface_size", "pcb (Pa)"},
-          {"anisotropy", "anisotropy (-)"}};
-        const auto found = known.find(name);
-        return found == known.end() ? name : found->second;
+        return std::any_of(shown.begin(), shown.end(), [](const auto &one) {
+          return one.name == "mean_pressure";
+        });
       }
 
-      const ConstitutiveLaw         &law;
-      const Subloading *const        subloading; ///< or null
-      const std::vector<std::string> shown;
-      State                          now, trial;
+      const ConstitutiveLaw                    &law;
+      const Subloading *const                   subloading; ///< or null
+      const std::vector<ConstitutiveLaw::Shown> shown;
+      State                                     now, trial;
     };
 
     /** The subloading model with all six components. */

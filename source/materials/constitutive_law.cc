@@ -4,6 +4,8 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/materials/constitutive_law.h>
 
+#include <limits>
+
 namespace geocone
 {
   ConstitutiveLaw::ConstitutiveLaw(const std::string &section)
@@ -27,5 +29,24 @@ namespace geocone
         rho,
         "rho > 0 kg/m^3",
         "without inertia and gravity any positive value will do");
+  }
+
+  ShownValue::ShownValue(const ConstitutiveLaw &law, const std::string &name)
+    : law(&law)
+  {
+    const std::vector<ConstitutiveLaw::Shown> all = law.shown();
+    values.resize(all.size());
+    while (place < all.size() && all[place].name != name)
+      ++place;
+  }
+
+  double
+  ShownValue::operator()(const std::array<double, 3> &in_plane,
+                         const double                *history)
+  {
+    if (place == values.size())
+      return std::numeric_limits<double>::quiet_NaN();
+    law->show(in_plane, history, values.data());
+    return values[place];
   }
 } // namespace geocone

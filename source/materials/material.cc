@@ -36,10 +36,32 @@ namespace geocone
     elastic = Elasticity(young_modulus, poisson_ratio);
   }
 
+  std::string
+  Material::initialise(const Stress &stress, double *history) const
+  {
+    history[0] = stress[2] - poisson_ratio * (stress[0] + stress[1]);
+    return "";
+  }
+
+  double
+  Material::stress_zz(const std::array<double, 3> &in_plane,
+                      const double                *history) const
+  {
+    return history[0] + poisson_ratio * (in_plane[0] + in_plane[1]);
+  }
+
+  std::optional<FlowCone>
+  Material::initial_cone() const
+  {
+    std::vector<double> history(n_history());
+    initialise({}, history.data());
+    return flow_cone(history.data());
+  }
+
   double
   Material::earth_pressure_at_rest() const
   {
-    if (const std::optional<FlowCone> cone = flow_cone())
+    if (const std::optional<FlowCone> cone = initial_cone())
       return 1. - cone->a;
     return elastic.lambda / (elastic.lambda + elastic.two_G);
   }
@@ -54,14 +76,18 @@ namespace geocone
   Material::advance(const PointBlock &block, LawCounts &counts) const
   {
     counts.updates += block.n_points;
-    if (const std::optional<FlowCone> cone = flow_cone())
-      return advance_cone(*cone, elastic, block);
+    if (!hardens())
+      if (const std::optional<FlowCone> cone = flow_cone(nullptr))
+        return advance_cone(*cone, elastic, block);
     constexpr unsigned int   size = PointBlock::capacity;
     std::array<Mandel, size> strain, stress_n, stress;
     std::array<Mode, size>   mode;
-    const unsigned int       n = block.n_points;
+    const unsigned int       n = block.n_points, m = n_history();
+    std::vector<double>      history_n(m * n);
     for (unsigned int p = 0; p < n; ++p)
       {
+        for (unsigned int k = 0; k < m; ++k)
+          history_n[m * p + k] = block.history[k][p];
         double xx = block.s_xx[p], yy = block.s_yy[p], xy = block.s_xy[p];
         Spin(block.l_xy[p], block.l_yx[p]).turn(xx, yy, xy);
         stress_n[p] = {xx, yy, sqrt2 * xy};
@@ -69,14 +95,20 @@ namespace geocone
                        block.l_yy[p],
                        (block.l_xy[p] + block.l_yx[p]) / sqrt2};
       }
-    Response response;
-    response.stress = dealii::ArrayView<Mandel>(stress.data(), n);
-    response.mode   = dealii::ArrayView<Mode>(mode.data(), n);
+    std::vector<double> history = history_n;
+    Response            response;
+    response.stress  = dealii::ArrayView<Mandel>(stress.data(), n);
+    response.mode    = dealii::ArrayView<Mode>(mode.data(), n);
+    response.history = history.data();
     update({dealii::ArrayView<const Mandel>(strain.data(), n),
-            dealii::ArrayView<const Mandel>(stress_n.data(), n)},
+            dealii::ArrayView<const Mandel>(stress_n.data(), n),
+            history_n.data(),
+            m},
            response);
     for (unsigned int p = 0; p < n; ++p)
       {
+        for (unsigned int k = 0; k < m; ++k)
+          block.history[k][p] = history[m * p + k];
         const Mandel change = stress[p] - stress_n[p];
         block.work[p]       = strain[p].dot(stress_n[p] + change / 2.);
         block.plastic_strain[p] +=
@@ -93,7 +125,7 @@ namespace geocone
   double
   Material::non_associativity() const
   {
-    const std::optional<FlowCone> cone = flow_cone();
+    const std::optional<FlowCone> cone = initial_cone();
     return cone && cone->a > 0. ? (cone->a - cone->b) / cone->a : 0.;
   }
 } // namespace geocone

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/materials/hardening_mohr_coulomb.h>
 #include <geocone/materials/linear_elastic.h>
 #include <geocone/materials/material_library.h>
 #include <geocone/materials/mohr_coulomb.h>
@@ -27,6 +28,7 @@ namespace geocone
                 std::unique_ptr<ConstitutiveLaw> (*)(const std::string &)>>
       laws = {{"Mohr-Coulomb", &make<MohrCoulomb>},
               {"Tresca", &make<Tresca>},
+              {"hardening Mohr-Coulomb", &make<HardeningMohrCoulomb>},
               {"linear elastic", &make<LinearElastic>},
               {"subloading", &make<Subloading>}};
   } // namespace
@@ -53,8 +55,8 @@ namespace geocone
     throw InputError(section + "/Type",
                      type,
                      known,
-                     "choose one of these laws, or add one as doc/theory.md "
-                     "tells");
+                     "choose one of these laws, or add one as "
+                     "CONTRIBUTING.md tells");
   }
 
   ParameterFile::OfOthers
@@ -125,6 +127,35 @@ namespace geocone
                            method,
                          "set 'Discretisation/Method' to 'explicit MPM', or "
                          "choose another law");
+  }
+
+  unsigned int
+  Materials::n_history() const
+  {
+    unsigned int most = 0;
+    for (const auto &law : list)
+      most = std::max(most, law->n_history());
+    return most;
+  }
+
+  std::vector<std::string>
+  Materials::shown_names() const
+  {
+    std::vector<std::string> names;
+    for (const auto &law : list)
+      for (const ConstitutiveLaw::Shown &shown : law->shown())
+        if (std::find(names.begin(), names.end(), shown.name) == names.end())
+          names.push_back(shown.name);
+    return names;
+  }
+
+  bool
+  Materials::symmetric() const
+  {
+    for (const Material *material : in_closed_form)
+      if (material != nullptr && !material->has_symmetric_tangent())
+        return false;
+    return true;
   }
 
   double

@@ -65,22 +65,30 @@ namespace geocone
     const bool         linear          = response.tangent.size() > 0;
     const double       lag             = increment.friction_lag;
     const MandelMatrix elastic_tangent = elasticity().stiffness();
+    const bool         fixed           = !hardens();
     const auto         s_n             = [&](const std::size_t p) {
       return to_cone_axes(increment.stress_n[p])[0];
     };
     for (std::size_t p = 0; p < increment.strain.size(); ++p)
       {
+        const std::size_t first = increment.n_history * p;
+        const FlowCone    law =
+          fixed ? cone : *flow_cone(increment.history_n + first);
         const Mandel trial =
           increment.stress_n[p] + elasticity().stress(increment.strain[p]);
+        const Mandel in_axes = to_cone_axes(trial);
         Mandel       returned;
         MandelMatrix tangent;
-        response.mode[p] =
-          return_map(lag > 0. ? cone.delayed(lag, s_n(p)) : cone,
-                     K,
-                     two_G,
-                     to_cone_axes(trial),
-                     returned,
-                     linear ? &tangent : nullptr);
+        response.mode[p] = return_map(lag > 0. ? law.delayed(lag, s_n(p)) : law,
+                                      K,
+                                      two_G,
+                                      in_axes,
+                                      returned,
+                                      linear ? &tangent : nullptr);
+        if (!fixed && response.history != nullptr)
+          add_to_history(FlowCone::tangential_norm(Mandel(in_axes - returned)) /
+                           two_G,
+                         response.history + first);
         // An elastic point keeps its trial stress to the last digit.
         const bool elastic = response.mode[p] == Mode::elastic;
         response.stress[p] = elastic ? trial : from_cone_axes(returned);

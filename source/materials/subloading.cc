@@ -503,16 +503,16 @@ namespace geocone
     });
   }
 
-  std::vector<std::string>
-  Subloading::shown_names() const
+  std::vector<ConstitutiveLaw::Shown>
+  Subloading::shown() const
   {
-    return {"stress_zz",
-            "mean_pressure",
-            "deviatoric_stress",
-            "subloading_ratio",
-            "structure_ratio",
-            "yield_surface_size",
-            "anisotropy"};
+    return {{"stress_zz", "stress zz (Pa)"},
+            {"mean_pressure", "p (Pa)"},
+            {"deviatoric_stress", "q (Pa)"},
+            {"subloading_ratio", "R (-)"},
+            {"structure_ratio", "Rb (-)"},
+            {"yield_surface_size", "pcb (Pa)"},
+            {"anisotropy", "anisotropy (-)"}};
   }
 
   void

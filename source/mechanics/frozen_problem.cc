@@ -127,6 +127,8 @@ namespace geocone
     p.material                         = gather(points.material, comm);
     p.weight                           = gather(points.weight, comm);
     p.mass                             = gather(points.mass, comm);
+    p.n_history                        = points.n_history;
+    p.history                          = gather(points.history, comm);
     const std::vector<double> stresses = gather(flat(points.stress), comm);
     for (std::size_t i = 0; i < stresses.size(); i += n_mandel)
       p.stress.emplace_back(&stresses[i]);
@@ -180,6 +182,7 @@ namespace geocone
     file.write("points/weight", points.weight);
     file.write("points/mass", points.mass);
     file.write("points/stress", flat(points.stress));
+    file.write("points/history", points.history);
     file.write("points/position", flat(points.position));
     file.write("dofs/kind", kind);
     file.write("dofs/mass", mass);
@@ -238,18 +241,20 @@ namespace geocone
           "cells have 1 to 16 nodes");
     frozen.particles = particles[0] != 0;
 
-    MaterialPoints &p       = frozen.points;
-    p.n_nodes               = n_nodes[0];
-    p.first_point           = unsigned_array("points/first_point");
-    p.nodes                 = unsigned_array("points/nodes");
-    p.gradients             = doubles("points/gradients");
-    p.values                = doubles("points/values");
-    p.mean_gradients        = doubles("points/mean_gradients");
-    p.material              = unsigned_array("points/material");
-    p.weight                = doubles("points/weight");
-    p.mass                  = doubles("points/mass");
-    const auto stress       = doubles("points/stress");
-    const auto x            = doubles("points/position");
+    MaterialPoints &p = frozen.points;
+    p.n_nodes         = n_nodes[0];
+    p.first_point     = unsigned_array("points/first_point");
+    p.nodes           = unsigned_array("points/nodes");
+    p.gradients       = doubles("points/gradients");
+    p.values          = doubles("points/values");
+    p.mean_gradients  = doubles("points/mean_gradients");
+    p.material        = unsigned_array("points/material");
+    p.weight          = doubles("points/weight");
+    p.mass            = doubles("points/mass");
+    const auto stress = doubles("points/stress");
+    const auto x      = doubles("points/position");
+    if (file.has("points/history")) // older files lack it
+      p.history = doubles("points/history");
     frozen.kind             = file.read_integers("dofs/kind");
     frozen.mass             = doubles("dofs/mass");
     frozen.force            = doubles("dofs/force");
@@ -273,6 +278,9 @@ namespace geocone
             p.material.size() == n && stress.size() == n_mandel * n &&
             x.size() == dim * n && (p.mass.empty() || p.mass.size() == n),
           "the arrays of its points differ in length");
+    check(p.history.size() % n == 0,
+          "the histories of its points differ in length");
+    p.n_history = p.history.size() / n;
     check((p.values.empty() || p.values.size() == n * functions) &&
             (p.mean_gradients.empty() ||
              p.mean_gradients.size() == dim * p.n_cells() * functions),
@@ -358,9 +366,18 @@ namespace geocone
     force   = vector(frozen.force);
     v_start = vector(frozen.start);
     for (const unsigned int m : points.material)
-      if (m >= materials.size())
-        throw RunError("the frozen problem has points of a material that its "
-                       "materials lack");
+      {
+        if (m >= materials.size())
+          throw RunError("the frozen problem has points of a material that its "
+                         "materials lack");
+        if (materials[m].hardens() &&
+            materials[m].n_history() > points.n_history)
+          throw RunError("the frozen problem lacks the history of its points, "
+                         "of which the material '" +
+                         materials.name(m) +
+                         "' hardens\n  remedy:  freeze the step again "
+                         "('Output/Freeze steps')");
+      }
     incremental_problem = std::make_unique<IncrementalProblem>(
       points,
       materials,

@@ -204,17 +204,47 @@ namespace geocone
     for (const Run &run : runs)
       {
         const unsigned int n = run.end - run.begin;
-        const Increment    increment{
-          ArrayView<const Mandel>(&strain[run.begin], n),
-          ArrayView<const Mandel>(&points.stress[run.begin], n),
-          friction_lag};
-        const Response response{
-          ArrayView<Mandel>(&stress[run.begin], n),
-          ArrayView<Mode>(&mode[run.begin], n),
-          with_tangent ? ArrayView<MandelMatrix>(&tangent[run.begin], n)
-                       : ArrayView<MandelMatrix>()};
-        materials[run.material].update(increment, response);
+        Response           response;
+        response.stress = ArrayView<Mandel>(&stress[run.begin], n);
+        response.mode   = ArrayView<Mode>(&mode[run.begin], n);
+        if (with_tangent)
+          response.tangent = ArrayView<MandelMatrix>(&tangent[run.begin], n);
+        materials[run.material].update(increment_of(run), response);
       }
+  }
+
+  Increment
+  IncrementalProblem::increment_of(const Run &run) const
+  {
+    const unsigned int n = run.end - run.begin;
+    Increment          increment;
+    increment.strain    = ArrayView<const Mandel>(&strain[run.begin], n);
+    increment.stress_n  = ArrayView<const Mandel>(&points.stress[run.begin], n);
+    increment.history_n = points.history_of(run.begin);
+    increment.n_history = points.n_history;
+    increment.friction_lag = friction_lag;
+    return increment;
+  }
+
+  std::vector<double>
+  IncrementalProblem::trial_history() const
+  {
+    std::vector<double> history = points.history;
+    std::vector<Mandel> stresses;
+    std::vector<Mode>   modes;
+    for (const Run &run : runs)
+      if (materials[run.material].hardens())
+        {
+          const unsigned int n = run.end - run.begin;
+          stresses.resize(n);
+          modes.resize(n);
+          Response response;
+          response.stress  = ArrayView<Mandel>(stresses.data(), n);
+          response.mode    = ArrayView<Mode>(modes.data(), n);
+          response.history = history.data() + points.n_history * run.begin;
+          materials[run.material].update(increment_of(run), response);
+        }
+    return history;
   }
 
   ResidualReport
@@ -687,29 +717,37 @@ namespace geocone
     // Two passes: the scales of all ranks first.
     const MPI_Comm comm     = layout->get_mpi_communicator();
     double     stress_scale = 0., k_scale = 0., y_scale = 0., compliance = 0.;
-    const auto cone_at = [&](const FlowCone &cone, const unsigned int p) {
-      return cone.delayed(friction_lag, to_cone_axes(points.stress[p])[0]);
+    const auto z_at = [&](const unsigned int p) {
+      const Elasticity &elasticity = materials[points.material[p]].elasticity();
+      return to_cone_axes(Mandel(
+        elasticity.strain(Mandel(stress[p] - points.stress[p])) - strain[p]));
     };
-    const auto y_at = [&](const FlowCone    &cone,
-                          const Elasticity  &elasticity,
-                          const unsigned int p) {
-      const Mandel z =
-        elasticity.strain(Mandel(stress[p] - points.stress[p])) - strain[p];
-      return cone.psi(to_cone_axes(z));
+    // Of the end of the step.
+    const auto exact_cone = [&](const unsigned int p, const Mandel &z) {
+      return materials[points.material[p]]
+        .flow_cone(points.history_of(p))
+        ->hardened(z);
+    };
+    const auto solved_cone = [&](const unsigned int p, const FlowCone &exact) {
+      return exact.delayed(friction_lag, to_cone_axes(points.stress[p])[0]);
+    };
+    const auto has_cone = [&](const Run &run) {
+      return materials[run.material]
+        .flow_cone(points.history_of(run.begin))
+        .has_value();
     };
     for (const Run &run : runs)
-      if (const auto cone = materials[run.material].flow_cone())
+      if (has_cone(run))
         {
-          k_scale    = std::max(k_scale, cone->k);
           compliance = std::max(
             compliance, 1. / materials[run.material].elasticity().two_G);
           for (unsigned int p = run.begin; p < run.end; ++p)
             {
-              stress_scale = std::max(stress_scale, stress[p].norm());
-              y_scale      = std::max(
-                y_scale,
-                y_at(cone_at(*cone, p), materials[run.material].elasticity(), p)
-                  .norm());
+              const Mandel   z    = z_at(p);
+              const FlowCone cone = exact_cone(p, z);
+              k_scale             = std::max(k_scale, cone.k);
+              stress_scale        = std::max(stress_scale, stress[p].norm());
+              y_scale = std::max(y_scale, solved_cone(p, cone).psi(z).norm());
             }
         }
     stress_scale = Utilities::MPI::max(stress_scale, comm) +
@@ -719,22 +757,23 @@ namespace geocone
 
     Quality worst;
     for (const Run &run : runs)
-      if (const auto law = materials[run.material].flow_cone())
+      if (has_cone(run))
         for (unsigned int p = run.begin; p < run.end; ++p)
           {
-            const Elasticity &elasticity = materials[run.material].elasticity();
-            const FlowCone    cone       = cone_at(*law, p);
-            const Mandel      s          = to_cone_axes(stress[p]);
-            Quality           here;
+            const double   two_G = materials[run.material].elasticity().two_G;
+            const Mandel   z     = z_at(p);
+            const FlowCone exact = exact_cone(p, z);
+            const FlowCone cone  = solved_cone(p, exact);
+            const Mandel   s     = to_cone_axes(stress[p]);
+            Quality        here;
             here.cone_violation = cone.yield_function(s) / stress_scale;
-            here.cone_excess    = law->yield_function(s);
+            here.cone_excess    = exact.yield_function(s);
             // The complementarity law is that of a cone without a cut-off.
             if (s[0] > -cone.tension + 1e-12 * stress_scale)
               {
-                const Mandel y = y_at(cone, elasticity, p);
+                const Mandel y = cone.psi(z);
                 here.natural_map =
-                  natural_map(cone, s, y, elasticity.two_G).norm() /
-                  stress_scale;
+                  natural_map(cone, s, y, two_G).norm() / stress_scale;
                 if (y_scale > 0.)
                   {
                     here.dual_violation = cone.dual_violation(y) / y_scale;

@@ -14,8 +14,10 @@ namespace geocone
     , materials(materials)
     , rho(rho)
   {
+    // Laws without a point's own cone have one for all steps.
     for (unsigned int i = 0; i < materials.size(); ++i)
-      cones.push_back(materials[i].flow_cone());
+      cones.push_back(materials[i].hardens() ? std::nullopt
+                                             : materials[i].flow_cone(nullptr));
   }
 
   NaturalMap::Error
@@ -29,8 +31,11 @@ namespace geocone
     double     largest_k = 0.;
     for (unsigned int p = 0; p < strain.size(); ++p)
       {
-        const unsigned int             material = points.material[p];
-        const std::optional<FlowCone> &cone     = cones[material];
+        const unsigned int            material = points.material[p];
+        const std::optional<FlowCone> cone =
+          materials[material].hardens()
+            ? materials[material].flow_cone(points.history_of(p))
+            : cones[material];
         const Elasticity &elasticity = materials[material].elasticity();
         Mandel            s          = stress[p];
         if (moves)
@@ -45,22 +50,27 @@ namespace geocone
             const Mandel x = to_cone_axes(s);
             Mandel       projected;
             MandelMatrix J;
-            mode[p]        = return_map(FlowCone{cone->a, cone->a, cone->k},
+            const double k         = cone->hardened(z).k;
+            mode[p]                = return_map(FlowCone{cone->a, cone->a, k},
                                  1.,
                                  1.,
                                  Mandel(x - rho_p * cone->psi(z)),
                                  projected,
                                  &J);
-            const Mandel R = x - projected;
+            const Mandel R         = x - projected;
             error.largest_residual = std::max(error.largest_residual, R.norm());
             error.stress_scale     = std::max(error.stress_scale, x.norm());
-            largest_k              = std::max(largest_k, cone->k);
+            largest_k              = std::max(largest_k, k);
             if (mode[p] != Mode::elastic)
               {
                 const double compliance = 1. / elasticity.two_G;
                 const Mandel S(
                   1. / elasticity.normal_stiffness(), compliance, compliance);
-                const MandelMatrix B = rho_p * J * cone->psi_slope(z);
+                MandelMatrix B = rho_p * J * cone->psi_slope(z);
+                if (cone->hardening > 0.)
+                  B -= cone->hardening *
+                       project_slope(cone->a, projected, mode[p]) *
+                       tangential_direction(z).transpose();
                 const MandelMatrix A =
                   MandelMatrix::Identity() - J + B * S.asDiagonal();
                 const auto factors = A.partialPivLu();

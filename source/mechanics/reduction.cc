@@ -41,7 +41,11 @@ namespace geocone
                     points.n_points()),
              "take a coarser mesh, or automatic");
     for (const unsigned int material : points.material)
-      if (!materials[material].flow_cone())
+      if (materials[material].hardens())
+        refuse("another one with the material '" + materials.name(material) +
+                 "', which hardens",
+               "take a perfectly plastic law, or automatic");
+      else if (!materials[material].flow_cone(nullptr))
         refuse("another one with the material '" + materials.name(material) +
                  "', which has no yield surface",
                "take Mohr-Coulomb or Tresca, or automatic");
@@ -56,7 +60,8 @@ namespace geocone
     const double          h         = problem.h;
     const unsigned int    n         = points.n_points();
     for (unsigned int p = 0; p < n; ++p)
-      reduced.cones.push_back(*materials[points.material[p]].flow_cone());
+      reduced.cones.push_back(
+        *materials[points.material[p]].flow_cone(nullptr));
 
     velocity = problem.velocity_L;
     problem.set_prescribed(velocity);

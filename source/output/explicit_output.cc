@@ -235,13 +235,8 @@ namespace geocone
     add("cumulative_plastic_strain", Field::plastic_strain);
 
     // What any of the laws can show; where a law cannot, not a number.
-    std::vector<std::string> of_laws;
-    for (unsigned int m = 0; m < scene->materials.size(); ++m)
-      for (const std::string &shown : scene->materials.law(m).shown_names())
-        if (std::find(of_laws.begin(), of_laws.end(), shown) == of_laws.end())
-          of_laws.push_back(shown);
-    for (const std::string &name : of_laws)
-      table.columns.push_back({name, 1, [&](std::vector<double> &to) {
+    for (const std::string &name : scene->materials.shown_names())
+      table.columns.push_back({name, 1, [&, name](std::vector<double> &to) {
                                  double *next = to.data();
                                  for (const PointArrays &group : groups)
                                    {
@@ -257,28 +252,17 @@ namespace geocone
                        const PointArrays &group,
                        double            *values) const
   {
-    using Field                          = PointArrays::Field;
-    const ConstitutiveLaw         &law   = scene->materials.law(group.material);
-    const std::vector<std::string> names = law.shown_names();
-    const std::size_t              place =
-      std::find(names.begin(), names.end(), name) - names.begin();
-    if (place == names.size())
-      {
-        std::fill_n(
-          values, group.n_points(), std::numeric_limits<double>::quiet_NaN());
-        return;
-      }
-    std::vector<double> shown(names.size()), history(group.n_history);
+    using Field = PointArrays::Field;
+    ShownValue          shown(scene->materials.law(group.material), name);
+    std::vector<double> history(group.n_history);
     for (unsigned int p = 0; p < group.n_points(); ++p)
       {
         for (unsigned int k = 0; k < group.n_history; ++k)
           history[k] = group[group.first_history() + k][p];
-        law.show({{group[Field::s_xx][p],
-                   group[Field::s_yy][p],
-                   group[Field::s_xy][p]}},
-                 history.data(),
-                 shown.data());
-        values[p] = shown[place];
+        values[p] = shown({{group[Field::s_xx][p],
+                            group[Field::s_yy][p],
+                            group[Field::s_xy][p]}},
+                          history.data());
       }
   }
 

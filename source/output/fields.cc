@@ -38,13 +38,22 @@ namespace geocone
     }
 
     /** What is written of each cell: the material, and means. */
-    constexpr std::array<const char *, 6> names = {
+    constexpr std::array<const char *, 7> names = {
       {"material",
        "stress_xx",
        "stress_yy",
        "stress_xy",
+       "stress_zz",
        "plastic_strain_rate",
        "cumulative_plastic_strain"}};
+
+    /** Stress components xx, yy, xy of a point (Pa). */
+    std::array<double, 3>
+    in_plane(const MaterialPoints &points, const unsigned int p)
+    {
+      const Mandel &s = points.stress[p];
+      return {{s[0], s[1], s[2] / sqrt2}};
+    }
 
     /** The components of points or vectors, one after another. */
     template <typename Values>
@@ -64,6 +73,7 @@ namespace geocone
                 const BackgroundMesh &mesh,
                 const Space          &space,
                 const MaterialPoints &points,
+                const Materials      &materials,
                 const Kinematics     &kinematics)
   {
     const MPI_Comm comm = mesh.triangulation().get_communicator();
@@ -97,8 +107,10 @@ namespace geocone
             mean[1] += V * points.stress[p][0];
             mean[2] += V * points.stress[p][1];
             mean[3] += V * points.stress[p][2] / sqrt2;
-            mean[4] += V * points.plastic_strain_rate[p];
-            mean[5] += V * points.cumulative_plastic_strain[p];
+            mean[4] += V * materials[points.material[p]].stress_zz(
+                             in_plane(points, p), points.history_of(p));
+            mean[5] += V * points.plastic_strain_rate[p];
+            mean[6] += V * points.cumulative_plastic_strain[p];
           }
         for (double &value : mean)
           value /= area;
@@ -145,7 +157,7 @@ namespace geocone
     on_points.positions = components(points.position);
     const auto add      = [&](const std::string &name, const auto &value) {
       on_points.columns.push_back(
-        {name, 1, [&, value](std::vector<double> &to) {
+        {name, 1, [value = value](std::vector<double> &to) mutable {
            for (std::size_t p = 0; p < to.size(); ++p)
              to[p] = value(p);
          }});
@@ -167,6 +179,16 @@ namespace geocone
           [&](const std::size_t p) { return values[p][2] / sqrt2; });
     };
     add_tensor("stress", points.stress);
+    for (const std::string &name : materials.shown_names())
+      {
+        std::vector<ShownValue> of_law;
+        for (unsigned int m = 0; m < materials.size(); ++m)
+          of_law.emplace_back(materials.law(m), name);
+        add(name, [&points, of_law](const std::size_t p) mutable {
+          return of_law[points.material[p]](in_plane(points, p),
+                                            points.history_of(p));
+        });
+      }
     add_tensor("plastic_strain", points.plastic_strain);
     add("plastic_strain_rate",
         [&](const std::size_t p) { return points.plastic_strain_rate[p]; });

@@ -245,7 +245,8 @@ namespace geocone
                           const Kinematics     &kinematics)
   {
     if (with_fields)
-      fields->write(path, time, mesh, space, points, kinematics);
+      fields->write(
+        path, time, mesh, space, points, scene->materials, kinematics);
   }
 
   Json

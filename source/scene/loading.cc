@@ -96,16 +96,14 @@ namespace geocone
                        "leave it out, or set Discretisation/Method = explicit "
                                "MPM");
     };
+    // Damping and its tests are means of explicit steps to come to rest: they are
+    // not used (unused_parameters.cc).
+    if (removal_duration != 0.)
+      refuse("Removal duration",
+             dealii::Patterns::Tools::to_string(removal_duration),
+             "0");
     for (const auto &[entry, value] :
-         {std::pair<const char *, double>("Damping", damping),
-          {"Largest unbalanced force", largest_unbalanced_force},
-          {"Largest kinetic energy", largest_kinetic_energy},
-          {"Removal duration", removal_duration}})
-      if (value != 0.)
-        refuse(entry, dealii::Patterns::Tools::to_string(value), "0");
-    for (const auto &[entry, value] :
-         {std::pair<const char *, bool>("Kinetic damping", kinetic_damping),
-          {"Reset velocity", reset_velocity},
+         {std::pair<const char *, bool>("Reset velocity", reset_velocity),
           {"Reset history", reset_history}})
       if (value)
         refuse(entry, "true", "false");

@@ -22,11 +22,16 @@ namespace geocone
   ConstitutiveLaw::Stress
   ExplicitMPM::stress_of(const PointArrays &group, const unsigned int p) const
   {
-    // The first history variable of a law that has some is s_zz.
-    return {{group[Field::s_xx][p],
-             group[Field::s_yy][p],
-             group.n_history > 0 ? group[group.first_history()][p] : 0.,
-             group[Field::s_xy][p]}};
+    std::vector<double> history(group.n_history);
+    for (unsigned int k = 0; k < group.n_history; ++k)
+      history[k] = group[group.first_history() + k][p];
+    const double xx = group[Field::s_xx][p], yy = group[Field::s_yy][p],
+                 xy = group[Field::s_xy][p];
+    return {{xx,
+             yy,
+             scene->materials.law(group.material)
+               .stress_zz({{xx, yy, xy}}, history.data()),
+             xy}};
   }
 
   double

@@ -86,7 +86,7 @@ namespace geocone
     bool resists = inertia || loads->exist();
     for (unsigned int m = 0; m < scene->materials.size(); ++m)
       {
-        const auto cone = scene->materials[m].flow_cone();
+        const auto cone = scene->materials[m].initial_cone();
         resists         = resists || !cone || cone->k > 0.;
       }
     for (const Mandel &stress : points.stress)
@@ -177,7 +177,8 @@ namespace geocone
         points.cumulative_plastic_strain[p] += plastic.norm();
         points.plastic_strain_rate[p] = plastic.norm() / h;
       }
-    points.stress = problem->trial_stress();
+    points.history = problem->trial_history();
+    points.stress  = problem->trial_stress();
     constraints->turn_back(v);
     kinematics.velocity = v;
     kinematics.displacement.add(h, v);
@@ -194,19 +195,6 @@ namespace geocone
     return report;
   }
 
-  namespace
-  {
-    /** The state of a point that stays. */
-    void
-    state_of_point(StateRow &row, MaterialPoints &points, const unsigned int p)
-    {
-      row(points.stress[p],
-          points.plastic_strain[p],
-          points.cumulative_plastic_strain[p],
-          points.plastic_strain_rate[p]);
-    }
-  } // namespace
-
   void
   ImplicitFEM::save(Archive &archive, MaterialPoints &points)
   {
@@ -218,7 +206,7 @@ namespace geocone
         for (unsigned int p = points.first_point[c];
              p < points.first_point[c + 1];
              ++p)
-          state_of_point(row, points, p);
+          points.state(p, row);
         cells.add(points.cells[c], row.values().size() - before);
       }
     archive.write("points/cells", cells.numbers);
@@ -238,7 +226,7 @@ namespace geocone
         for (unsigned int p = points.first_point[c];
              p < points.first_point[c + 1];
              ++p)
-          state_of_point(row, points, p);
+          points.state(p, row);
         if (!row.at_end())
           throw RunError("the checkpoint has other points");
       }

@@ -442,7 +442,12 @@ namespace geocone
       for (unsigned int p = 0; p < points.n_points(); ++p)
         work_of_change -=
           points.mass[p] * (change * (points.position[p] - datum));
-    double dissipation = 0.;
+    double              dissipation = 0.;
+    std::vector<double> history     = problem->trial_history();
+    if (midpoint) // extrapolated to the end, as the stress
+      for (std::size_t i = 0; i < history.size(); ++i)
+        history[i] = 2. * history[i] - points.history[i];
+    points.history = std::move(history);
     for (unsigned int p = 0; p < points.n_points(); ++p)
       {
         Mandel       stress  = problem->trial_stress()[p];
@@ -455,7 +460,7 @@ namespace geocone
             plastic *= 2.;
             stress                   = 2. * stress - points.stress[p];
             const Material &material = scene->materials[points.material[p]];
-            if (const auto cone = material.flow_cone())
+            if (const auto cone = material.flow_cone(points.history_of(p)))
               {
                 const Mandel on_cone = from_cone_axes(
                   project(cone->a, cone->k, Mandel(to_cone_axes(stress))));

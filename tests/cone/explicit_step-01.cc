@@ -24,7 +24,7 @@ public:
   using MohrCoulomb::MohrCoulomb;
 
   std::optional<FlowCone>
-  flow_cone() const override
+  flow_cone(const double *) const override
   {
     return std::nullopt;
   }
@@ -35,11 +35,13 @@ constexpr unsigned int n = PointBlock::capacity;
 struct Points
 {
   std::array<double, n> l_xx, l_xy, l_yx, l_yy, s_xx, s_yy, s_xy, plastic, work,
-    modulus;
+    modulus, constant;
+  double *history = nullptr;
 
   PointBlock
   block()
   {
+    history = constant.data();
     return {n,
             l_xx.data(),
             l_xy.data(),
@@ -48,7 +50,7 @@ struct Points
             s_xx.data(),
             s_yy.data(),
             s_xy.data(),
-            nullptr,
+            &history,
             plastic.data(),
             work.data(),
             modulus.data()};
@@ -90,6 +92,7 @@ compare(const char *name, const double phi, const double theta, const double c)
           a.l_xy[p] = random(0.3), a.l_yx[p] = -a.l_xy[p] + random(0.01);
           a.s_xx[p] = random(2e4), a.s_yy[p] = random(2e4);
           a.s_xy[p] = random(1e4), a.plastic[p] = 0.;
+          a.constant[p] = random(1e4);
         }
       Points    b = a;
       LawCounts counts;

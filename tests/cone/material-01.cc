@@ -187,7 +187,7 @@ check_batches(const Material &material)
           elastic_tangent =
             elastic_tangent && tangent[i] == material.elasticity().stiffness();
         }
-      if (const auto cone = material.flow_cone())
+      if (const auto cone = material.initial_cone())
         violation.add(cone->yield_function(to_cone_axes(stress[i])) / c);
     }
   std::cout << "  batch: " << counts[0] << " elastic, " << counts[1]
@@ -284,8 +284,9 @@ main()
 
   elastic->prepare();
   std::cout << "elastic: density " << elastic->density() << ", cone "
-            << (elastic->flow_cone() ? "yes" : "no") << ", non-associativity "
-            << elastic->non_associativity() << std::endl;
+            << (elastic->initial_cone() ? "yes" : "no")
+            << ", non-associativity " << elastic->non_associativity()
+            << std::endl;
   check_batches(*elastic);
 
   try

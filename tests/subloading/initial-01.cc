@@ -61,7 +61,7 @@ start(const std::string              &what,
       const auto made = law(parameters);
       made->prepare();
       std::vector<double> history(made->n_history()),
-        shown(made->shown_names().size());
+        shown(made->shown().size());
       const std::string changed = made->initialise(stress, history.data());
       made->show(
         {{stress[0], stress[1], stress[3]}}, history.data(), shown.data());

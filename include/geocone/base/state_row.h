@@ -35,6 +35,12 @@ namespace geocone
       , row(std::move(values))
     {}
 
+    /** Over numbers that are elsewhere, of which there are enough. */
+    StateRow(double *numbers, const bool reads)
+      : reads(reads)
+      , place(numbers)
+    {}
+
     bool
     is_read() const
     {
@@ -154,7 +160,12 @@ namespace geocone
     void
     number(double &x)
     {
-      if (!reads)
+      if (place != nullptr)
+        {
+          double &there       = *place++;
+          (reads ? x : there) = reads ? there : x;
+        }
+      else if (!reads)
         row.push_back(x);
       else if (next < row.size())
         x = row[next++];
@@ -170,7 +181,8 @@ namespace geocone
 
     const bool          reads;
     std::vector<double> row;
-    std::size_t         next = 0;
+    std::size_t         next  = 0;
+    double             *place = nullptr; ///< or null: in row
   };
 } // namespace geocone
 

@@ -4,6 +4,7 @@
 #ifndef geocone_discretisation_material_points_h
 #define geocone_discretisation_material_points_h
 
+#include <geocone/base/state_row.h>
 #include <geocone/base/types.h>
 
 #include <deal.II/base/point.h>
@@ -73,6 +74,18 @@ namespace geocone
     /** Norm of the plastic strain rate over the last step (1/s). */
     std::vector<double> plastic_strain_rate;
 
+    /** History variables of the laws (ConstitutiveLaw::n_history()): n_history
+     *  per point, of which a law may take fewer. */
+    unsigned int        n_history = 0;
+    std::vector<double> history;
+
+    /** Those of a point, or null where there are none. */
+    const double *
+    history_of(const unsigned int point) const
+    {
+      return history.data() + n_history * point;
+    }
+
     /** @name Of points that move, at t_n; empty otherwise */
     /** @{ */
     std::vector<double>                 mass; ///< (kg/m)
@@ -83,6 +96,18 @@ namespace geocone
     /** 1 + the condition that holds a particle, or 0. */
     std::vector<unsigned int> held_by;
     /** @} */
+
+    /**
+     * The variables that go with a point from step to step, one by one: a new
+     * one is named here. What moves has all of them, what stays those that a step
+     * changes.
+     */
+    void
+    state(const unsigned int point, StateRow &row);
+
+    /** Makes room for @p n points with n_history. */
+    void
+    resize(const unsigned int n, const bool moving);
   };
 
   /** Fills the mean gradients, for B-bar. */

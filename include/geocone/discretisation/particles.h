@@ -43,7 +43,7 @@ namespace geocone
      * @throws StepFailure if a particle leaves the mesh and may not
      */
     void
-    move(const MaterialPoints &points);
+    move(MaterialPoints &points);
 
     /** @name The state, as part of a checkpoint. Collective. */
     /** @{ */
@@ -89,7 +89,9 @@ namespace geocone
     std::unique_ptr<dealii::Particles::ParticleHandler<dim>> handler;
 
     MPI_Comm          comm;
-    std::vector<Lost> lost; ///< in move()
+    unsigned int      n_history = 0; ///< history variables of a particle
+    unsigned int      n_state   = 0; ///< numbers of MaterialPoints::state()
+    std::vector<Lost> lost;          ///< in move()
     unsigned int      n_lost_all = 0;
   };
 } // namespace geocone

@@ -4,6 +4,7 @@
 #ifndef geocone_materials_constitutive_law_h
 #define geocone_materials_constitutive_law_h
 
+#include <geocone/base/types.h>
 #include <geocone/materials/point_block.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -63,13 +64,9 @@ namespace geocone
     virtual void
     advance(const PointBlock &block, LawCounts &counts) const = 0;
 
-    /** Number of history variables of a point. Where there are some, the first is
-     *  the out-of-plane stress s_zz (Pa). */
+    /** Number of history variables of a point, which are the law's own affair. */
     virtual unsigned int
-    n_history() const
-    {
-      return 0;
-    }
+    n_history() const = 0;
 
     /**
      * The history of a point that has this stress, by the parameters of the law.
@@ -78,31 +75,31 @@ namespace geocone
      * @throws InputError if the law cannot have this stress
      */
     virtual std::string
-    initialise(const Stress & /*stress*/, double * /*history*/) const
-    {
-      return "";
-    }
+    initialise(const Stress &stress, double *history) const = 0;
+
+    /** Out-of-plane stress s_zz (Pa). @param in_plane s_xx, s_yy, s_xy */
+    virtual double
+    stress_zz(const std::array<double, 3> &in_plane,
+              const double                *history) const = 0;
 
     /** Modulus M of the elastic pressure wave, c = sqrt(M/rho) (Pa). */
     virtual double
     wave_modulus(const Stress &stress, const double *history) const = 0;
 
-    /**
-     * Names of what can be shown of the state beyond the in-plane stress, with
-     * underscores for blanks, e.g. "stress_zz".
-     */
-    virtual std::vector<std::string>
-    shown_names() const
+    /** What can be shown of the state beyond the in-plane stress. */
+    struct Shown
     {
-      return {};
-    }
+      std::string name;  ///< of a field, e.g. "stress_zz"
+      std::string title; ///< of a column, with its unit, e.g. "stress zz (Pa)"
+    };
+    virtual std::vector<Shown>
+    shown() const = 0;
 
-    /** The values for shown_names(). @param stress s_xx, s_yy, s_xy */
+    /** The values for shown(). @param in_plane s_xx, s_yy, s_xy */
     virtual void
-    show(const std::array<double, 3> & /*stress*/,
-         const double * /*history*/,
-         double * /*values*/) const
-    {}
+    show(const std::array<double, 3> &in_plane,
+         const double                *history,
+         double                      *values) const = 0;
     /** @} */
 
   protected:
@@ -113,6 +110,29 @@ namespace geocone
   private:
     double rho = 2000.;
   };
+
+  /** One of what a law can show, or not a number if it cannot. */
+  class ShownValue
+  {
+  public:
+    ShownValue(const ConstitutiveLaw &law, const std::string &name);
+
+    /** As ConstitutiveLaw::show(). */
+    double
+    operator()(const std::array<double, 3> &in_plane, const double *history);
+
+  private:
+    const ConstitutiveLaw *law;
+    std::vector<double>    values;
+    std::size_t            place = 0;
+  };
+
+  /** The four components of plane strain (Pa). */
+  inline ConstitutiveLaw::Stress
+  plane_strain_stress(const Mandel &in_plane, const double zz)
+  {
+    return {{in_plane[0], in_plane[1], zz, in_plane[2] / sqrt2}};
+  }
 } // namespace geocone
 
 #endif

@@ -21,6 +21,11 @@ namespace geocone
     dealii::ArrayView<const Mandel> strain;   ///< strain increments of the step
     dealii::ArrayView<const Mandel> stress_n; ///< stress at t_n (Pa)
 
+    /** History at t_n: n_history numbers for each point, of which the law takes
+     *  the first ConstitutiveLaw::n_history(). */
+    const double *history_n = nullptr;
+    unsigned int  n_history = 0;
+
     /**
      * Part of the normal stress on which strength depends that is taken from
      * t_n: 0 is the exact law, 1 makes it explicit (doc/theory.md, section
@@ -29,18 +34,23 @@ namespace geocone
     double friction_lag = 0.;
   };
 
-  /** What the material answers. An empty `tangent` is not computed. */
+  /** What the material answers. An empty `tangent` is not computed, nor is the
+   *  history if it is null. */
   struct Response
   {
     dealii::ArrayView<Mandel>       stress;  ///< stress at t_{n+1} (Pa)
     dealii::ArrayView<Mode>         mode;    ///< elastic, cone or apex
     dealii::ArrayView<MandelMatrix> tangent; ///< ds/de, generalised (Pa)
+    double *history = nullptr; ///< in: a copy of history_n; out: at t_{n+1}
   };
 
   /**
    * A constitutive law in closed form, which all methods can use: a pure function
    * of a batch of strain increments and states at t_n, with isotropic linear
-   * elasticity.
+   * elasticity and plastic flow in the plane. Then the out-of-plane stress is
+   *   s_zz = nu (s_xx + s_yy) + const.,
+   * and the constant is the first history variable (Pa), to which laws that harden
+   * add theirs.
    *
    * Parameters of the base: density (kg/m^3), Young modulus (Pa), Poisson ratio.
    */
@@ -74,23 +84,68 @@ namespace geocone
     double
     wave_modulus(const Stress &stress, const double *history) const override;
 
+    unsigned int
+    n_history() const override
+    {
+      return 1;
+    }
+
+    std::string
+    initialise(const Stress &stress, double *history) const override;
+
+    double
+    stress_zz(const std::array<double, 3> &in_plane,
+              const double                *history) const override;
+
+    std::vector<Shown>
+    shown() const override
+    {
+      return {{"stress_zz", "stress zz (Pa)"}};
+    }
+
+    void
+    show(const std::array<double, 3> &in_plane,
+         const double                *history,
+         double                      *values) const override
+    {
+      values[0] = stress_zz(in_plane, history);
+    }
+
+    /** Whether steps change the history. */
+    bool
+    hardens() const
+    {
+      return n_history() > Material::n_history();
+    }
+
     /**
-     * The cone of a cone law, by which solutions are checked independently of
-     * update(); nothing for laws without one.
+     * The cone of a cone law at t_n, by which solutions are checked independently
+     * of update(); nothing for laws without one.
+     * @param history of the point; null will do for laws that do not harden
      */
     virtual std::optional<FlowCone>
-    flow_cone() const
+    flow_cone(const double * /*history*/) const
     {
       return std::nullopt;
     }
 
+    /** That of a point that has not yielded. */
+    std::optional<FlowCone>
+    initial_cone() const;
+
     /**
-     * (a - b)/a between 0 (associated: the tangent is symmetric) and 1 (no
-     * dilatancy). A law without a cone whose tangent is not symmetric must
-     * override this with a positive value.
+     * (a - b)/a between 0 (associated) and 1 (no dilatancy), a and b those of the
+     * cone before any hardening.
      */
     virtual double
     non_associativity() const;
+
+    /** Whether the tangent is symmetric in all states. */
+    virtual bool
+    has_symmetric_tangent() const
+    {
+      return non_associativity() == 0.;
+    }
 
     const Elasticity &
     elasticity() const

@@ -85,12 +85,17 @@ namespace geocone
     double
     non_associativity() const;
 
-    /** Whether all tangents are symmetric (associated flow everywhere). */
+    /** Whether all tangents are symmetric. */
     bool
-    symmetric() const
-    {
-      return non_associativity() == 0.;
-    }
+    symmetric() const;
+
+    /** Most history variables of a law. */
+    unsigned int
+    n_history() const;
+
+    /** Names of all that any of the laws can show. */
+    std::vector<std::string>
+    shown_names() const;
 
   private:
     std::vector<std::string>                      names;

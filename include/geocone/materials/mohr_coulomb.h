@@ -29,7 +29,7 @@ namespace geocone
     update(const Increment &increment, const Response &response) const override;
 
     std::optional<FlowCone>
-    flow_cone() const override
+    flow_cone(const double *) const override
     {
       return cone;
     }
@@ -48,6 +48,12 @@ namespace geocone
     }
 
   protected:
+    /** The history after a step, for laws that harden.
+     *  @param slip |z_t| of the step (-) */
+    virtual void
+    add_to_history(const double /*slip*/, double * /*history*/) const
+    {}
+
     /** For laws that fix phi = theta = 0 and do not declare the angles. */
     struct WithoutFriction
     {};

@@ -70,6 +70,18 @@ namespace geocone
     /** Cut-off: s_n >= -tension also where the apex lies farther out (Pa). */
     double tension = std::numeric_limits<double>::infinity();
 
+    /** Linear hardening h (Pa): the radius k is that at t_n, and k + h |z_t| at the
+     *  end of the step. */
+    double hardening = 0.;
+
+    /** The cone at the end of a step with this z, which hardens no more. */
+    template <typename V>
+    FlowCone
+    hardened(const V &z) const
+    {
+      return {a, b, k + hardening * tangential_norm(z), tension};
+    }
+
     template <typename V>
     double
     yield_function(const V &s) const
@@ -113,7 +125,11 @@ namespace geocone
       if (part == 0.)
         return *this;
       const double limit = k / a;
-      return {a - part, b, k + part * std::max(s_n_at_start, -limit), limit};
+      return {a - part,
+              b,
+              k + part * std::max(s_n_at_start, -limit),
+              limit,
+              hardening};
     }
 
     /** Violation of y in K*: max(0, a |y_t| - y_n). */
@@ -147,13 +163,14 @@ namespace geocone
    * Solution of the one-point problem
    *   s = t + D z with D = diag(K, 2G, ..., 2G),  z from the law of FlowCone
    * for a trial value t, in closed form (doc/theory.md, section "Return map"):
-   * with T = |t_t|, f = T - a t_n - k, H = 2G + a b K, g = f/H,
-   * q = T - 2G g = a s_n + k,
+   * with T = |t_t|, f = T - a t_n - k, H = 2G + a b K + h, g = f/H = |z_t|,
+   * q = T - 2G g = a s_n + k + h g,
    *   f <= 0            : s = t                                   (elastic)
    *   q >= 0 or a = 0   : s_n = t_n + K b g, s_t = q t_t/T        (cone)
-   *   otherwise         : s = (-k/a, 0)                           (apex).
+   *   otherwise         : s = (-(k + h T/2G)/a, 0)                (apex).
    * Where a cut-off comes before the apex, states beyond it go to s_n = -tension,
-   * with s_t shortened to the radius there; they count as apex, too.
+   * with s_t shortened to the radius there, that of the end of the step; they
+   * count as apex, too.
    * For b = a this is the projection of t onto C in the metric of D^{-1}; with
    * K = 2G it is the Euclidean projection P_C.
    *
@@ -186,17 +203,19 @@ namespace geocone
       }
     const double T = std::sqrt(T2);
     const double f = std::max(0., T - radius); // 0 where only cut off
-    const double H = two_G + cone.a * cone.b * K;
+    const double H = two_G + cone.a * cone.b * K + cone.hardening;
     const double g = f / H;
     // q = T - 2G g, written such that the cone is met to the last digit also
     // where the trial value is many orders of magnitude larger. At the tip
     // either form may be rounding of either sign: then it is the tip.
     const double s_n = t[0] + K * cone.b * g;
-    const double q   = std::min(cone.a * s_n + cone.k, T);
+    const double q   = std::min(cone.a * s_n + cone.k + cone.hardening * g, T);
     if (s_n < -cone.tension)
       {
+        // Where it hardens, the radius grows by h (T - |s_t|)/2G.
+        const double r     = cone.hardening / two_G;
         const double limit = std::max(0., cone.k - cone.a * cone.tension);
-        const double part  = T > limit ? limit / T : 1.;
+        const double part  = T > limit ? (limit / T + r) / (1. + r) : 1.;
         s[0]               = -cone.tension;
         s.template tail<n_tangential>() =
           part * t.template tail<n_tangential>();
@@ -208,7 +227,7 @@ namespace geocone
             if (T > limit)
               {
                 const auto u = (t.template tail<n_tangential>() / T).eval();
-                C -= two_G * part * u * u.transpose();
+                C -= two_G * (part - r / (1. + r)) * u * u.transpose();
               }
           }
         return Mode::apex;
@@ -235,9 +254,15 @@ namespace geocone
         return Mode::cone;
       }
     s.setZero();
-    s[0] = -cone.k / cone.a;
+    s[0] = -(cone.k + cone.hardening * T / two_G) / cone.a;
     if (tangent != nullptr)
-      tangent->setZero();
+      {
+        tangent->setZero();
+        if (cone.hardening > 0. && T > 0.)
+          tangent->template block<1, n_tangential>(0, 1) =
+            (-cone.hardening / (cone.a * T)) *
+            t.template tail<n_tangential>().transpose();
+      }
     return Mode::apex;
   }
 
@@ -256,6 +281,27 @@ namespace geocone
     const FlowCone cone{a, a, k};
     return_map(cone, 1., 1., x, projected, jacobian);
     return projected;
+  }
+
+  /** The tangential unit vector x_t/|x_t|, or zero. */
+  inline Mandel
+  tangential_direction(const Mandel &x)
+  {
+    const double T = FlowCone::tangential_norm(x);
+    return T > 0. ? Mandel(0., x[1] / T, x[2] / T) : Mandel(Mandel::Zero());
+  }
+
+  /** Derivative of project() by k. @param mode where @p projected lies */
+  inline Mandel
+  project_slope(const double a, const Mandel &projected, const Mode mode)
+  {
+    if (mode == Mode::elastic)
+      return Mandel::Zero();
+    if (mode == Mode::apex)
+      return {-1. / a, 0., 0.};
+    Mandel slope = tangential_direction(projected);
+    slope[0]     = -a;
+    return slope / (1. + a * a);
   }
 
   /**

@@ -53,8 +53,15 @@ namespace geocone
       return 1. - 3. * c.Mc / (6. + c.Mc);
     }
 
-    std::vector<std::string>
-    shown_names() const override;
+    double
+    stress_zz(const std::array<double, 3> &,
+              const double *history) const override
+    {
+      return history[0];
+    }
+
+    std::vector<Shown>
+    shown() const override;
 
     void
     show(const std::array<double, 3> &stress,

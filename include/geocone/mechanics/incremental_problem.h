@@ -276,6 +276,10 @@ namespace geocone
     {
       return mode;
     }
+    /** History variables, laid out as those of the points at t_n. */
+    std::vector<double>
+    trial_history() const;
+
     /** -z: the plastic part of the strain increment of a point. */
     Mandel
     plastic_strain_increment(const unsigned int point) const;
@@ -298,7 +302,18 @@ namespace geocone
       const std::function<
         void(const unsigned int, const unsigned int, const Mandel &)> &f) const;
 
-    /** Asks the materials, run by run of points with the same one. */
+    /** Points from begin to end share a material. */
+    struct Run
+    {
+      unsigned int begin, end, material;
+    };
+    std::vector<Run> runs;
+
+    /** What a run asks of its material at the last residual(). */
+    Increment
+    increment_of(const Run &run) const;
+
+    /** Asks the materials, run by run. */
     void
     update_materials(const bool with_tangent) const;
 
@@ -341,13 +356,6 @@ namespace geocone
     add_forces_of_cell(const unsigned int    c,
                        const WeightedStress &weighted_stress,
                        double               *cell_f) const;
-
-    /** Points from begin to end share a material. */
-    struct Run
-    {
-      unsigned int begin, end, material;
-    };
-    std::vector<Run> runs;
 
     std::optional<NaturalMap> by_natural_map; ///< or nothing: the return map
 

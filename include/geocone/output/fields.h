@@ -43,6 +43,7 @@ namespace geocone
           const BackgroundMesh &mesh,
           const Space          &space,
           const MaterialPoints &points,
+          const Materials      &materials,
           const Kinematics     &kinematics);
 
     /** The series so far, for a checkpoint. */
