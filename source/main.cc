@@ -4,10 +4,11 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/version.h>
 #include <geocone/command_line.h>
-#include <geocone/explicit_simulation.h>
-#include <geocone/implicit_simulation.h>
+#include <geocone/element/element_test.h>
 #include <geocone/output/run_folder.h>
 #include <geocone/replay.h>
+#include <geocone/run/explicit_simulation.h>
+#include <geocone/run/implicit_simulation.h>
 #include <geocone/unused_parameters.h>
 
 #include <deal.II/base/mpi.h>
@@ -51,7 +52,9 @@ namespace
     "memory\n"
     "  --quiet              nothing on the screen but errors and warnings\n"
     "  --defaults NEW.prm   writes all parameters with their defaults, "
-    "commented\n"
+    "commented;\n"
+    "                       --set 'Materials/soil/Type = LAW' tells those of "
+    "other laws\n"
     "  --help               this text and all parameters\n"
     "  --version            versions of geocone and its libraries\n"
     "\n"
@@ -59,9 +62,36 @@ namespace
     "and\n"
     "1 otherwise; 130 and 143 after Ctrl-C and SIGTERM.\n";
 
-  /** All parameters with an example of each kind of named section. */
+  /** The runs of all methods, so that a file may hold the parameters of all. */
+  struct Methods
+  {
+    Methods(const ParameterFile &file, Log &log)
+      : point(MPI_COMM_WORLD, file, log)
+      , implicit(MPI_COMM_WORLD, file, log)
+      , explicit_mpm(MPI_COMM_WORLD, file, log)
+    {}
+
+    /** That of the parameter file, which has been parsed. */
+    Simulation &
+    chosen()
+    {
+      const std::string name = ParameterFile::value("Discretisation/Method");
+      if (name == "point")
+        return point;
+      if (name == "explicit MPM")
+        return explicit_mpm;
+      return implicit;
+    }
+
+    ElementTest        point;
+    ImplicitSimulation implicit;
+    ExplicitSimulation explicit_mpm;
+  };
+
+  /** All parameters with an example of each kind of named section.
+   *  @param overrides e.g. another law of the material 'soil' */
   void
-  print_defaults(std::ostream &out)
+  print_defaults(std::ostream &out, const std::vector<std::string> &overrides)
   {
     const ParameterFile file = ParameterFile::from_text(
       "subsection Boundary conditions\nset Names = footing\n"
@@ -69,10 +99,9 @@ namespace
       "subsection Tractions\nset Names = surcharge\n"
       "subsection surcharge\nend\nend\n",
       "defaults",
-      {});
-    Log                log(MPI_COMM_WORLD, true);
-    ImplicitSimulation implicit_simulation(MPI_COMM_WORLD, file, log);
-    ExplicitSimulation explicit_simulation(MPI_COMM_WORLD, file, log);
+      overrides);
+    Log     log(MPI_COMM_WORLD, true);
+    Methods methods(file, log);
     file.parse();
     ParameterFile::print(out, true);
   }
@@ -117,14 +146,16 @@ namespace
         if (first)
           {
             std::cout << usage << "\nAll parameters, with their defaults:\n\n";
-            print_defaults(std::cout);
+            print_defaults(std::cout, call.overrides);
           }
         return 0;
       }
     if (!call.defaults_file.empty())
       {
         if (first)
-          write_file(call.defaults_file, &print_defaults);
+          write_file(call.defaults_file, [&](std::ostream &out) {
+            print_defaults(out, call.overrides);
+          });
         return 0;
       }
     if (call.own.count("--replay") > 0)
@@ -152,14 +183,12 @@ namespace
     if (resumes)
       check_resume(call);
 
-    const ParameterFile::OfOthers of_others = parameters_of_laws();
-    const ParameterFile           file      = resumes
-                                                ? parameters_of_run(call.own.at("--resume"))
-                                                : ParameterFile(call.file, call.overrides);
-    Log                           log(MPI_COMM_WORLD, call.quiet);
-    // Both, so that a file may hold the parameters of all methods.
-    ImplicitSimulation implicit_simulation(MPI_COMM_WORLD, file, log);
-    ExplicitSimulation explicit_simulation(MPI_COMM_WORLD, file, log);
+    const ParameterFile::OfOthers             of_others = parameters_of_laws();
+    const ParameterFile                       file      = resumes
+                                                            ? parameters_of_run(call.own.at("--resume"))
+                                                            : ParameterFile(call.file, call.overrides);
+    Log                                       log(MPI_COMM_WORLD, call.quiet);
+    Methods                                   methods(file, log);
     const std::vector<ParameterFile::Setting> settings = file.parse(of_others);
     RunOptions                                options = run_options(call, file);
     if (resumes)
@@ -170,12 +199,9 @@ namespace
     if (const std::string unused = unused_parameters(settings);
         !unused.empty() && !resumes)
       log.warn(unused);
-    Simulation &simulation =
-      ParameterFile::value("Discretisation/Method") == "explicit MPM"
-        ? static_cast<Simulation &>(explicit_simulation)
-        : implicit_simulation;
-    const bool  ok     = simulation.run(options);
-    OutputBase &output = simulation.output();
+    Simulation &simulation = methods.chosen();
+    const bool  ok         = simulation.run(options);
+    OutputBase &output     = simulation.output();
     if (first && !call.dry_run && output.wants_pictures())
       drawing = {output.folder(), call.quiet};
     return ok ? 0 : 1;

@@ -22,7 +22,27 @@ namespace geocone
 
     const char *const method = "Discretisation/Method";
 
+    const std::vector<std::string> of_scenes = {"FEM", "MPM", "explicit MPM"};
+
     const std::vector<Rule> rules = {
+      {"Element/*", method, {"point"}},
+      {"Path/*", method, {"point"}},
+      {"Path/*/*", method, {"point"}},
+      {"Geometry/*", method, of_scenes},
+      {"Mesh/*", method, of_scenes},
+      {"Discretisation/Element", method, of_scenes},
+      {"Discretisation/B-bar", method, of_scenes},
+      {"Discretisation/Basis", method, of_scenes},
+      {"Gravity/*", method, of_scenes},
+      {"Initial stress/*", method, of_scenes},
+      {"Initial velocity/*", method, of_scenes},
+      {"Boundary conditions/*", method, of_scenes},
+      {"Boundary conditions/*/*", method, of_scenes},
+      {"Tractions/*", method, of_scenes},
+      {"Tractions/*/*", method, of_scenes},
+      {"Loading/*", method, of_scenes},
+      {"Loading/*/*", method, of_scenes},
+      {"Observation/*", method, of_scenes},
       {"Geometry/Box", "Geometry/Shape", {"box"}},
       {"Geometry/Polygon", "Geometry/Shape", {"polygon"}},
       {"Geometry/Centres", "Geometry/Shape", {"discs"}},

@@ -5,7 +5,7 @@
 #define tests_simulate_h
 
 #include <geocone/base/version.h>
-#include <geocone/implicit_simulation.h>
+#include <geocone/run/implicit_simulation.h>
 
 #include <fstream>
 

@@ -15,16 +15,14 @@ namespace geocone
                   "the material. MPM: particles carry it through a background "
                   "mesh, implicitly, with inertia. explicit MPM: the same in "
                   "many small explicit steps, for fast flows and soils without "
-                  "a closed form.");
+                  "a closed form. point: one material point that is led along "
+                  "the section Path, without a scene.");
   }
 
   void
   Method::prepare()
   {
-    if (name != "FEM" && name != "MPM" && name != "explicit MPM")
-      throw InputError("Discretisation/Method",
-                       name,
-                       "FEM | MPM | explicit MPM",
-                       "choose one of them");
+    check_choice(
+      "Discretisation/Method", name, {"FEM", "MPM", "explicit MPM", "point"});
   }
 } // namespace geocone

@@ -280,6 +280,12 @@ namespace geocone
            {{largest_p, -q}, {tip, -at_tip}, {tip, at_tip}, {largest_p, q}}}};
       }
 
+      void
+      state(StateRow &row) override
+      {
+        row(now.stress, now.history, now.plastic_strain, now.wave, counts);
+      }
+
     private:
       struct State
       {
@@ -401,6 +407,13 @@ namespace geocone
                const double) const override
       {
         return subloading_surfaces(model, now, stress, axis);
+      }
+
+      void
+      state(StateRow &row) override
+      {
+        row(now.stress, now.a, now.beta, now.pcb, now.Rb);
+        row(plastic_strain, counts);
       }
 
     private:

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
-#include <geocone/base/stop_request.h>
 #include <geocone/element/element_test.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/patterns.h>
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace geocone
   ElementTest::ElementTest(const MPI_Comm       comm,
                            const ParameterFile &file,
                            Log                 &log)
-    : dealii::ParameterAcceptor("/Element")
-    , log(log)
+    : Simulation(comm, log)
+    , dealii::ParameterAcceptor("/Element")
     , materials(file)
     , path(file)
     , element_output(comm, log)
@@ -34,9 +34,14 @@ namespace geocone
                   "v = 1 + e at the start (-), > 1: for the column ln v.");
   }
 
-  void
-  ElementTest::prepare()
+  std::vector<std::string>
+  ElementTest::prepare(const RunOptions &options)
   {
+    if (dealii::Utilities::MPI::n_mpi_processes(comm) > 1)
+      throw InputError("Discretisation/Method",
+                       "point",
+                       "FEM | MPM | explicit MPM on several ranks",
+                       "call it without mpirun: there is one point only");
     materials.prepare();
     mixed_control.prepare();
     if (initial_stress.size() != 6)
@@ -52,7 +57,42 @@ namespace geocone
     Tensor6 stress;
     std::copy(initial_stress.begin(), initial_stress.end(), stress.begin());
     point = make_element_point(materials.law(0), components, stress, changed);
-    path.prepare(*point, columns());
+    column_names = columns();
+    path.prepare(*point, column_names);
+    if (options.dry_run)
+      log.print(headline(options.name));
+    if (changed.empty())
+      return {};
+    return {changed};
+  }
+
+  std::vector<unsigned int>
+  ElementTest::programme() const
+  {
+    std::vector<unsigned int> n;
+    for (const auto &stage : path.stages)
+      n.push_back(stage->positions().size());
+    return n;
+  }
+
+  void
+  ElementTest::prepare_output(const RunOptions &options)
+  {
+    element_output.prepare(options, column_names);
+  }
+
+  std::string
+  ElementTest::headline(const std::string &name) const
+  {
+    std::size_t n = 0;
+    for (const auto &stage : path.stages)
+      n += stage->positions().size();
+    return format("%s: one point of '%s', %s, %zu stages, %zu increments",
+                  name.c_str(),
+                  materials.name(0).c_str(),
+                  point->has(2) ? "3D" : "plane strain",
+                  path.stages.size(),
+                  n);
   }
 
   std::vector<std::string>
@@ -75,8 +115,8 @@ namespace geocone
     return all;
   }
 
-  std::vector<double>
-  ElementTest::line(const unsigned int stage) const
+  void
+  ElementTest::add_line(const unsigned int stage)
   {
     std::vector<double> all = {static_cast<double>(n_increments),
                                static_cast<double>(stage)};
@@ -100,35 +140,66 @@ namespace geocone
       all.push_back(value);
     all.push_back(point->counts.substeps - before.substeps);
     all.push_back(point->counts.forced - before.forced);
-    return all;
+    last_line = std::move(all);
+    element_output.add_line(last_line);
+    largest_p = std::max(largest_p, value_of("p (Pa)"));
+  }
+
+  double
+  ElementTest::value_of(const std::string &column) const
+  {
+    return last_line[std::find(
+                       column_names.begin(), column_names.end(), column) -
+                     column_names.begin()];
   }
 
   bool
-  ElementTest::stops(const ElementStage        &stage,
-                     const std::vector<double> &values) const
+  ElementTest::stops(const ElementStage &stage) const
   {
-    const std::vector<std::string> names = columns();
     for (const StopCondition &condition : stage.stop)
-      for (std::size_t i = 0; i < names.size(); ++i)
-        if (names[i].substr(0, names[i].find(" (")) == condition.name &&
-            (condition.at_most ? values[i] <= condition.bound
-                               : values[i] >= condition.bound))
+      for (std::size_t i = 0; i < column_names.size(); ++i)
+        if (column_names[i].substr(0, column_names[i].find(" (")) ==
+              condition.name &&
+            (condition.at_most ? last_line[i] <= condition.bound
+                               : last_line[i] >= condition.bound))
           return true;
     return false;
   }
 
   void
-  ElementTest::advance(const ElementStage   &stage,
-                       const ElementControl &control,
-                       const Tensor6        &start_stress,
-                       const double          from,
-                       const double          to)
+  ElementTest::record_start()
+  {
+    add_line(0);
+  }
+
+  void
+  ElementTest::begin(const Place &place)
+  {
+    control      = path.stages[place.stage]->control(*point);
+    start_stress = point->stress();
+    guess        = {};
+    at           = 0.;
+  }
+
+  Simulation::Ended
+  ElementTest::advance(Place &place)
+  {
+    const ElementStage &stage = *path.stages[place.stage];
+    if (place.in_stage == 0 || positions.empty()) // of this stage, or resumed
+      positions = stage.positions();
+    follow(stage, positions[place.in_stage]);
+    add_line(place.stage + 1);
+    return stops(stage) ? Ended::stage : Ended::well;
+  }
+
+  void
+  ElementTest::follow(const ElementStage &stage, const double to)
   {
     before             = point->counts;
-    const double whole = to - from;
+    const double whole = to - at;
     const double smallest =
       std::abs(whole) * std::pow(0.5, mixed_control.max_halvings);
-    double at = from, size = whole;
+    double size = whole;
     while (at != to)
       {
         const bool   last = std::abs(to - at) <= std::abs(size) * (1. + 1e-6);
@@ -209,68 +280,61 @@ namespace geocone
       1, point->surfaces(point->stress(), axis, 1.1 * largest_p));
   }
 
-  Json
-  ElementTest::topics() const
+  void
+  ElementTest::record(const Place &)
   {
-    return {{"material", materials.name(0)},
-            {"changed_at_start", changed},
-            {"components", point->has(2) ? "3D" : "plane strain"},
-            {"axis", component_names[main_component()]},
-            {"counts",
-             {{"increments", n_increments},
-              {"halved_increments", n_cuts},
-              {"newton_iterations", n_iterations},
-              {"worst_residual", worst_residual},
-              {"substeps", point->counts.substeps},
-              {"most_substeps", point->counts.most},
-              {"forced_substeps", point->counts.forced},
-              {"limited_stresses", point->counts.limited}}}};
+    if (element_output.verbosity >= 2)
+      log.print(format("  f = %.4g, p = %.6g Pa, q = %.6g Pa",
+                       at,
+                       value_of("p (Pa)"),
+                       value_of("q (Pa)")));
+  }
+
+  std::string
+  ElementTest::progress(const Place &place) const
+  {
+    // An increment takes microseconds.
+    return place.step % 100000 == 0 ? path.stages[place.stage]->name : "";
   }
 
   void
-  ElementTest::follow_path()
+  ElementTest::end(const Place &place)
   {
-    const std::vector<std::string> names = columns();
-    const std::size_t              p_at =
-      std::find(names.begin(), names.end(), "p (Pa)") - names.begin();
-    std::vector<double> values = line(0);
-    element_output.add_line(values);
-    largest_p = values[p_at];
-    for (unsigned int s = 0; s < path.stages.size(); ++s)
-      {
-        const ElementStage  &stage   = *path.stages[s];
-        const ElementControl control = stage.control(*point);
-        const Tensor6        start   = point->stress();
-        guess                        = {};
-        double at                    = 0.;
-        bool   stopped               = false;
-        for (const double f : stage.positions())
-          {
-            stop_if_asked(MPI_COMM_SELF);
-            advance(stage, control, start, at, f);
-            at     = f;
-            values = line(s + 1);
-            element_output.add_line(values);
-            largest_p = std::max(largest_p, values[p_at]);
-            if (element_output.verbosity >= 2)
-              log.print(format("  %s: f = %.4g, p = %.6g Pa, q = %.6g Pa",
-                               stage.name.c_str(),
-                               f,
-                               values[p_at],
-                               values[p_at + 1]));
-            stopped = stops(stage, values);
-            if (stopped)
-              break;
-          }
-        element_output.add_stage(stage.name, values);
-        if (element_output.verbosity >= 1)
-          log.print(format("%s%s: p = %.6g Pa, q = %.6g Pa, eps_v = %.4g %%",
-                           stage.name.c_str(),
-                           stopped ? " (stopped)" : "",
-                           values[p_at],
-                           values[p_at + 1],
-                           100. * (strain[0] + strain[1] + strain[2])));
-      }
+    const ElementStage &stage = *path.stages[place.stage];
+    element_output.add_stage(stage.name, last_line);
+    if (element_output.verbosity >= 1)
+      log.print(format("%s%s: p = %.6g Pa, q = %.6g Pa, eps_v = %.4g %%",
+                       stage.name.c_str(),
+                       at == positions.back() ? "" : " (stopped)",
+                       value_of("p (Pa)"),
+                       value_of("q (Pa)"),
+                       100. * (strain[0] + strain[1] + strain[2])));
+  }
+
+  void
+  ElementTest::write_summary(const std::string &status)
+  {
+    element_output.write_summary(
+      status,
+      {{"material", materials.name(0)},
+       {"changed_at_start", changed},
+       {"components", point->has(2) ? "3D" : "plane strain"},
+       {"axis", component_names[main_component()]},
+       {"counts",
+        {{"increments", n_increments},
+         {"halved_increments", n_cuts},
+         {"newton_iterations", n_iterations},
+         {"worst_residual", worst_residual},
+         {"substeps", point->counts.substeps},
+         {"most_substeps", point->counts.most},
+         {"forced_substeps", point->counts.forced},
+         {"limited_stresses", point->counts.limited}}},
+       {"cost", {{"total_s", total.wall_time()}}}});
+  }
+
+  void
+  ElementTest::finish(const double)
+  {
     write_surfaces();
     if (point->counts.forced > 0)
       log.warn(format("%llu substeps were forced: their error is above the "
@@ -280,45 +344,7 @@ namespace geocone
     if (point->counts.limited > 0)
       log.warn(format("%llu stresses were kept at 'Lowest pressure'",
                       point->counts.limited));
-  }
-
-  bool
-  ElementTest::run(const RunOptions &options)
-  {
-    prepare();
-    if (options.dry_run)
-      {
-        std::size_t n = 0;
-        for (const auto &stage : path.stages)
-          n += stage->positions().size();
-        log.print(format("%s: one point of '%s', %zu stages, %zu increments",
-                         options.name.c_str(),
-                         materials.name(0).c_str(),
-                         path.stages.size(),
-                         n));
-        return true;
-      }
-    element_output.prepare(options, columns());
-    log.print(format("%s: one point of '%s', %s, results in %s",
-                     options.name.c_str(),
-                     materials.name(0).c_str(),
-                     point->has(2) ? "3D" : "plane strain",
-                     element_output.folder().c_str()));
-    if (!changed.empty())
-      log.warn(changed);
-    try
-      {
-        element_output.write_summary("running", topics());
-        follow_path();
-        element_output.write_summary("finished", topics());
-      }
-    catch (const std::exception &error)
-      {
-        element_output.end_with(error, [&](const std::string &status) {
-          element_output.write_summary(status, topics());
-        });
-        throw;
-      }
+    write_summary("finished");
     log.print(format("%u increments, %u halved, %llu substeps, %llu forced, "
                      "%llu limited",
                      n_increments,
@@ -327,6 +353,29 @@ namespace geocone
                      point->counts.forced,
                      point->counts.limited));
     element_output.report();
-    return element_output.expectations_hold();
+  }
+
+  void
+  ElementTest::state(StateRow &row)
+  {
+    point->state(row);
+    row(strain, least_strain, most_strain, control, start_stress, at, guess);
+    row(strain_path, largest_p, last_line);
+    row(n_increments, n_iterations, n_cuts, worst_residual);
+  }
+
+  void
+  ElementTest::save(Archive &archive)
+  {
+    StateRow row;
+    state(row);
+    archive.write_row("point", row);
+  }
+
+  void
+  ElementTest::load(const Archive &archive)
+  {
+    StateRow row = archive.read_row("point");
+    state(row);
   }
 } // namespace geocone

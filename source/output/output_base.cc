@@ -7,6 +7,7 @@
 #include <geocone/output/output_base.h>
 #include <geocone/output/run_folder.h>
 #include <geocone/output/run_status.h>
+#include <geocone/output/statistics_table.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -38,7 +39,7 @@ namespace geocone
       "the parameters, the formulas and the files that were read";
   } // namespace
 
-  OutputBase::OutputBase(const MPI_Comm comm, Log &log, const Options &options)
+  OutputBase::OutputBase(const MPI_Comm comm, Log &log)
     : dealii::ParameterAcceptor("/Output")
     , comm(comm)
     , writes(dealii::Utilities::MPI::this_mpi_process(comm) == 0)
@@ -56,26 +57,24 @@ namespace geocone
                "... Overwrite: delete the files that the files.txt of the run "
                "before names. Automatic: refuse a folder that was named, "
                "number results/NAME.");
-    if (options.fields)
-      {
-        add_parameter("Fields",
-                      with_fields,
-                      "Whether fields are written (see Loading/.../Output "
-                      "every).");
-        add_choice(*this,
-                   "Fields format",
-                   fields_format,
-                   {"vtu", "hdf5", "both"},
-                   "VTU files are for ParaView and the pictures, HDF5 files "
-                   "come with XDMF records.");
-      }
+    add_parameter("Fields",
+                  with_fields,
+                  "Whether fields are written (see Loading/.../Output "
+                  "every).");
+    add_choice(*this,
+               "Fields format",
+               fields_format,
+               {"vtu", "hdf5", "both"},
+               "VTU files are for ParaView and the pictures, HDF5 files "
+               "come with XDMF records.");
     add_parameter("Pictures",
                   pictures,
                   "Whether the pictures are drawn at the end, by "
                   "scripts/plot.");
     add_parameter("Verbosity",
                   verbosity,
-                  options.verbosity,
+                  "0: results only, 1: progress, 2: also the table of every "
+                  "Newton iteration, or each increment of a point.",
                   prm,
                   dealii::Patterns::Integer(0, 2));
     add_parameter("Expectations",
@@ -86,9 +85,10 @@ namespace geocone
     add_choice(*this,
                "Report for tests",
                report_for_tests,
-               options.reports,
+               {"none", "results", "loads", "states", "expectations"},
                "Writes a file 'output' with results and expectations, or the "
-               "latter only, into the folder of the call.");
+               "latter only, into the folder of the call. Loads and states are "
+               "other names of results.");
   }
 
   void
@@ -184,13 +184,10 @@ namespace geocone
   }
 
   void
-  OutputBase::check_finite(const std::vector<std::string> &columns,
-                           const std::vector<double>      &values)
+  check_finite(const std::string &column, const double value)
   {
-    AssertDimension(columns.size(), values.size());
-    for (std::size_t i = 0; i < values.size(); ++i)
-      if (!std::isfinite(values[i]))
-        throw StepFailure("'" + columns[i] + "'" + not_finite_remedy);
+    if (!std::isfinite(value))
+      throw StepFailure("'" + column + "'" + not_finite_remedy);
   }
 
   bool

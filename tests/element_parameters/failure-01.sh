@@ -24,7 +24,7 @@ if "$program" "$root/prm/element/undrained_triaxial.prm" --quiet --output no \
 fi
 grep -q 'expected final/q_Pa <= 1: NO' err
 # The command line.
-"$program" --version | grep -q '^element_test [0-9]'
+"$program" --version | grep -q '^geocone [0-9]'
 "$program" --help >help
 for word in 'Swelling index kappa' 'Stop when' 'Initial specific volume'; do
   grep -q "$word" help || { echo "no $word in --help"; exit 1; }

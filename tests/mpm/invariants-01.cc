@@ -6,7 +6,7 @@
 // Volume grows by the first order of the time step in a rotation.
 
 #include <geocone/base/version.h>
-#include <geocone/implicit_simulation.h>
+#include <geocone/run/implicit_simulation.h>
 
 #include <cstdio>
 

@@ -2,4 +2,4 @@
 # from the checkpoint before a damaged one.
 program=$1 root=$2 folder=$3
 /usr/bin/python3 "$root/tests/resumed/trial.py" "$program" --output "$folder" --seed 1 \
-  --cases fem:kill:1 mpm:truncate:1 mpm:terminate:1 explicit:ranks:1
+  --cases fem:kill:1 mpm:truncate:1 mpm:terminate:1 explicit:ranks:1 point:kill:1

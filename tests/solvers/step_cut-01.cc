@@ -7,7 +7,7 @@
 
 #include <geocone/base/parameter_file.h>
 #include <geocone/base/version.h>
-#include <geocone/implicit_simulation.h>
+#include <geocone/run/implicit_simulation.h>
 
 #include <cstdio>
 

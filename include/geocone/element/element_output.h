@@ -39,6 +39,9 @@ namespace geocone
     void
     write_summary(const std::string &status, const Json &topics);
 
+    void
+    state_of_run(StateRow &row) override;
+
     /** The report for tests, if it is wanted; expectations come after it. */
     void
     report() const;

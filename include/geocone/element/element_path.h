@@ -33,6 +33,12 @@ namespace geocone
     std::array<bool, 6> by_stress{};
     Tensor6             strain{}; ///< increment for f from 0 to 1 (-)
     Tensor6             stress{}; ///< value at f = 1 (Pa)
+
+    void
+    state(StateRow &row)
+    {
+      row(by_stress, strain, stress);
+    }
   };
 
   /** A stage of a path: parameters of the section "Path/NAME". */

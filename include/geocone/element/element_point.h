@@ -4,6 +4,7 @@
 #ifndef geocone_element_element_point_h
 #define geocone_element_element_point_h
 
+#include <geocone/base/state_row.h>
 #include <geocone/materials/constitutive_law.h>
 
 #include <array>
@@ -80,6 +81,10 @@ namespace geocone
     surfaces(const Tensor6     &stress,
              const unsigned int axis,
              const double       largest_p) const = 0;
+
+    /** The accepted state, for a checkpoint. */
+    virtual void
+    state(StateRow &row) = 0;
 
     /** Substeps and the like of all accepted trials. */
     LawCounts counts;

@@ -4,17 +4,14 @@
 #ifndef geocone_element_element_test_h
 #define geocone_element_element_test_h
 
-#include <geocone/base/log.h>
 #include <geocone/base/parameter_file.h>
-#include <geocone/base/run_options.h>
 #include <geocone/element/element_output.h>
 #include <geocone/element/element_path.h>
 #include <geocone/element/mixed_control.h>
 #include <geocone/materials/material_library.h>
+#include <geocone/run/simulation.h>
 
 #include <deal.II/base/parameter_acceptor.h>
-
-#include <mpi.h>
 
 #include <memory>
 #include <string>
@@ -23,53 +20,72 @@
 namespace geocone
 {
   /**
-   * One material point that is driven along a path in stages. The material is
-   * the first of "Materials/Names".
+   * One material point that is driven along a path in stages, of which an
+   * increment is a step. The material is the first of "Materials/Names".
    */
-  class ElementTest : public dealii::ParameterAcceptor
+  class ElementTest : public Simulation, public dealii::ParameterAcceptor
   {
   public:
     ElementTest(const MPI_Comm comm, const ParameterFile &file, Log &log);
 
-    /**
-     * Runs the path.
-     * @return whether all expectations hold
-     * @throws InputError before anything is written, StepFailure if the path
-     * cannot be followed to its end
-     */
-    bool
-    run(const RunOptions &options);
-
-    const ElementOutput &
-    output() const
+    OutputBase &
+    output() override
     {
       return element_output;
     }
 
   private:
-    /** Checks everything. @throws InputError */
+    std::vector<std::string>
+    prepare(const RunOptions &options) override;
+    std::vector<unsigned int>
+    programme() const override;
     void
-    prepare();
-
-    /** All stages. @throws RunError */
+    prepare_output(const RunOptions &options) override;
+    std::string
+    headline(const std::string &name) const override;
     void
-    follow_path();
+    record_start() override;
+    void
+    begin(const Place &place) override;
+    Ended
+    advance(Place &place) override;
+    void
+    record(const Place &place) override;
+    std::string
+    progress(const Place &place) const override;
+    void
+    end(const Place &place) override;
+    void
+    write_summary(const std::string &status) override;
+    void
+    finish(const double t) override;
+    void
+    save(Archive &archive) override;
+    void
+    load(const Archive &archive) override;
 
-    /** From the present f of the stage to the end of the increment.
+    /** To the end of an increment, in parts where it must be.
      *  @throws StepFailure */
     void
-    advance(const ElementStage   &stage,
-            const ElementControl &control,
-            const Tensor6        &start_stress,
-            const double          from,
-            const double          to);
+    follow(const ElementStage &stage, const double to);
 
     std::vector<std::string>
     columns() const;
-    std::vector<double>
-    line(const unsigned int stage) const;
+
+    /** Enters the present state as a line of the table. */
+    void
+    add_line(const unsigned int stage);
+
+    /** Whether the stage is over before its end. */
     bool
-    stops(const ElementStage &stage, const std::vector<double> &values) const;
+    stops(const ElementStage &stage) const;
+
+    /** The value of a column in the last line. */
+    double
+    value_of(const std::string &column) const;
+
+    void
+    state(StateRow &row);
 
     void
     write_surfaces();
@@ -80,7 +96,6 @@ namespace geocone
     unsigned int
     main_component() const;
 
-    Log          &log;
     Materials     materials;
     ElementPath   path;
     MixedControl  mixed_control;
@@ -93,7 +108,13 @@ namespace geocone
     std::unique_ptr<ElementPoint> point;
     std::string                   changed; ///< by initialisation
     Tensor6                       strain{}, least_strain{}, most_strain{};
-    Tensor6                       guess{}; ///< increment per unit of f
+    ElementControl                control;        ///< of the stage
+    Tensor6                       start_stress{}; ///< of the stage (Pa)
+    double                        at = 0.;        ///< f in the stage
+    Tensor6                       guess{};        ///< increment per unit of f
+    std::vector<double>           positions; ///< f of the stage's increments
+    std::vector<std::string>      column_names;
+    std::vector<double>           last_line;
     double                        strain_path = 0., largest_p = 0.;
     unsigned int n_increments = 0, n_iterations = 0, n_cuts = 0;
     double       worst_residual = 0.;

@@ -6,6 +6,7 @@
 
 #include <geocone/output/field_files.h>
 #include <geocone/output/output_base.h>
+#include <geocone/output/statistics_table.h>
 #include <geocone/scene/scene.h>
 #include <geocone/time_stepping/explicit_mpm.h>
 
@@ -99,11 +100,11 @@ namespace geocone
          const PointArrays &group,
          double            *values) const;
 
-    const Scene                *scene = nullptr;
-    std::vector<std::string>    columns; ///< of statistics.csv
-    ExplicitState               initial;
-    std::vector<ExplicitRecord> records;
-    std::unique_ptr<FieldFiles> point_files;
+    const Scene                    *scene = nullptr;
+    StatisticsTable<ExplicitRecord> table;
+    ExplicitState                   initial;
+    std::vector<ExplicitRecord>     records;
+    std::unique_ptr<FieldFiles>     point_files;
 
     /** Largest of all records, for scales. */
     double largest_kinetic = 0., largest_impulse = 0.;

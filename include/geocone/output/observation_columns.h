@@ -4,7 +4,9 @@
 #ifndef geocone_output_observation_columns_h
 #define geocone_output_observation_columns_h
 
+#include <geocone/base/log.h>
 #include <geocone/output/expectations.h>
+#include <geocone/output/statistics_table.h>
 #include <geocone/scene/boundary_conditions.h>
 #include <geocone/scene/observation.h>
 
@@ -15,21 +17,39 @@
 
 namespace geocone
 {
-  /** @name What both kinds of runs report of Scene::observation: columns of
-   *  statistics.csv, their values, and a topic of summary.json */
-  /** @{ */
+  /**
+   * Adds what both kinds of runs report of Scene::observation to their tables.
+   * @param moment of a record and an observed condition (N m/m)
+   * @param displacement of a record, an observed point and a component (m)
+   */
+  template <typename Record, typename Moment, typename Displacement>
   void
-  add_observation_columns(const Observation        &observation,
-                          const BoundaryConditions &conditions,
-                          std::vector<std::string> &columns);
-  void
-  add_observations(const std::vector<double>                 &moments,
-                   const std::vector<dealii::Tensor<1, dim>> &displacements,
-                   std::vector<double>                       &line);
+  add_observations(StatisticsTable<Record>  &table,
+                   const Observation        &observation,
+                   const BoundaryConditions &conditions,
+                   const Moment             &moment,
+                   const Displacement       &displacement)
+  {
+    for (unsigned int i = 0; i < observation.conditions.size(); ++i)
+      table.add(
+        "moment " + conditions.list[observation.conditions[i]]->name +
+          " (N m/m)",
+        [moment, i](const Record &record) { return moment(record, i); },
+        Finite::may_be);
+    for (unsigned int i = 0; i < observation.points.size(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        table.add(
+          format("displacement of point %u %c (m)", i + 1, "xy"[d]),
+          [displacement, i, d](const Record &record) {
+            return displacement(record, i, d);
+          },
+          Finite::may_be);
+  }
+
+  /** The same for the topic "points" of summary.json. */
   void
   add_points(const std::vector<dealii::Tensor<1, dim>> &displacements,
              Json                                      &summary);
-  /** @} */
 } // namespace geocone
 
 #endif

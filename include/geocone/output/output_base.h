@@ -36,15 +36,7 @@ namespace geocone
   class OutputBase : public dealii::ParameterAcceptor
   {
   public:
-    /** What a run may have, as parameters of the section "Output". */
-    struct Options
-    {
-      bool                     fields;    ///< whether it writes fields
-      std::vector<std::string> reports;   ///< choices of "Report for tests"
-      std::string              verbosity; ///< documentation
-    };
-
-    OutputBase(const MPI_Comm comm, Log &log, const Options &options);
+    OutputBase(const MPI_Comm comm, Log &log);
 
     /**
      * Compares the summary with the expectations of the parameter file, and says
@@ -108,11 +100,6 @@ namespace geocone
      */
     void
     write_summary_file();
-
-    /** @throws StepFailure if a value of a line of the table is not finite */
-    static void
-    check_finite(const std::vector<std::string> &columns,
-                 const std::vector<double>      &values);
 
     const MPI_Comm comm;
     const bool     writes; ///< whether this is the rank that writes tables

@@ -9,6 +9,7 @@
 #include <geocone/output/fields.h>
 #include <geocone/output/limit_load.h>
 #include <geocone/output/output_base.h>
+#include <geocone/output/statistics_table.h>
 #include <geocone/time_stepping/time_stepper.h>
 
 #include <memory>
@@ -142,13 +143,13 @@ namespace geocone
     void
     warn_of_energy(const double time);
 
-    const Scene               *scene = nullptr;
-    std::vector<std::string>   columns; ///< of statistics.csv
-    CsvFile                    newton;
-    std::unique_ptr<Fields>    fields;
-    std::vector<StepRecord>    records;
-    std::optional<FieldErrors> field_errors;
-    std::optional<Failure>     failure;
+    const Scene                *scene = nullptr;
+    StatisticsTable<StepRecord> table;
+    CsvFile                     newton;
+    std::unique_ptr<Fields>     fields;
+    std::vector<StepRecord>     records;
+    std::optional<FieldErrors>  field_errors;
+    std::optional<Failure>      failure;
 
     /** Sums since the start (J/m), and the least loss of a step. */
     double work = 0., dissipation = 0., loss = 0., least_loss = 0.;

@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef geocone_run_estimate_h
-#define geocone_run_estimate_h
+#ifndef geocone_run_run_estimate_h
+#define geocone_run_run_estimate_h
 
 #include <geocone/discretisation/background_mesh.h>
 #include <geocone/discretisation/seeding.h>

@@ -1,9 +1,9 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/explicit_simulation.h>
 #include <geocone/output/run_status.h>
-#include <geocone/run_estimate.h>
+#include <geocone/run/explicit_simulation.h>
+#include <geocone/run/run_estimate.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -14,13 +14,13 @@ namespace geocone
   ExplicitSimulation::ExplicitSimulation(const MPI_Comm       comm,
                                          const ParameterFile &file,
                                          Log                 &log)
-    : Simulation(comm, file, log)
+    : SceneSimulation(comm, file, log)
     , stepper(comm, file)
     , explicit_output(comm, log)
   {}
 
   std::vector<std::string>
-  ExplicitSimulation::prepare(const RunOptions &options)
+  ExplicitSimulation::prepare_method(const RunOptions &options)
   {
     const RunEstimate estimate = estimate_run(scene,
                                               method,
@@ -65,16 +65,16 @@ namespace geocone
   }
 
   Simulation::Ended
-  ExplicitSimulation::advance(const Stage &stage,
-                              const Place &place,
-                              const double h)
+  ExplicitSimulation::advance_step(const Stage &stage,
+                                   const Place &place,
+                                   const double h)
   {
     report = stepper.advance(stage, place.time, h);
     return Ended::well;
   }
 
   void
-  ExplicitSimulation::record(const Stage &, const Place &place)
+  ExplicitSimulation::record_step(const Stage &, const Place &place)
   {
     state = stepper.state();
     explicit_output.add_record(
@@ -88,7 +88,7 @@ namespace geocone
   }
 
   std::string
-  ExplicitSimulation::progress() const
+  ExplicitSimulation::progress_of_step() const
   {
     return format("%lu explicit steps  kinetic energy = %.3g J/m  plastic "
                   "strain <= %.3g",

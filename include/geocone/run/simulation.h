@@ -1,17 +1,13 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef geocone_simulation_h
-#define geocone_simulation_h
+#ifndef geocone_run_simulation_h
+#define geocone_run_simulation_h
 
 #include <geocone/base/log.h>
-#include <geocone/base/parameter_file.h>
 #include <geocone/base/run_options.h>
-#include <geocone/checkpoint.h>
-#include <geocone/discretisation/method.h>
-#include <geocone/discretisation/observed_points.h>
 #include <geocone/output/output_base.h>
-#include <geocone/scene/scene.h>
+#include <geocone/run/checkpoint.h>
 
 #include <deal.II/base/timer.h>
 
@@ -21,9 +17,9 @@
 namespace geocone
 {
   /**
-   * A run: the scene, and the story of the run - stages, steps, fields, summaries,
-   * checkpoints, and how it ends - which is the same for all methods. What a step
-   * is, and what is recorded of it, they say themselves.
+   * A run: the story - stages, steps, fields, summaries, checkpoints, and how it
+   * ends - which is the same for all methods. What a step is, and what is recorded
+   * of it, they say themselves.
    */
   class Simulation
   {
@@ -41,9 +37,9 @@ namespace geocone
     output() = 0;
 
   protected:
-    Simulation(const MPI_Comm comm, const ParameterFile &file, Log &log);
+    Simulation(const MPI_Comm comm, Log &log);
 
-    /** Where the run is in the loading programme. */
+    /** Where the run is in its programme. */
     struct Place
     {
       unsigned int stage    = 0;     ///< index of the stage
@@ -63,7 +59,8 @@ namespace geocone
     enum class Ended
     {
       well,
-      run ///< the run is over, as it was to be: results are those until then
+      stage, ///< well, and the stage is over
+      run    ///< the run is over, as it was to be: results are those until then
     };
 
     /** @name What a method does. All collective. */
@@ -74,6 +71,10 @@ namespace geocone
     virtual std::vector<std::string>
     prepare(const RunOptions &options) = 0;
 
+    /** Numbers of steps of the stages, at most. */
+    virtual std::vector<unsigned int>
+    programme() const = 0;
+
     /** Makes the folder and its tables. @throws InputError */
     virtual void
     prepare_output(const RunOptions &options) = 0;
@@ -82,39 +83,48 @@ namespace geocone
     virtual std::string
     headline(const std::string &name) const = 0;
 
+    /** At the start of a run that is not resumed. */
     virtual void
-    begin_stage(const Stage &stage, const double t) = 0;
-
-    /**
-     * A step of the programme, from place.time to h later, or what is left of it
-     * where it was stopped.
-     * @throws StepFailure, Stopped
-     */
-    virtual Ended
-    advance(const Stage &stage, const Place &place, const double h) = 0;
-
-    /** Enters the step in the tables. @param place at its end */
-    virtual void
-    record(const Stage &stage, const Place &place) = 0;
-
-    /** What the line of progress says of the last step. */
-    virtual std::string
-    progress() const = 0;
-
-    /** Tests after the last step of a stage. */
-    virtual void
-    end_stage(const Stage &)
+    record_start()
     {}
 
     virtual void
-    write_fields(const double t) = 0;
+    begin(const Place &place) = 0;
+
+    /**
+     * A step of the programme, or what is left of it where it was stopped.
+     * @param[in,out] place its time moves on where the step ends well
+     * @throws StepFailure, Stopped
+     */
+    virtual Ended
+    advance(Place &place) = 0;
+
+    /** Enters the step in the tables. @param place at its end */
+    virtual void
+    record(const Place &place) = 0;
+
+    /** What the line of progress says of the last step. */
+    virtual std::string
+    progress(const Place &place) const = 0;
+
+    /** After the last step of a stage. */
+    virtual void
+    end(const Place &)
+    {}
+
+    /** Whether fields are due after a step that is not the last of its stage. */
+    virtual bool
+    wants_fields(const Place &) const
+    {
+      return false;
+    }
+
+    virtual void
+    write_fields(const double)
+    {}
 
     virtual void
     write_summary(const std::string &status) = 0;
-
-    /** Whether fields are written before the first step. */
-    virtual bool
-    has_fields_at_start() const = 0;
 
     /** Adds to the results, prints them, and what they cost. @p t: the end */
     virtual void
@@ -128,13 +138,8 @@ namespace geocone
 
     const MPI_Comm comm;
     Log           &log;
-
-    Scene          scene;
-    Method         method;
     Checkpoint     checkpoint;
-    ObservedPoints observed_points;
-
-    dealii::Timer total, step_loop, output_time;
+    dealii::Timer  total, step_loop, output_time;
 
   private:
     /** All stages, from where the run is. */
@@ -146,7 +151,7 @@ namespace geocone
 
     /** Writes what is due after a step, or not. */
     void
-    write_if_due(const Stage &stage, const bool is_last);
+    write_if_due(const bool is_last);
 
     void
     save_checkpoint();
@@ -155,9 +160,10 @@ namespace geocone
     void
     resume();
 
-    Place        place;
-    unsigned int n_steps    = 0; ///< of all stages
-    unsigned int first_step = 0; ///< steps that an earlier process has done
+    Place                     place;
+    std::vector<unsigned int> n_in_stage;     ///< steps of each stage
+    unsigned int              n_steps    = 0; ///< of all stages
+    unsigned int              first_step = 0; ///< done by an earlier process
   };
 } // namespace geocone
 

@@ -3,7 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
-#include <geocone/run_estimate.h>
+#include <geocone/run/run_estimate.h>
 
 #include <cmath>
 #include <fstream>

@@ -3,16 +3,13 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/stop_request.h>
-#include <geocone/simulation.h>
+#include <geocone/run/simulation.h>
 
 namespace geocone
 {
-  Simulation::Simulation(const MPI_Comm       comm,
-                         const ParameterFile &file,
-                         Log                 &log)
+  Simulation::Simulation(const MPI_Comm comm, Log &log)
     : comm(comm)
     , log(log)
-    , scene(file)
   {
     step_loop.reset();
     output_time.reset();
@@ -21,14 +18,13 @@ namespace geocone
   bool
   Simulation::run(const RunOptions &options)
   {
-    scene.prepare();
-    method.prepare();
     checkpoint.prepare(comm);
-    for (const auto &stage : scene.loading.stages)
-      n_steps += stage->step_sizes().size();
     const std::vector<std::string> warnings = prepare(options);
     if (options.dry_run)
       return true;
+    n_in_stage = programme();
+    for (const unsigned int n : n_in_stage)
+      n_steps += n;
     prepare_output(options);
     if (options.resumes)
       resume();
@@ -40,8 +36,8 @@ namespace geocone
     write_summary("running");
     try
       {
-        if (!options.resumes && has_fields_at_start())
-          write_fields(0.);
+        if (!options.resumes)
+          record_start();
         follow_programme();
         finish(place.time);
       }
@@ -70,36 +66,36 @@ namespace geocone
   void
   Simulation::follow_programme()
   {
-    const auto &stages = scene.loading.stages;
-    for (; place.stage < stages.size(); ++place.stage)
+    for (; place.stage < n_in_stage.size(); ++place.stage)
       {
-        const Stage &stage = *stages[place.stage];
         if (!place.is_in)
           {
-            begin_stage(stage, place.time);
+            begin(place);
             place.is_in    = true;
             place.in_stage = 0;
           }
-        const std::vector<double> sizes = stage.step_sizes();
-        while (place.in_stage < sizes.size())
+        while (place.in_stage < n_in_stage[place.stage])
           {
             stop_if_asked(comm);
-            const double h = sizes[place.in_stage];
             step_loop.start();
-            const Ended ended = advance(stage, place, h);
+            const Ended ended = advance(place);
             step_loop.stop();
             if (ended == Ended::run)
               return;
             ++place.in_stage;
             ++place.step;
-            place.time += h;
+            const bool is_last = ended == Ended::stage ||
+                                 place.in_stage == n_in_stage[place.stage];
             output_time.start();
-            record(stage, place);
+            record(place);
             print_progress();
-            write_if_due(stage, place.in_stage == sizes.size());
+            write_if_due(is_last);
             output_time.stop();
-            if (place.in_stage == sizes.size())
-              end_stage(stage);
+            if (is_last)
+              {
+                end(place);
+                place.in_stage = n_in_stage[place.stage];
+              }
             if (checkpoint.is_due(place.step))
               save_checkpoint();
           }
@@ -110,20 +106,20 @@ namespace geocone
   void
   Simulation::print_progress()
   {
-    if (output().verbosity >= 1)
-      log.progress(
-        format("step %u/%u  t = %.4g s  ", place.step, n_steps, place.time) +
-        progress() +
-        format("  %.0f s left",
-               total.wall_time() / (place.step - first_step) *
-                 (n_steps - place.step)));
+    if (output().verbosity < 1)
+      return;
+    const std::string text = progress(place);
+    if (!text.empty())
+      log.progress(format("step %u/%u  ", place.step, n_steps) + text +
+                   format("  %.0f s left",
+                          total.wall_time() / (place.step - first_step) *
+                            (n_steps - place.step)));
   }
 
   void
-  Simulation::write_if_due(const Stage &stage, const bool is_last)
+  Simulation::write_if_due(const bool is_last)
   {
-    if (is_last ||
-        (stage.output_every > 0 && place.in_stage % stage.output_every == 0))
+    if (is_last || wants_fields(place))
       {
         write_fields(place.time);
         write_summary("running");

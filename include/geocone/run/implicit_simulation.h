@@ -1,12 +1,12 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef geocone_implicit_simulation_h
-#define geocone_implicit_simulation_h
+#ifndef geocone_run_implicit_simulation_h
+#define geocone_run_implicit_simulation_h
 
 #include <geocone/output/exact_solution.h>
 #include <geocone/output/run_output.h>
-#include <geocone/simulation.h>
+#include <geocone/run/scene_simulation.h>
 #include <geocone/time_stepping/implicit_fem.h>
 #include <geocone/time_stepping/implicit_mpm.h>
 
@@ -33,7 +33,7 @@ namespace geocone
    * A run of the finite element method or the implicit material point method. A
    * step of the loading programme is reached in substeps (StepControl).
    */
-  class ImplicitSimulation : public Simulation
+  class ImplicitSimulation : public SceneSimulation
   {
   public:
     ImplicitSimulation(const MPI_Comm       comm,
@@ -48,7 +48,7 @@ namespace geocone
 
   private:
     std::vector<std::string>
-    prepare(const RunOptions &options) override;
+    prepare_method(const RunOptions &options) override;
     void
     prepare_output(const RunOptions &options) override;
     std::string
@@ -56,11 +56,13 @@ namespace geocone
     void
     begin_stage(const Stage &stage, const double t) override;
     Ended
-    advance(const Stage &stage, const Place &place, const double h) override;
+    advance_step(const Stage &stage,
+                 const Place &place,
+                 const double h) override;
     void
-    record(const Stage &stage, const Place &place) override;
+    record_step(const Stage &stage, const Place &place) override;
     std::string
-    progress() const override;
+    progress_of_step() const override;
     bool
     has_fields_at_start() const override;
     void

@@ -1,11 +1,11 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef geocone_explicit_simulation_h
-#define geocone_explicit_simulation_h
+#ifndef geocone_run_explicit_simulation_h
+#define geocone_run_explicit_simulation_h
 
 #include <geocone/output/explicit_output.h>
-#include <geocone/simulation.h>
+#include <geocone/run/scene_simulation.h>
 #include <geocone/time_stepping/explicit_mpm.h>
 
 #include <string>
@@ -17,7 +17,7 @@ namespace geocone
    * is what statistics.csv has a line of; the explicit steps within it are the
    * stepper's own.
    */
-  class ExplicitSimulation : public Simulation
+  class ExplicitSimulation : public SceneSimulation
   {
   public:
     ExplicitSimulation(const MPI_Comm       comm,
@@ -32,7 +32,7 @@ namespace geocone
 
   private:
     std::vector<std::string>
-    prepare(const RunOptions &options) override;
+    prepare_method(const RunOptions &options) override;
     void
     prepare_output(const RunOptions &options) override;
     std::string
@@ -40,11 +40,13 @@ namespace geocone
     void
     begin_stage(const Stage &stage, const double t) override;
     Ended
-    advance(const Stage &stage, const Place &place, const double h) override;
+    advance_step(const Stage &stage,
+                 const Place &place,
+                 const double h) override;
     void
-    record(const Stage &stage, const Place &place) override;
+    record_step(const Stage &stage, const Place &place) override;
     std::string
-    progress() const override;
+    progress_of_step() const override;
     void
     end_stage(const Stage &stage) override;
     bool

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
-#include <geocone/checkpoint.h>
+#include <geocone/run/checkpoint.h>
 
 #include <deal.II/base/mpi.h>
 

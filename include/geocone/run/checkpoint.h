@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef geocone_checkpoint_h
-#define geocone_checkpoint_h
+#ifndef geocone_run_checkpoint_h
+#define geocone_run_checkpoint_h
 
 #include <geocone/base/archive.h>
 #include <geocone/base/log.h>

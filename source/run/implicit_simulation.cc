@@ -3,9 +3,9 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/stop_request.h>
-#include <geocone/implicit_simulation.h>
 #include <geocone/output/run_status.h>
-#include <geocone/run_estimate.h>
+#include <geocone/run/implicit_simulation.h>
+#include <geocone/run/run_estimate.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -77,7 +77,7 @@ namespace geocone
   ImplicitSimulation::ImplicitSimulation(const MPI_Comm       comm,
                                          const ParameterFile &file,
                                          Log                 &log)
-    : Simulation(comm, file, log)
+    : SceneSimulation(comm, file, log)
     , mesh(comm)
     , implicit_mpm(file)
     , run_output(comm, log)
@@ -85,7 +85,7 @@ namespace geocone
   {}
 
   std::vector<std::string>
-  ImplicitSimulation::prepare(const RunOptions &options)
+  ImplicitSimulation::prepare_method(const RunOptions &options)
   {
     scene.materials.check_closed_form(method.name);
     for (const auto &stage : scene.loading.stages)
@@ -162,9 +162,9 @@ namespace geocone
   }
 
   Simulation::Ended
-  ImplicitSimulation::advance(const Stage &stage,
-                              const Place &place,
-                              const double h)
+  ImplicitSimulation::advance_step(const Stage &stage,
+                                   const Place &place,
+                                   const double h)
   {
     const unsigned int step = place.step + 1;
     if (!is_in_step)
@@ -283,7 +283,7 @@ namespace geocone
   }
 
   void
-  ImplicitSimulation::record(const Stage &stage, const Place &place)
+  ImplicitSimulation::record_step(const Stage &stage, const Place &place)
   {
     const Observation &observation = scene.observation;
     present.resets = place.in_stage == 1 && stage.reset_displacement;
@@ -309,7 +309,7 @@ namespace geocone
   }
 
   std::string
-  ImplicitSimulation::progress() const
+  ImplicitSimulation::progress_of_step() const
   {
     const std::string result =
       scene.observation.conditions.empty()

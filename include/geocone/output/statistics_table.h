@@ -1,0 +1,76 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_output_statistics_table_h
+#define geocone_output_statistics_table_h
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /** Whether a value that is not finite spoils a run. */
+  enum class Finite
+  {
+    must_be,
+    may_be ///< e.g. the displacement of a point that has left
+  };
+
+  /** @throws StepFailure if a value of a column is not finite */
+  void
+  check_finite(const std::string &column, const double value);
+
+  /**
+   * The columns of statistics.csv: each is a name with its unit, and where its
+   * value in the record of a step comes from.
+   */
+  template <typename Record>
+  class StatisticsTable
+  {
+  public:
+    using Value = std::function<double(const Record &)>;
+
+    void
+    add(const std::string &name,
+        const Value       &value,
+        const Finite       finite = Finite::must_be)
+    {
+      columns.push_back({name, value, finite});
+    }
+
+    std::vector<std::string>
+    names() const
+    {
+      std::vector<std::string> all;
+      for (const Column &column : columns)
+        all.push_back(column.name);
+      return all;
+    }
+
+    /** The values. @throws StepFailure if one that must be finite is not */
+    std::vector<double>
+    line(const Record &record) const
+    {
+      std::vector<double> values;
+      for (const Column &column : columns)
+        {
+          values.push_back(column.value(record));
+          if (column.finite == Finite::must_be)
+            check_finite(column.name, values.back());
+        }
+      return values;
+    }
+
+  private:
+    struct Column
+    {
+      std::string name;
+      Value       value;
+      Finite      finite;
+    };
+    std::vector<Column> columns;
+  };
+} // namespace geocone
+
+#endif
