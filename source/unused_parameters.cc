@@ -110,12 +110,17 @@ namespace geocone
       {"Particles/Number", "Particles/Layout", {"random"}},
       {"Particles/Random seed", "Particles/Layout", {"random"}},
       {"Particles/File", "Particles/Layout", {"file"}},
-      {"Material point method/*", method, {"MPM"}},
+      {"Material point method/Transfer", method, {"MPM", "explicit MPM"}},
+      {"Material point method/FLIP part", method, {"MPM", "explicit MPM"}},
+      {"Material point method/Advection", method, {"MPM"}},
+      {"Material point method/Consistent mass part", method, {"MPM"}},
+      {"Material point method/Integration", method, {"MPM"}},
+      {"Material point method/Start", method, {"MPM"}},
+      {"Material point method/Largest move", method, {"MPM"}},
       {"Material point method/FLIP part",
        "Material point method/Transfer",
        {"FLIP"}},
-      {"Explicit/*", method, {"explicit MPM"}},
-      {"Explicit/FLIP part", "Explicit/Transfer", {"FLIP"}}};
+      {"Explicit/*", method, {"explicit MPM"}}};
 
     std::vector<std::string>
     parts(const std::string &path)

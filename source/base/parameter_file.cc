@@ -108,6 +108,21 @@ namespace geocone
              "are";
     }
 
+    /** "SECTION/NAME" where another section has a parameter of this name, and only
+     *  one has. */
+    std::string
+    place_of(const std::string &name, const Declared &declared)
+    {
+      std::string place;
+      for (const auto &[section, part] : declared.sections)
+        if (part.entries.count(name) > 0)
+          {
+            if (!place.empty())
+              return "";
+            place = section + "/" + name;
+          }
+      return place;
+    }
   } // namespace
 
   std::vector<std::string>
@@ -491,11 +506,16 @@ namespace geocone
                   path, set.value, "", others->second.at(set.name)};
                 continue;
               }
+            const std::string elsewhere =
+              set.sections.size() == 1 ? place_of(set.name, declared) : "";
             throw InputError(set.line->place() + ": unknown parameter '" +
                              printable(path) + "'" +
-                             suggestion(set.name,
-                                        joined(set.sections, ""),
-                                        keys(here->entries)));
+                             (elsewhere.empty()
+                                ? suggestion(set.name,
+                                             joined(set.sections, ""),
+                                             keys(here->entries))
+                                : "\n  remedy:  did you mean '" + elsewhere +
+                                    "'? 'geocone --help' lists all"));
           }
         set_value(
           set.sections, set.name, set.value, entry->second, set.line->place());

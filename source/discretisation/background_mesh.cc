@@ -294,4 +294,22 @@ namespace geocone
       }
     return ids;
   }
+
+  std::optional<Point<dim>>
+  BackgroundMesh::unit_point(const Cell &cell, const Point<dim> &x) const
+  {
+    Point<dim> unit;
+    try
+      {
+        unit = map->transform_real_to_unit_cell(
+          Triangulation<dim>::cell_iterator(cell), x);
+      }
+    catch (const Mapping<dim>::ExcTransformationFailed &)
+      {
+        return std::nullopt; // too far outside
+      }
+    if (!GeometryInfo<dim>::is_inside_unit_cell(unit, tolerance))
+      return std::nullopt;
+    return GeometryInfo<dim>::project_to_unit_cell(unit);
+  }
 } // namespace geocone

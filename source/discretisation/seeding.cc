@@ -35,23 +35,6 @@ namespace geocone
     /** More than any integration wants; the layout's places are computed at once. */
     constexpr unsigned int most_per_direction = 100;
 
-    /** Whether x lies in a cell or on its border. */
-    bool
-    is_in(const Mapping<dim>                      &mapping,
-          const Triangulation<dim>::cell_iterator &cell,
-          const Point<dim>                        &x)
-    {
-      try
-        {
-          return GeometryInfo<dim>::is_inside_unit_cell(
-            mapping.transform_real_to_unit_cell(cell, x), 1e-10);
-        }
-      catch (const Mapping<dim>::ExcTransformationFailed &)
-        {
-          return false; // too far outside
-        }
-    }
-
     InputError
     outside_mesh(const Point<dim> &x)
     {
@@ -86,7 +69,7 @@ namespace geocone
           for (const auto &[box, cell] :
                cells |
                  bgi::adaptors::queried(bgi::intersects(seeds[i].position)))
-            if (is_in(mesh.mapping(), cell, seeds[i].position))
+            if (mesh.unit_point(cell, seeds[i].position))
               owner[i] = rank;
         Utilities::MPI::min(owner, comm, owner);
         for (std::size_t i = 0; i < seeds.size(); ++i)

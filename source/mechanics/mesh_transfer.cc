@@ -3,9 +3,9 @@
 
 #include <geocone/mechanics/constraints.h>
 #include <geocone/mechanics/mesh_transfer.h>
+#include <geocone/mechanics/particle_transfer.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/symmetric_tensor.h>
 
 #include <deal.II/grid/grid_tools.h>
 
@@ -20,9 +20,6 @@ namespace geocone
   namespace
   {
     using Field = PointArrays::Field;
-
-    /** Of unit coordinates, beyond a cell's border. */
-    constexpr double tolerance = 1e-8;
   } // namespace
 
   MeshTransfer::MeshTransfer(const Scene          &scene,
@@ -84,17 +81,10 @@ namespace geocone
   bool
   MeshTransfer::is_in(const Point<dim> &x, const Cell &cell, Place &place) const
   {
-    try
-      {
-        place.unit = mesh.mapping().transform_real_to_unit_cell(cell, x);
-      }
-    catch (const Mapping<dim>::ExcTransformationFailed &)
-      {
-        return false; // too far outside
-      }
-    if (!GeometryInfo<dim>::is_inside_unit_cell(place.unit, tolerance))
+    const auto unit = mesh.unit_point(cell, x);
+    if (!unit)
       return false;
-    place.unit = GeometryInfo<dim>::project_to_unit_cell(place.unit);
+    place.unit = *unit;
     place.cell = cell;
     return true;
   }
@@ -115,8 +105,8 @@ namespace geocone
     Point<dim> lower = x, upper = x;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        lower[d] -= tolerance * smallest_cell;
-        upper[d] += tolerance * smallest_cell;
+        lower[d] -= BackgroundMesh::tolerance * smallest_cell;
+        upper[d] += BackgroundMesh::tolerance * smallest_cell;
       }
     const BoundingBox<dim> around({lower, upper});
     for (const auto &[box, cell] :
@@ -328,20 +318,11 @@ namespace geocone
                   gradient[d][e] += slope[e] * read[4 * node + d];
                 }
           }
-        // Direction by direction: at a side of the mesh only the functions of the
-        // side are left, and across it the limit is the gradient.
-        Tensor<2, dim> C;
-        for (const auto &[second_moment, e] :
-             eigenvectors(SymmetricTensor<2, dim>(symmetrize(D))))
-          C +=
-            outer_product(second_moment > 1e-10 * smallest_cell * smallest_cell
-                            ? Tensor<1, dim>(B * e / second_moment)
-                            : Tensor<1, dim>(gradient * e),
-                          e);
-        points.c_xx[k] = C[0][0];
-        points.c_xy[k] = C[0][1];
-        points.c_yx[k] = C[1][0];
-        points.c_yy[k] = C[1][1];
+        const Tensor<2, dim> C = affine_velocity(B, D, gradient, smallest_cell);
+        points.c_xx[k]         = C[0][0];
+        points.c_xy[k]         = C[0][1];
+        points.c_yx[k]         = C[1][0];
+        points.c_yy[k]         = C[1][1];
       }
   }
 

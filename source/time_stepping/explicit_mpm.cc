@@ -58,19 +58,6 @@ namespace geocone
                   "first).",
                   prm,
                   Patterns::Selection("MUSL|USL|USF"));
-    add_parameter("Transfer",
-                  transfer_name,
-                  "FLIP: points take the change of the nodes' velocities. "
-                  "APIC: they take the velocity and its affine part, which "
-                  "keeps angular momentum and damps vibrations.",
-                  prm,
-                  Patterns::Selection("FLIP|APIC"));
-    add_parameter("FLIP part",
-                  flip_part,
-                  "For FLIP: the part of the new velocity that FLIP gives, the "
-                  "rest is PIC (interpolated, damps); 0 to 1.",
-                  prm,
-                  Patterns::Double(0., 1.));
     add_parameter("Courant number",
                   courant,
                   "C of the step C h/(c + v), with the cell size h, the "
@@ -109,11 +96,6 @@ namespace geocone
   ExplicitMPM::check_parameters() const
   {
     const std::string section = "Explicit/";
-    if (transfer_name == "APIC" && flip_part != 1.)
-      throw InputError(section + "FLIP part",
-                       flip_part,
-                       "1 (not given) where Transfer = APIC",
-                       "leave it out, or set Transfer = FLIP");
     if (!(courant > 0. && courant <= 1.))
       throw InputError(
         section + "Courant number", courant, "0 < C <= 1", "0.3 is usual");
@@ -145,10 +127,8 @@ namespace geocone
     kind   = order_name == "MUSL"  ? Order::musl
              : order_name == "USL" ? Order::usl
                                    : Order::usf;
-    affine = transfer_name == "APIC";
+    affine = rule.is_affine();
     check_parameters();
-    if (affine)
-      flip_part = 0.; // the velocity is interpolated
     outflow.prepare();
     seeding.prepare(*scene);
     kernels = &transfer_kernels();
@@ -179,8 +159,8 @@ namespace geocone
       }
 
     if (affine && space.degree() == 1)
-      throw InputError("Explicit/Transfer",
-                       transfer_name,
+      throw InputError(ParticleTransfer::parameter,
+                       rule.name,
                        "FLIP where the element is Q1",
                        "take splines for APIC: with Q1 the noise of nodes with "
                        "little mass grows from step to step");
@@ -188,7 +168,7 @@ namespace geocone
     if (const auto given = scene->observation.moment_centre())
       std::fill(transfer->centres.begin(), transfer->centres.end(), *given);
     nodes = std::make_unique<NodalUpdate>(
-      *transfer, scene->dirichlet, flip_part, least_mass, sum);
+      *transfer, scene->dirichlet, rule.flip_part(), least_mass, sum);
     refresh();
     if (fixed_step > stability_limit() && !allow_unstable)
       throw InputError("Explicit/Time step",
@@ -265,7 +245,7 @@ namespace geocone
                 if (what.update.velocity && affine)
                   transfer->gather_affine(points, scratch);
                 kernels->update_points(
-                  what.update, dt, flip_part, points, scratch);
+                  what.update, dt, rule.flip_part(), points, scratch);
               }
             if (what.update.strain)
               {

@@ -35,19 +35,6 @@ namespace geocone
     : ParameterAcceptor("/Material point method")
     , particles(file)
   {
-    add_parameter("Transfer",
-                  transfer_name,
-                  "FLIP: particles take the change of the nodes' velocities. "
-                  "APIC: they take the velocity and its affine part, which "
-                  "keeps angular momentum and damps vibrations.",
-                  prm,
-                  Patterns::Selection("FLIP|APIC"));
-    add_parameter("FLIP part",
-                  flip_part,
-                  "For FLIP: the part of the new velocity that FLIP gives, the "
-                  "rest is PIC (interpolated, damps); 0 to 1.",
-                  prm,
-                  Patterns::Double(0., 1.));
     add_parameter("Advection",
                   advection,
                   "grid velocity | particle velocity | none: what moves the "
@@ -87,7 +74,7 @@ namespace geocone
   ImplicitMPM::check_parameters()
   {
     const std::string section = "Material point method/";
-    if (transfer_name == "APIC" && consistent_mass > 0.)
+    if (rule.is_affine() && consistent_mass > 0.)
       throw InputError(section + "Consistent mass part",
                        consistent_mass,
                        "0 with Transfer = APIC",
@@ -97,7 +84,6 @@ namespace geocone
     if (!(largest_move > 0.))
       throw InputError(
         section + "Largest move", largest_move, "> 0 cells", "3 is usual");
-    kind     = transfer_name == "FLIP" ? Transfer::flip : Transfer::apic;
     midpoint = integration == "midpoint";
     if (start_name != "particle velocity")
       starts.push_back(Start::nodes);
@@ -147,7 +133,7 @@ namespace geocone
                                        mesh->triangulation().get_communicator(),
                                        scene->materials.symmetric());
     force.reinit(space->partitioner());
-    if (kind == Transfer::apic)
+    if (rule.is_affine())
       for (unsigned int p = 0; p < points.n_points(); ++p)
         points.affine[p] = scene->initial_velocity.gradient(
           points.position[p], std::sqrt(points.weight[p]));
@@ -175,7 +161,7 @@ namespace geocone
         e.kinetic += points.mass[p] * points.velocity[p].norm_square() / 2.;
         e.potential -= points.mass[p] * (g * (points.position[p] - datum));
       }
-    if (kind == Transfer::apic)
+    if (rule.is_affine())
       for (unsigned int c = 0; c < points.n_cells(); ++c)
         for (unsigned int p = points.first_point[c];
              p < points.first_point[c + 1];
@@ -217,7 +203,7 @@ namespace geocone
               {
                 const double   m = points.mass[p] * points.values[p * n + i];
                 Tensor<1, dim> v = points.velocity[p];
-                if (kind == Transfer::apic)
+                if (rule.is_affine())
                   v += points.affine[p] *
                        (space->node_positions()[nodes[i]] - points.position[p]);
                 for (unsigned int d = 0; d < dim; ++d)
@@ -549,7 +535,8 @@ namespace geocone
                         std::vector<Moved>   &moved) const
   {
     moved.resize(points.n_points());
-    const unsigned int n = points.n_nodes;
+    const unsigned int n         = points.n_nodes;
+    const double       flip_part = rule.flip_part();
     std::string        obstacle;
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       {
@@ -577,12 +564,11 @@ namespace geocone
                   gradient[d][1] += gy[i] * mi;
                 }
             Moved &next   = moved[p];
-            next.velocity = new_velocity;
-            if (kind == Transfer::flip)
-              next.velocity = flip_part * (points.velocity[p] + change) +
-                              (1. - flip_part) * new_velocity;
-            else
-              next.affine = affine_velocity(points, p, nodes, v);
+            next.velocity = flip_part * (points.velocity[p] + change) +
+                            (1. - flip_part) * new_velocity;
+            if (rule.is_affine())
+              next.affine = affine_part(
+                points, p, nodes, v, std::min(extent[0], extent[1]));
             next.displacement = h * mean_velocity;
             if (advection == "particle velocity")
               {
@@ -638,10 +624,11 @@ namespace geocone
   }
 
   Tensor<2, dim>
-  ImplicitMPM::affine_velocity(const MaterialPoints &points,
-                               const unsigned int    p,
-                               const unsigned int   *nodes,
-                               const Vector         &v) const
+  ImplicitMPM::affine_part(const MaterialPoints &points,
+                           const unsigned int    p,
+                           const unsigned int   *nodes,
+                           const Vector         &v,
+                           const double          size) const
   {
     const unsigned int n = points.n_nodes;
     Tensor<2, dim>     B, gradient;
@@ -657,12 +644,7 @@ namespace geocone
               gradient[d][e] += points.gradients[(2 * p + e) * n + i] * vi;
             }
         }
-    // At a corner of the mesh only one function is left: the limit is the
-    // gradient.
-    const Tensor<2, dim> D = moment(points, p, nodes);
-    return determinant(D) > 1e-12 * trace(D) * trace(D) && trace(D) > 0.
-             ? B * invert(D)
-             : gradient;
+    return affine_velocity(B, moment(points, p, nodes), gradient, size);
   }
 
   void

@@ -15,6 +15,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -71,6 +72,14 @@ namespace geocone
         tria->active_cell_iterators(),
         dealii::IteratorFilters::LocallyOwnedCell());
     }
+
+    /** Part of a cell's size by which a point may lie outside of it. */
+    static constexpr double tolerance = 1e-8;
+
+    /** Unit coordinates of x in a cell, or nothing if it is neither there nor on
+     *  the border, but for the tolerance. */
+    std::optional<dealii::Point<dim>>
+    unit_point(const Cell &cell, const dealii::Point<dim> &x) const;
 
     /** Coordinates of the lines of a tensor grid; empty for other meshes. */
     const std::array<std::vector<double>, dim> &

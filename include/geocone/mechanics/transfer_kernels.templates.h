@@ -5,6 +5,7 @@
 #define geocone_mechanics_transfer_kernels_templates_h
 
 #include <geocone/base/simd.h>
+#include <geocone/mechanics/particle_transfer.h>
 #include <geocone/mechanics/transfer_kernels.h>
 
 /*
@@ -156,7 +157,7 @@ namespace geocone
           second += weights[i] * r;
         }
       const bool vanishes =
-        second * axis.inverse_size * axis.inverse_size < 1e-10;
+        second * axis.inverse_size * axis.inverse_size < vanishing_moment;
       for (int i = 0; i <= p; ++i)
         weights[i] = vanishes ? functions.dN[i] : weights[i] / second;
     }

@@ -11,6 +11,7 @@
 #include <geocone/discretisation/seeding.h>
 #include <geocone/discretisation/space.h>
 #include <geocone/mechanics/grid_transfer.h>
+#include <geocone/mechanics/particle_transfer.h>
 #include <geocone/scene/scene.h>
 #include <geocone/time_stepping/nodal_update.h>
 
@@ -342,9 +343,9 @@ namespace geocone
     Seeding        seeding;
     Outflow        outflow;
 
+    ParticleTransfer rule;
+
     std::string  order_name     = "MUSL";
-    std::string  transfer_name  = "FLIP";
-    double       flip_part      = 1.;
     double       courant        = 0.3;
     double       fixed_step     = 0.;
     bool         allow_unstable = false;

@@ -6,6 +6,7 @@
 
 #include <geocone/discretisation/particles.h>
 #include <geocone/mechanics/moving_conditions.h>
+#include <geocone/mechanics/particle_transfer.h>
 #include <geocone/time_stepping/time_stepper.h>
 
 namespace geocone
@@ -97,13 +98,6 @@ namespace geocone
     }
 
   private:
-    /** How velocities go from particles to nodes and back. */
-    enum class Transfer
-    {
-      flip,
-      apic
-    };
-
     /** Where Newton's method may start. */
     enum class Start
     {
@@ -146,14 +140,13 @@ namespace geocone
              const double          h,
              std::vector<Moved>   &moved) const;
 
-    /**
-     * C_p = B_p D_p^-1 of APIC (1/s), B_p = sum_i N_i v_i (x_i - x_p)'.
-     */
+    /** C_p of APIC (1/s). @param size of the cell (m) */
     dealii::Tensor<2, dim>
-    affine_velocity(const MaterialPoints &points,
-                    const unsigned int    p,
-                    const unsigned int   *nodes,
-                    const Vector         &v) const;
+    affine_part(const MaterialPoints &points,
+                const unsigned int    p,
+                const unsigned int   *nodes,
+                const Vector         &v,
+                const double          size) const;
 
     /** D_p = sum_i N_i (x_i - x_p)(x_i - x_p)' of APIC (m^2). */
     dealii::Tensor<2, dim>
@@ -164,8 +157,8 @@ namespace geocone
     void
     check_parameters();
 
-    double      flip_part       = 1.;
-    std::string transfer_name   = "FLIP";
+    ParticleTransfer rule;
+
     std::string advection       = "grid velocity";
     double      consistent_mass = 0.;
     bool        midpoint        = false;
@@ -178,7 +171,6 @@ namespace geocone
     const Scene          *scene = nullptr;
     const BackgroundMesh *mesh  = nullptr;
     const Space          *space = nullptr;
-    Transfer              kind  = Transfer::flip;
     std::vector<Start>    starts; ///< to be tried in this order
     dealii::Point<dim>    datum;  ///< of the potential energy
 

@@ -1,0 +1,68 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mechanics_particle_transfer_h
+#define geocone_mechanics_particle_transfer_h
+
+#include <geocone/base/types.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+#include <deal.II/base/tensor.h>
+
+#include <string>
+
+namespace geocone
+{
+  /**
+   * How particles take their velocities from the nodes, in implicit and in explicit
+   * steps alike: parameters of "Material point method".
+   */
+  class ParticleTransfer : public dealii::ParameterAcceptor
+  {
+  public:
+    ParticleTransfer();
+
+    /** APIC: a particle has an affine velocity field, v + C (x - x_p). */
+    bool
+    is_affine() const
+    {
+      return name == "APIC";
+    }
+
+    /** Part of the change that a particle takes, v_p + dv; the rest is that of the
+     *  interpolated velocity. */
+    double
+    flip_part() const
+    {
+      return is_affine() ? 0. : part;
+    }
+
+    /** "Material point method/Transfer", for messages. */
+    static const char *const parameter;
+
+    std::string name = "FLIP";
+
+  private:
+    double part = 1.;
+  };
+
+  /**
+   * C of APIC, by the moments of a particle's nodes,
+   *   B = sum_i N_i v_i r_i',  D = sum_i N_i r_i r_i',  r_i = x_i - x_p:
+   * C e = B e/d for the eigenvectors e of D with the eigenvalues d. At a side of
+   * the mesh only the functions of the side are left: across it, where d vanishes,
+   * the limit is the gradient.
+   * @param gradient sum_i v_i (grad N_i)'
+   * @param size of the cell (m), to compare sqrt(d) with
+   */
+  dealii::Tensor<2, dim>
+  affine_velocity(const dealii::Tensor<2, dim> &B,
+                  const dealii::Tensor<2, dim> &D,
+                  const dealii::Tensor<2, dim> &gradient,
+                  const double                  size);
+
+  /** d/size^2 below which a moment counts as none in affine_velocity(). */
+  constexpr double vanishing_moment = 1e-10;
+} // namespace geocone
+
+#endif
