@@ -70,7 +70,7 @@ def free_folder(file):
 def find_program(name="geocone"):
     """The path of a program: a path, or a name that is looked for.
     @throw FileNotFoundError if there is none"""
-    if os.sep in str(name):
+    if isinstance(name, Path) or os.sep in name:
         places = [Path(name)]
     else:
         found = shutil.which(name)

@@ -14,12 +14,13 @@ import sys
 from pathlib import Path
 
 import jinja2
-import matplotlib.pyplot as plt
 from markupsafe import Markup, escape
 
-from report.figures import plot
-from report.runs import ROOT, format_time, write_whole
-from report.study_file import StudyError
+from geocone.files import write_whole
+from geocone.reader import ReadError
+from geocone.report.study_file import StudyError
+from geocone.runner import ROOT, duration
+from geocone.style import PlotError, Skipped
 
 TEMPLATE = Path(__file__).with_name("page.html")
 
@@ -61,7 +62,7 @@ def machine(program):
 def find(kind):
     """The function that draws a figure or makes a table."""
     module, _, name = kind.rpartition(".")
-    return getattr(importlib.import_module(f"report.{module}"), name)
+    return getattr(importlib.import_module(f"geocone.report.{module}"), name)
 
 
 def check_kinds(study):
@@ -73,7 +74,7 @@ def check_kinds(study):
             except (ImportError, AttributeError, ValueError):
                 raise StudyError(f"{study.path}: unknown figure or table "
                                  f"'{shown['kind']}'\n  allowed: MODULE.FUNCTION of "
-                                 "scripts/report, e.g. figures.load_displacement")
+                                 "python/geocone/report, e.g. figures.load_displacement")
 
 
 def rows_of(shown, rows):
@@ -90,7 +91,6 @@ def figure_data(shown, rows, picture):
     figure = find(shown["kind"])(rows_of(shown, rows), shown)
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png", dpi=130)
-    plt.close(figure)
     picture.write_bytes(buffer.getvalue())
     return {"data": base64.b64encode(buffer.getvalue()).decode(),
             "caption": paragraphs(shown.get("caption", ""))}
@@ -112,7 +112,7 @@ def markdown(table):
 def told(what, shown, problem):
     """Why something cannot be shown, in a line; also on the screen."""
     text = " ".join((str(problem) if isinstance(problem, (
-        ValueError, plot.PlotError, plot.Skipped)) else repr(problem)).split())
+        ValueError, PlotError, ReadError, Skipped)) else repr(problem)).split())
     print(f"error: the {what} {shown['kind']} cannot be shown: {text}", file=sys.stderr)
     return f"the {what} {shown['kind']} cannot be shown: {text}"
 
@@ -156,7 +156,7 @@ def write_report(path, studies, program):
             "file": file.relative_to(ROOT) if file.is_relative_to(ROOT) else file,
             "sections": sections, "rows": rows,
             "failed": sum(row["status"] == "failed" for row in rows),
-            "time": format_time(sum(row["seconds"] for row in rows))})
+            "time": duration(sum(row["seconds"] for row in rows))})
     environment = jinja2.Environment(autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True,
                                      undefined=jinja2.StrictUndefined)
