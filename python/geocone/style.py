@@ -15,6 +15,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.ticker import MaxNLocator
+from matplotlib.tri import Triangulation
 
 from geocone.files import add_to_list
 
@@ -107,7 +108,6 @@ def disks(axes, field, values):
         # Points that fly may have grown without limit.
         size = np.minimum(size, np.quantile(size, 0.98))
     else:
-        from matplotlib.tri import Triangulation  # newer results do without
         # About as large as the smaller triangles around the points: the larger
         # ones may bridge what is outside of the domain.
         corners = Triangulation(*points.T).triangles

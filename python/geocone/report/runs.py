@@ -177,8 +177,8 @@ class Computer:
         if status == "finished" and not summary:
             status, reason = "failed", "its folder has no summary.json"
         return {"group": run.group, "label": run.label, "axes": run.axes,
-                "name": run.name, "folder": folder, "status": status,
-                "reason": reason, "seconds": record["seconds"],
+                "name": run.name, "file": run.file, "folder": folder,
+                "status": status, "code": record.get("code"), "reason": reason, "seconds": record["seconds"],
                 "command": record["command"], "check": run.check,
                 "summary": summary}
 

@@ -11,6 +11,7 @@ where it was. Without a file the studies speed, paper and validation are compute
 Leaves in the output folder:
   report.html     one page with all figures, tables and the command of each run
   NAME.csv        a line for each run of studies/NAME.toml
+  NAME.md         what the page shows of it, as Markdown
   figures/        the figures as files, the tables as Markdown
   runs/NAME/      the folders of the runs
 
@@ -54,6 +55,8 @@ def report(arguments, prog):
                         help="a built program (default: that of scripts/build)")
     parser.add_argument("--cores", type=int, default=len(os.sched_getaffinity(0)),
                         help="how many runs go side by side (default: all cores)")
+    parser.add_argument("--only", action="append", metavar="GROUP",
+                        help="only this group of runs; repeatable")
     parser.add_argument("--list", action="store_true",
                         help="only print the commands of the runs")
     parser.add_argument("--report-only", action="store_true",
@@ -69,6 +72,8 @@ def report(arguments, prog):
         studies = [read_study(file) for file in files]
         for study in studies:
             check_kinds(study)
+            if call.only:
+                study.only(call.only)
         program = None if call.list else find_program(call.program or "geocone")
     except (StudyError, FileNotFoundError) as problem:
         print(f"error: {problem}", file=sys.stderr)

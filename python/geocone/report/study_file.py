@@ -67,6 +67,20 @@ class Study:
         """The name of its results."""
         return self.path.stem
 
+    def only(self, groups):
+        """Leaves some groups of runs, and what shows some of them."""
+        known = {run.group for run in self.runs}
+        for name in groups:
+            require(name in known, self.path, f"unknown group '{name}'",
+                    ", ".join(sorted(known)))
+        self.runs = [run for run in self.runs if run.group in groups]
+        for section in self.sections:
+            for kind in "figure", "table":
+                section[kind] = [shown for shown in section.get(kind, [])
+                                 if set(groups) & set(shown.get("groups", groups))]
+        self.sections = [section for section in self.sections
+                         if section["figure"] or section["table"]]
+
 
 def text_of(path):
     """A parameter file's text, with that of the files it includes or names."""
