@@ -11,7 +11,6 @@ import platform
 import re
 import subprocess
 import sys
-import textwrap
 from pathlib import Path
 
 import jinja2
@@ -19,6 +18,7 @@ from markupsafe import Markup, escape
 
 from geocone.files import write_whole
 from geocone.reader import ReadError
+from geocone.report.markdown import page_text, table_text
 from geocone.report.study_file import StudyError
 from geocone.runner import ROOT, duration
 from geocone.style import PlotError, Skipped
@@ -95,38 +95,14 @@ def figure_data(shown, rows, picture):
     picture.write_bytes(buffer.getvalue())
     return {"data": base64.b64encode(buffer.getvalue()).decode(), "file": picture.name,
             "caption": paragraphs(shown.get("caption", "")),
-            "plain_text": shown.get("caption", "")}
+            "source": shown.get("caption", "")}
 
 
 def table_data(shown, rows):
     """Head and lines of a table."""
     head, lines = find(shown["kind"])(rows_of(shown, rows), shown)
     return {"head": head, "lines": lines, "caption": paragraphs(shown.get("caption", "")),
-            "plain_text": shown.get("caption", "")}
-
-
-def markdown(table):
-    """A table for files that people read as text."""
-    lines = [table["head"], ["---"] * len(table["head"]), *table["lines"]]
-    return "".join("| " + " | ".join(" ".join(str(cell).replace("|", "\\|").split())
-                                     for cell in line) + " |\n" for line in lines)
-
-
-def page_of(part):
-    """A study as a page of Markdown, for those that a reader finds in doc/."""
-    def wrapped(text):
-        return "".join(textwrap.fill(" ".join(paragraph.split()), 88) + "\n\n"
-                       for paragraph in re.split(r"\n\s*\n", text.strip()) if paragraph)
-    text = f"# {part['title']}\n\n{wrapped(part['plain_text'])}"
-    for section in part["sections"]:
-        text += f"## {section['title']}\n\n" if section["title"] else ""
-        text += wrapped(section["plain_text"])
-        for figure in section["figures"]:
-            text += f"![{section['title']}](figures/{figure['file']})\n\n"
-            text += wrapped(figure["plain_text"])
-        for table in section["tables"]:
-            text += markdown(table) + "\n" + wrapped(table["plain_text"])
-    return text.rstrip("\n") + "\n"
+            "source": shown.get("caption", "")}
 
 
 def told(what, shown, problem):
@@ -141,7 +117,7 @@ def section_data(study, number, section, rows, folder):
     """What a section shows; what cannot be shown is told instead."""
     data = {"title": section.get("title", ""), "id": f"{study.name}-{number}",
             "text": paragraphs(section.get("text", "")),
-            "plain_text": section.get("text", ""), "figures": [], "tables": [],
+            "source": section.get("text", ""), "figures": [], "tables": [],
             "problems": []}
     for i, shown in enumerate(section.get("figure", [])):
         picture = folder / f"{study.name}-{number}-{i + 1}.png"
@@ -156,7 +132,8 @@ def section_data(study, number, section, rows, folder):
             data["problems"].append(told("table", shown, problem))
             continue
         data["tables"].append(table)
-        write_whole(folder / f"{study.name}-{number}-{i + 1}.md", markdown(table))
+        write_whole(folder / f"{study.name}-{number}-{i + 1}.md",
+                    table_text(table["head"], table["lines"]))
     return data
 
 
@@ -174,12 +151,12 @@ def write_report(path, studies, program):
         file = study.path
         parts.append({
             "title": study.title, "name": study.name, "text": paragraphs(study.text),
-            "plain_text": study.text,
+            "source": study.text,
             "file": file.relative_to(ROOT) if file.is_relative_to(ROOT) else file,
             "sections": sections, "rows": rows,
             "failed": sum(row["status"] == "failed" for row in rows),
             "time": duration(sum(row["seconds"] for row in rows))})
-        write_whole(path.parent / f"{study.name}.md", page_of(parts[-1]))
+        write_whole(path.parent / f"{study.name}.md", page_text(parts[-1]))
     environment = jinja2.Environment(autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True,
                                      undefined=jinja2.StrictUndefined)
