@@ -41,8 +41,9 @@ def fit(a, values):
 
 
 def laws(rows, _):
-    """What was measured beside the laws of experiments, in logarithms."""
-    a, measured = measures(rows)
+    """What the first group has found beside the laws of experiments, in logarithms."""
+    group = rows[0]["group"]
+    a, measured = measures([row for row in rows if row["group"] == group])
     figure, both = subplots(1, 2, figsize=(9.5, 4.2))
     line = np.array([0.9 * min(a), 1.1 * max(a)])
     for axes, (law, (k, n, label)) in zip(both, LAWS.items()):
@@ -55,7 +56,8 @@ def laws(rows, _):
             axes.loglog(line, k * line**n, color=color, linewidth=1.2,
                         label=f"{k:.2f} a$^{{{n:.2f}}}$")
         heights = np.concatenate([*series.values()])
-        axes.set(title=law, xlabel="aspect ratio a = H$_0$/L$_0$ (-)", ylabel=label,
+        axes.set(title=f"{law}, {plain(group)}", ylabel=label,
+                 xlabel="aspect ratio a = H$_0$/L$_0$ (-)",
                  ylim=(0.7 * heights.min(), 1.5 * heights.max()))
         for axis, ticks in ((axes.xaxis, a), (axes.yaxis, TICKS)):
             axis.set_major_locator(FixedLocator(ticks))

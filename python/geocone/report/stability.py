@@ -71,8 +71,9 @@ def load(row):
     name = "Prandtl" if limit.get("reference_name") == "Prandtl" else "given"
     kind = "" if value is not None else " (last)"
     value = limit.get("last") if value is None else value
-    return (f"{name}, {reference:.4g}", f"{100. * (value / reference - 1.):+.1f} %{kind}"
-            if value is not None else "-")
+    told = row["status"] == "finished" and value is not None
+    return (f"{name}, {reference:.4g}",
+            f"{100. * (value / reference - 1.):+.1f} %{kind}" if told else "-")
 
 
 def line_of(row):
