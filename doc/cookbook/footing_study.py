@@ -39,10 +39,11 @@ for size, run in runs.items():
 sizes = np.array(list(runs))
 errors = np.array([run.value("limit_load/relative_error") for run in runs.values()])
 part = np.polyfit(sizes, WIDTH * errors, 1)[0]
-print(f"the footing acts as if it were wider by {part:.2f} cells for each that is there")
+print(f"the footing acts as if it were {part:.2f} cells wider")
 
 # %% Load against displacement, and where the soil flows at the end.
-figure, (curves, flow) = plt.subplots(1, 2, figsize=(11., 4.2), constrained_layout=True)
+figure, (curves, flow) = plt.subplots(1, 2, figsize=(12., 3.6), constrained_layout=True,
+                                      gridspec_kw={"width_ratios": [2., 3.]})
 for color, (size, run) in zip(COLORS, runs.items()):
     curves.plot(1e3 * run.statistics["displacement (m)"],
                 run.statistics["load (N/m)"] / 1e3, "o-", markersize=3.5, color=color,
@@ -55,13 +56,13 @@ curves.legend()
 mesh = runs[0.05].fields("points")  # of meshio, which writes any format
 rate = mesh.point_data["plastic_strain_rate"]
 order = np.argsort(rate)
-drawn = flow.scatter(*mesh.points[order].T, c=rate[order], s=4., cmap=RATES,
+drawn = flow.scatter(*mesh.points[order].T, c=rate[order], s=7., cmap=RATES,
                      norm=matplotlib.colors.LogNorm(1e-3 * rate.max(), rate.max()))
-flow.set(xlim=(-0.9, 0.9), ylim=(-0.6, 0.1), aspect="equal", xlabel="x (m)", ylabel="y (m)",
-         title=f"cells of 0.05 m, t = {mesh.info['time']:g} s")
+flow.set(xlim=(-0.9, 0.9), ylim=(-0.55, 0.08), aspect="equal", xlabel="x (m)",
+         ylabel="y (m)", title=f"cells of 0.05 m, t = {mesh.info['time']:g} s")
 flow.grid(False)
 figure.colorbar(drawn, ax=flow, label="plastic strain rate (1/s)", extend="min",
-                shrink=0.7)
+                shrink=0.9)
 figure.savefig("results/footing_study.png", dpi=110)
 
 # %% A parameter that the program refuses is an exception with its words.
