@@ -178,9 +178,9 @@ class Computer:
             status, reason = "failed", "its folder has no summary.json"
         return {"group": run.group, "label": run.label, "axes": run.axes,
                 "name": run.name, "file": run.file, "folder": folder,
-                "status": status, "code": record.get("code"), "reason": reason, "seconds": record["seconds"],
-                "command": record["command"], "check": run.check,
-                "summary": summary}
+                "status": status, "code": record.get("code"), "reason": reason,
+                "seconds": record["seconds"], "command": record["command"],
+                "check": run.check, "summary": summary}
 
 
 def write_csv(path, rows):

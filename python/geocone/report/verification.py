@@ -3,7 +3,8 @@
 """Tables of studies/verification.toml: limit loads, orders, cost.
 
 `table` has a line for each run. Options: columns, names of COLUMNS; axes, which have a
-column each ("group" is that of the run) instead of one with the name of the run.
+column each ("group" is that of the run) instead of one with the name of the run, and
+their titles if these differ.
 """
 
 import math
@@ -117,7 +118,7 @@ def table(rows, options):
                 [", ".join(filter(None, (row["group"] if options.get("with_group", True)
                                          else "", row["label"])))])
         lines.append([*name, *cells(row, rows, columns)])
-    return [*(axes or ["run"]), *columns], lines
+    return [*options.get("titles", axes or ["run"]), *columns], lines
 
 
 def angles(rows, options):
@@ -132,16 +133,16 @@ def angles(rows, options):
                  other["axes"]["dx"] == row["axes"]["dx"]]
         good = all(part["status"] == "finished" for part in parts)
         errors = [last_ratio(part) - 1. for part in parts] if good else []
-        before = means.get(row["group"])
-        if good:
-            means[row["group"]] = statistics.mean(errors)
-        now = means.get(row["group"])
+        # Errors that change their sign have no order.
+        before, now = means.get(row["group"]), None
+        if good and min(errors) > 0.:
+            now = means[row["group"]] = statistics.mean(errors)
         lines.append([
             row["axes"]["dx"], row["group"],
             *(percent(error, 1) for error in errors or [None] * len(phis)),
             f"{100. * (max(errors) - min(errors)):.1f} %" if good else "-",
-            f"{math.log2(before / now):.2f}" if good and before and before * now > 0.
-            else "-", *cells(row, rows, columns)])
+            f"{math.log2(before / now):.2f}" if before and now else "-",
+            *cells(row, rows, columns)])
     return (["dx", "points", *(f"phi = {phi}" for phi in phis), "spread", "order",
              *columns], lines)
 
