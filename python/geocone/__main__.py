@@ -4,6 +4,7 @@
 python3 -m geocone report STUDY.toml ...   computes studies and writes their report
 Each with --help."""
 
+import os
 import sys
 
 
@@ -17,7 +18,11 @@ def main(arguments, prog=None):
     else:
         print(__doc__, file=sys.stdout if verb in ("-h", "--help") else sys.stderr)
         return 0 if verb in ("-h", "--help") else 1
-    return call(rest, prog or f"python3 -m geocone {verb}")
+    try:
+        return call(rest, prog or f"python3 -m geocone {verb}")
+    except BrokenPipeError:  # as of "| head": nobody listens any more
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
 
 
 if __name__ == "__main__":
