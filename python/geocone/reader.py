@@ -99,9 +99,11 @@ class Run:
 
     @property
     def method(self):
-        """FEM, MPM or explicit MPM; None of an element test."""
-        return (self.value("size/method") or
-                self.parameters.get("Discretisation/Method"))
+        """FEM, MPM or explicit MPM; None if that is not known, as of an element test."""
+        method = self.value("size/method")  # a run that goes on may not have it yet
+        file = self.folder / "parameters.prm"
+        return (self.parameters.get("Discretisation/Method")
+                if method is None and file.is_file() else method)
 
     def times(self, series="points"):
         """The times at which fields were written (s), an array."""
