@@ -18,21 +18,15 @@ for ranks in 1 2; do
     --set 'Output/Expectations ='
   run "${call[@]}" "$root/tests/explicit/collapse.prm" --output explicit$ranks
 done
-/usr/bin/python3 - "$root" <<'PYTHON'
-import importlib.machinery, importlib.util, pathlib, re, sys
+/usr/bin/python3 -B - "$root" <<'PYTHON'
+import pathlib, re, sys
 import xml.etree.ElementTree as tree
 import h5py
 import numpy as np
 
-def load(path):
-    loader = importlib.machinery.SourceFileLoader("plot", path)
-    spec = importlib.util.spec_from_loader("plot", loader)
-    module = importlib.util.module_from_spec(spec)
-    sys.path.insert(0, str(pathlib.Path(path).parent))
-    loader.exec_module(module)
-    return module
+sys.path.insert(0, sys.argv[1] + "/python")
+from geocone.reader import read_vtu
 
-plot = load(sys.argv[1] + "/scripts/plot")
 folders = [path for path in pathlib.Path().iterdir() if path.is_dir()]
 assert len(folders) == 8
 for folder in folders:
@@ -40,7 +34,7 @@ for folder in folders:
     assert files
     for path in files:
         record = path.with_suffix(".pvtu" if folder.name[-1] == "2" else ".vtu")
-        fields = plot.read_vtu(record)
+        fields = read_vtu(record)
         first, cells = 0, []
         for field in fields:
             cells.append(field.cells + first)

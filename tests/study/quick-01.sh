@@ -40,3 +40,11 @@ grep -q "<code>scripts/geocone -n 2 prm/verification/prandtl_mpm.prm" "$page"
 $study 2>"$folder/log_again"
 grep -q '18/18 done, 1 failed: 18 there from before' "$folder/log_again"
 [ "$(grep -c done "$folder/log_again")" = 1 ]
+
+# A part of it, also as text; a group that is not there is refused.
+$study --only 'two ranks' 2>"$folder/log_part"
+grep -q '1/1 done: 1 there from before' "$folder/log_part"
+grep -q '^| two ranks | .* | holds |' "$folder/results/quick.md"
+! grep -q 'conditions on nodes' "$folder/results/quick.md"
+if $study --only none 2>"$folder/log_none"; then exit 1; fi
+grep -qF "unknown group 'none'" "$folder/log_none"

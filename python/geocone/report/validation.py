@@ -8,9 +8,8 @@ names), and the band [low, high] of value/reference - 1, or of the value itself 
 there is no reference. status = "failed" is for runs that must not find an equilibrium.
 """
 
-import matplotlib.pyplot as plt
-
-from report.figures import COLORS, number, percent, plain, value_of
+from geocone.report.figures import COLORS, number, percent, value_of
+from geocone.style import plain, subplots
 
 
 def reference_of(row):
@@ -75,8 +74,7 @@ def errors(rows, options):
     """The relative errors of all checks inside of their bands."""
     shown = [(row, *verdict(row)) for row in rows if "reference" in row["check"]]
     shown = [part for part in shown if part[3] is not None]
-    figure, axes = plt.subplots(figsize=(9.5, 1. + 0.24 * len(shown)),
-                                constrained_layout=True)
+    figure, axes = subplots(figsize=(9.5, 1. + 0.24 * len(shown)))
     for i, (row, _, _, error, good) in enumerate(shown):
         low, high = (row["check"].get(name) for name in ("low", "high"))
         axes.barh(i, 100. * (high - low), left=100. * low, height=0.7, color="#dde7ee")

@@ -14,12 +14,14 @@ import sys
 from pathlib import Path
 
 import jinja2
-import matplotlib.pyplot as plt
 from markupsafe import Markup, escape
 
-from report.figures import plot
-from report.runs import ROOT, format_time, write_whole
-from report.study_file import StudyError
+from geocone.files import write_whole
+from geocone.reader import ReadError
+from geocone.report.markdown import page_text, table_text
+from geocone.report.study_file import StudyError
+from geocone.runner import ROOT, duration
+from geocone.style import PlotError, Skipped
 
 TEMPLATE = Path(__file__).with_name("page.html")
 
@@ -61,7 +63,7 @@ def machine(program):
 def find(kind):
     """The function that draws a figure or makes a table."""
     module, _, name = kind.rpartition(".")
-    return getattr(importlib.import_module(f"report.{module}"), name)
+    return getattr(importlib.import_module(f"geocone.report.{module}"), name)
 
 
 def check_kinds(study):
@@ -73,7 +75,7 @@ def check_kinds(study):
             except (ImportError, AttributeError, ValueError):
                 raise StudyError(f"{study.path}: unknown figure or table "
                                  f"'{shown['kind']}'\n  allowed: MODULE.FUNCTION of "
-                                 "scripts/report, e.g. figures.load_displacement")
+                                 "python/geocone/report, e.g. figures.load_displacement")
 
 
 def rows_of(shown, rows):
@@ -90,29 +92,23 @@ def figure_data(shown, rows, picture):
     figure = find(shown["kind"])(rows_of(shown, rows), shown)
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png", dpi=130)
-    plt.close(figure)
     picture.write_bytes(buffer.getvalue())
-    return {"data": base64.b64encode(buffer.getvalue()).decode(),
-            "caption": paragraphs(shown.get("caption", ""))}
+    return {"data": base64.b64encode(buffer.getvalue()).decode(), "file": picture.name,
+            "caption": paragraphs(shown.get("caption", "")),
+            "source": shown.get("caption", "")}
 
 
 def table_data(shown, rows):
     """Head and lines of a table."""
     head, lines = find(shown["kind"])(rows_of(shown, rows), shown)
-    return {"head": head, "lines": lines, "caption": paragraphs(shown.get("caption", ""))}
-
-
-def markdown(table):
-    """A table for files that people read as text."""
-    lines = [table["head"], ["---"] * len(table["head"]), *table["lines"]]
-    return "".join("| " + " | ".join(" ".join(str(cell).replace("|", "\\|").split())
-                                     for cell in line) + " |\n" for line in lines)
+    return {"head": head, "lines": lines, "caption": paragraphs(shown.get("caption", "")),
+            "source": shown.get("caption", "")}
 
 
 def told(what, shown, problem):
     """Why something cannot be shown, in a line; also on the screen."""
     text = " ".join((str(problem) if isinstance(problem, (
-        ValueError, plot.PlotError, plot.Skipped)) else repr(problem)).split())
+        ValueError, PlotError, ReadError, Skipped)) else repr(problem)).split())
     print(f"error: the {what} {shown['kind']} cannot be shown: {text}", file=sys.stderr)
     return f"the {what} {shown['kind']} cannot be shown: {text}"
 
@@ -120,7 +116,8 @@ def told(what, shown, problem):
 def section_data(study, number, section, rows, folder):
     """What a section shows; what cannot be shown is told instead."""
     data = {"title": section.get("title", ""), "id": f"{study.name}-{number}",
-            "text": paragraphs(section.get("text", "")), "figures": [], "tables": [],
+            "text": paragraphs(section.get("text", "")),
+            "source": section.get("text", ""), "figures": [], "tables": [],
             "problems": []}
     for i, shown in enumerate(section.get("figure", [])):
         picture = folder / f"{study.name}-{number}-{i + 1}.png"
@@ -135,7 +132,8 @@ def section_data(study, number, section, rows, folder):
             data["problems"].append(told("table", shown, problem))
             continue
         data["tables"].append(table)
-        write_whole(folder / f"{study.name}-{number}-{i + 1}.md", markdown(table))
+        write_whole(folder / f"{study.name}-{number}-{i + 1}.md",
+                    table_text(table["head"], table["lines"]))
     return data
 
 
@@ -153,10 +151,12 @@ def write_report(path, studies, program):
         file = study.path
         parts.append({
             "title": study.title, "name": study.name, "text": paragraphs(study.text),
+            "source": study.text,
             "file": file.relative_to(ROOT) if file.is_relative_to(ROOT) else file,
             "sections": sections, "rows": rows,
             "failed": sum(row["status"] == "failed" for row in rows),
-            "time": format_time(sum(row["seconds"] for row in rows))})
+            "time": duration(sum(row["seconds"] for row in rows))})
+        write_whole(path.parent / f"{study.name}.md", page_text(parts[-1]))
     environment = jinja2.Environment(autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True,
                                      undefined=jinja2.StrictUndefined)

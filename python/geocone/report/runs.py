@@ -14,27 +14,13 @@ import os
 import shlex
 import shutil
 import signal
-import subprocess
 import sys
 import threading
 import time
-from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-
-
-def format_time(seconds):
-    """A duration in words."""
-    if seconds < 90.:
-        return f"{seconds:.0f} s"
-    return f"{seconds / 60.:.0f} min" if seconds < 5400. else f"{seconds / 3600.:.1f} h"
-
-
-def write_whole(path, text):
-    """Writes a file under a temporary name first."""
-    part = path.with_name(path.name + ".part")
-    part.write_text(text)
-    part.replace(path)
+from geocone.files import write_whole
+from geocone.reader import leaves
+from geocone.runner import ROOT, command, duration, finish, start
 
 
 def read_json(path):
@@ -64,7 +50,7 @@ class Progress:
         """Tells what has ended and how long the rest will take."""
         line = (f"study: {self.done}/{self.total} done" +
                 (f", {self.failed} failed" if self.failed else "") +
-                (f", about {format_time(self.left)} left" if self.done < self.total
+                (f", about {duration(self.left)} left" if self.done < self.total
                  else "") + f": {text}")
         if self.out.isatty():
             width = shutil.get_terminal_size().columns - 1
@@ -106,38 +92,21 @@ class Computer:
         key = self.key(run)  # of the files as they are now, not when it has ended
         record.unlink(missing_ok=True)
         shutil.rmtree(folder, ignore_errors=True)
-        environment = {**os.environ, "OMP_NUM_THREADS": "1",
-                       "OPENBLAS_NUM_THREADS": "1"}
-        command = [str(self.program), str(run.file), "--output", str(folder),
-                   "--quiet", *run.options()]
-        if run.ranks > 1:
-            command = ["mpirun", "-np", str(run.ranks), *command]
-            if os.geteuid() == 0:
-                environment.update(OMPI_ALLOW_RUN_AS_ROOT="1",
-                                   OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
-        start = time.monotonic()
-        # A session of its own, so that mpirun's children end with it.
-        with subprocess.Popen(command, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, text=True, env=environment,
-                              errors="replace", start_new_session=True) as child:
+        child = start(command(self.program, run.file, run.settings, folder, run.ranks))
+        with self.lock:
+            self.children.add(child)
+        try:
+            ended = finish(child, run.time_limit)
+        finally:
             with self.lock:
-                self.children.add(child)
-            try:
-                output, _ = child.communicate(timeout=run.time_limit)
-                reason = reason_of(child.returncode, output)
-            except subprocess.TimeoutExpired:
-                os.killpg(child.pid, signal.SIGKILL)
-                output, _ = child.communicate()
-                reason = f"no end in {format_time(run.time_limit)}"
-            finally:
-                with self.lock:
-                    self.children.discard(child)
+                self.children.discard(child)
         if self.stopped:
             return
         write_whole(record, json.dumps(
-            {"key": key, "status": "failed" if reason else "finished",
-             "reason": reason, "seconds": round(time.monotonic() - start, 3),
-             "command": command_text(run), "output": output[-4000:]}, indent=1))
+            {"key": key, "status": "failed" if ended.reason else "finished",
+             "reason": ended.reason, "code": ended.code,
+             "seconds": round(ended.seconds, 3), "command": command_text(run),
+             "output": ended.output[-4000:]}, indent=1))
 
     def stop(self):
         """Ends what is being computed."""
@@ -208,35 +177,10 @@ class Computer:
         if status == "finished" and not summary:
             status, reason = "failed", "its folder has no summary.json"
         return {"group": run.group, "label": run.label, "axes": run.axes,
-                "name": run.name, "folder": folder, "status": status,
-                "reason": reason, "seconds": record["seconds"],
-                "command": record["command"], "check": run.check,
-                "summary": summary}
-
-
-def reason_of(code, output):
-    """Why a call has failed, in a line; empty if it has not."""
-    if code == 0:
-        return ""
-    if code < 0:
-        return f"ended by signal {-code}"
-    lines = [line.strip() for line in output.splitlines() if line.strip()]
-    for i, line in enumerate(lines):
-        if line.startswith("error:"):
-            return " ".join(lines[i:i + 3])
-    unmet = [line for line in lines if line.startswith("expected ") and ": NO" in line]
-    return "; ".join(unmet) or (lines[-1] if lines else f"exit code {code}")
-
-
-def flat(tree, prefix=""):
-    """The leaves of a summary by their paths."""
-    leaves = {}
-    for key, value in tree.items():
-        if isinstance(value, dict):
-            leaves.update(flat(value, f"{prefix}{key}/"))
-        else:
-            leaves[prefix + key] = value
-    return leaves
+                "name": run.name, "file": run.file, "folder": folder,
+                "status": status, "code": record.get("code"), "reason": reason,
+                "seconds": record["seconds"], "command": record["command"],
+                "check": run.check, "summary": summary}
 
 
 def write_csv(path, rows):
@@ -246,7 +190,7 @@ def write_csv(path, rows):
               "status": row["status"], "reason": row["reason"],
               "seconds": row["seconds"],
               # The status of a summary is what the run knew, e.g. that it goes on.
-              **{key: value for key, value in flat(row["summary"]).items()
+              **{key: value for key, value in leaves(row["summary"]).items()
                  if key != "status"},
               "command": row["command"]} for row in rows]
     columns = list(dict.fromkeys(key for line in lines for key in line

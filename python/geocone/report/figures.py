@@ -6,35 +6,22 @@ Each function takes the rows of the runs (runs.Computer.row) and the options of 
 study file, and returns a figure of matplotlib, or the head and lines of a table.
 """
 
-import importlib.machinery
-import importlib.util
 import math
 
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import FuncFormatter, NullFormatter
 
-from report.runs import ROOT, flat
+from geocone.plots.load import curve_of, draw_lines
+from geocone.reader import ReadError, Run, leaves
+from geocone.style import BESIDE, COLORS as FEW, Skipped, plain, subplots, unit_for
 
-
-def load_plot():
-    """scripts/plot, whose name is no module's."""
-    loader = importlib.machinery.SourceFileLoader("plot", str(ROOT / "scripts" / "plot"))
-    module = importlib.util.module_from_spec(
-        importlib.util.spec_from_loader("plot", loader))
-    loader.exec_module(module)
-    return module
-
-
-plot = load_plot()
-plain = plot.plain  # for all texts of study files and runs in pictures
-COLORS = [*plot.COLORS, "#8B5A2B", "#6A3D9A", "#000000"]
+COLORS = [*FEW, "#8B5A2B", "#6A3D9A", "#000000"]
 MARKERS = "osD^vP*Xh<"
 
 
 def value_of(row, key):
     """What a row has for a key: an axis, or a path in the summary; or None."""
-    return row["axes"].get(key, flat(row["summary"]).get(key))
+    return row["axes"].get(key, leaves(row["summary"]).get(key))
 
 
 def number(value, digits=4):
@@ -87,20 +74,19 @@ def load_displacement(rows, options):
     curves, names = [], []
     for row in rows:
         try:
-            run = plot.read_run(row["folder"])
-            curves.append(plot.read_curve(run))
+            curves.append(curve_of(Run(row["folder"])))
             names.append(plain(", ".join(word for word in (
                 row["group"] if options.get("with_group", True) else "", row["label"])
                 if word)))
-        except (plot.PlotError, plot.Skipped):
+        except (ReadError, Skipped):
             continue
-    figure, axes = plt.subplots(figsize=(9.5, 4.6), constrained_layout=True)
+    figure, axes = subplots(figsize=(9.5, 4.6))
     if not curves:
         axes.text(0.5, 0.5, "no run has a curve", ha="center")
         return figure
     size = np.max(np.abs(np.concatenate([curve.load for curve in curves])))
-    unit = plot.unit_for(size, "N/m")
-    plot.draw_lines(axes, names, curves, unit)
+    unit = unit_for(size, "N/m")
+    draw_lines(axes, names, curves, unit)
     axes.set(xlabel="displacement (mm)", ylabel=f"load ({unit[0]})")
-    axes.legend(loc="upper left", bbox_to_anchor=(1., 1.02), title="limit load")
+    axes.legend(**BESIDE, title="limit load")
     return figure

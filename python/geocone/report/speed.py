@@ -11,12 +11,12 @@ import math
 import statistics
 from collections import namedtuple
 
-import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import NullFormatter
 
-from report.figures import (COLORS, MARKERS, number, percent, plain,
-                            plain_ticks, value_of)
+from geocone.report.figures import (COLORS, MARKERS, number, percent, plain_ticks,
+                                    value_of)
+from geocone.style import BESIDE, plain, subplots
 
 # A method on a mesh in a case; time (s): median, least and largest of the
 # repetitions; ratio: time over that of one factorisation of the same matrix.
@@ -85,9 +85,9 @@ def work_precision(rows, options):
     cases, methods = unique(p.case for p in points), unique(row["group"] for row in rows)
     n_columns = min(len(cases), options.get("columns", 4))
     n_rows = -(-len(cases) // n_columns)
-    figure, axes = plt.subplots(
+    figure, axes = subplots(
         n_rows, n_columns, squeeze=False, sharex=True, sharey=True,
-        figsize=(2. + 3.3 * n_columns, 0.9 + 3.3 * n_rows), constrained_layout=True)
+        figsize=(2. + 3.3 * n_columns, 0.9 + 3.3 * n_rows))
 
     def get(point, what):
         return 100. * abs(point.error) if what == "error" else getattr(point, what)
@@ -109,7 +109,7 @@ def work_precision(rows, options):
     figure.supylabel(words[y])
     plain_ticks(axes.flat[0].xaxis, [get(p, x) for p in points], 4)
     plain_ticks(axes.flat[0].yaxis, [get(p, y) for p in points], 4)
-    axes[0, -1].legend(loc="upper left", bbox_to_anchor=(1., 1.02))
+    axes[0, -1].legend(**BESIDE)
     return figure
 
 
@@ -223,8 +223,7 @@ def cost_split(rows, options):
             if p.method not in finest or p.dofs > finest[p.method].dofs:
                 finest[p.method] = p
     names = [plain(name) for name in finest]
-    figure, axes = plt.subplots(figsize=(9.5, 1.2 + 0.38 * len(names)),
-                                constrained_layout=True)
+    figure, axes = subplots(figsize=(9.5, 1.2 + 0.38 * len(names)))
     left = np.zeros(len(names))
     for (key, label), color in zip(SPLIT, COLORS):
         part = np.array([100. * p.cost[key] / p.cost["total_s"]
@@ -247,8 +246,8 @@ def convergence(rows, options):
     width, key = options.get("width", 0.2), options.get("x", "Mesh/Cell size")
     n_columns = min(len(groups), options.get("columns", 3))
     n_rows = -(-len(groups) // n_columns)
-    figure, axes = plt.subplots(n_rows, n_columns, squeeze=False, sharex=True,
-                                sharey=True, constrained_layout=True,
+    figure, axes = subplots(n_rows, n_columns, squeeze=False, sharex=True,
+                                sharey=True,
                                 figsize=(1.6 + 3.3 * n_columns, 0.9 + 3.2 * n_rows))
     all_x, all_y = [], []
     for ax, group in zip(axes.flat, groups):

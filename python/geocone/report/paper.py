@@ -10,15 +10,19 @@ The others are told where they are used; tables have none. Runs that have failed
 left out, and the picture says so.
 """
 
-import matplotlib.pyplot as plt
+import matplotlib
 import numpy as np
-from matplotlib.cm import ScalarMappable
-from matplotlib.collections import LineCollection, PolyCollection
-from matplotlib.colors import LogNorm, Normalize
+from matplotlib.collections import LineCollection
+from matplotlib.colors import Normalize
 from matplotlib.patheffects import Normal, Stroke
 from matplotlib.ticker import MaxNLocator
 
-from report.figures import plain, plot
+from geocone.plots.newton import draw_attempts
+from geocone.plots.points import values_of
+from geocone.plots.rates import add_rates, cells_of
+from geocone.reader import nearest, read_series, read_states, read_table
+from geocone.style import (BESIDE, BLUE, COLORS, ORANGE, SHOWN, STRAINS, add_bar, disks,
+                           panels, plain, subplots)
 
 STYLES = ["-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2))]
 FLOOR = 1e-20  # what is drawn of smaller numbers on a logarithmic scale
@@ -44,7 +48,7 @@ def note(figure, text):
 
 def empty(text):
     """The figure of no runs."""
-    figure, axes = plt.subplots(figsize=(6., 1.2))
+    figure, axes = subplots(figsize=(6., 1.2))
     axes.set_axis_off()
     axes.text(0.5, 0.5, plain(text or "no runs"), ha="center", va="center")
     return figure
@@ -60,13 +64,13 @@ def looks(rows, options):
         styles = order(options["style"]) if "style" in options else [0] * len(rows)
     else:
         colors, styles = range(len(rows)), [0] * len(rows)
-    return [{"color": plot.COLORS[c % len(plot.COLORS)],
+    return [{"color": COLORS[c % len(COLORS)],
              "linestyle": STYLES[s % len(STYLES)]} for c, s in zip(colors, styles)]
 
 
 def statistics(row):
     """The columns of statistics.csv."""
-    return plot.read_table(row["folder"] / "statistics.csv")
+    return read_table(row["folder"] / "statistics.csv")
 
 
 def load_time(rows, options):
@@ -76,7 +80,7 @@ def load_time(rows, options):
     good, text = chosen(rows, options)
     if not good:
         return empty(text)
-    figure, axes = plt.subplots(figsize=(9.5, 4.6), constrained_layout=True)
+    figure, axes = subplots(figsize=(9.5, 4.6))
     by_time = options.get("x", "time") == "time"
     names = options.get("names_of", {})
     for row, look in zip(good, looks(good, options)):
@@ -96,7 +100,7 @@ def load_time(rows, options):
     axes.set(xlabel="time (s)" if by_time else "displacement (mm)", ylabel="load (kN/m)",
              ylim=(0., None))
     axes.set_xlim(0., None)
-    axes.legend(loc="upper left", bbox_to_anchor=(1., 1.02))
+    axes.legend(**BESIDE)
     note(figure, text)
     return figure
 
@@ -121,8 +125,8 @@ def load_angle(rows, options):
         key = ", ".join(value_text(axis, row["axes"][axis]) for axis in others)
         lines.setdefault(key, []).append(
             (row["axes"][angle], row["summary"]["limit_load"]["peak"]))
-    figure, (axes, below) = plt.subplots(
-        2, 1, figsize=(9.5, 6.4), sharex=True, constrained_layout=True,
+    figure, (axes, below) = subplots(
+        2, 1, figsize=(9.5, 6.4), sharex=True,
         gridspec_kw={"height_ratios": [3., 2.]})
     angles = np.array(sorted({phi for points in lines.values() for phi, _ in points}))
     fine = np.linspace(angles[0], angles[-1], 61)
@@ -130,7 +134,7 @@ def load_angle(rows, options):
               label="formula (77)")
     for i, (key, points) in enumerate(lines.items()):
         phi, load = np.array(sorted(points)).T
-        look = {"color": plot.COLORS[i % len(plot.COLORS)], "marker": "osD^v"[i % 5],
+        look = {"color": COLORS[i % len(COLORS)], "marker": "osD^v"[i % 5],
                 "linestyle": STYLES[(i // 2) % len(STYLES)], "markersize": 6.}
         axes.plot(phi, load / 1e3, label=plain(key), **look)
         below.plot(phi, 100. * (load / bearing(phi, cohesion, width) - 1.), **look)
@@ -166,6 +170,11 @@ def prandtl_lines(phi, width):
             np.array([spiral[-1], [exit_x, 0.]])]
 
 
+def title_of(row, field):
+    """The run and the time of a panel."""
+    return ", ".join([*filter(None, [plain(row["label"])]), f"t = {field.time:.3g} s"])
+
+
 def rates(rows, options):
     """Plastic strain rates at the end. Options: series (points | cells), view [x0,
     y0, x1, y1], mechanism (friction angle of the borders that are drawn), width,
@@ -174,21 +183,15 @@ def rates(rows, options):
     if not good:
         return empty(text)
     series = options.get("series", "points")
-    fields = [plot.read_fields(row["folder"] / f"{series}.pvd")[0] for row in good]
-    shown, (x0, y0, x1, y1) = options.get("shown", plot.SHOWN), options["view"]
-    figure, axes = plot.panels(len(good), np.array([[x0, y0], [x1, y1]]))
-    values = [field.data["plastic_strain_rate"][:, 0] for field, _ in fields]
+    fields = [read_states(row["folder"] / f"{series}.pvd")[0] for row in good]
+    shown, (x0, y0, x1, y1) = options.get("shown", SHOWN), options["view"]
+    figure, axes = panels(len(good), np.array([[x0, y0], [x1, y1]]))
+    values = values_of(fields, "plastic_strain_rate")
     most = max(value.max() for value in values)
-    for ax, row, (field, time), value in zip(axes, good, fields, values):
-        if series == "points":
-            drawn = plot.disks(ax, field.points, field.data, value)
-        else:
-            drawn = PolyCollection(field.points[field.cells], edgecolors="face",
-                                   array=value[field.cells[:, 0]], linewidths=0.5)
-        drawn.set(cmap=plot.RATES, norm=LogNorm(shown * most, most))
-        ax.add_collection(drawn)
-        ax.set_title(", ".join([*filter(None, [plain(row["label"])]), f"t = {time:.3g} s"]))
-        plot.add_bar(ax, drawn, "plastic strain rate (1/s)", extend="min")
+    for ax, row, field, value in zip(axes, good, fields, values):
+        add_rates(ax, disks(ax, field, value) if series == "points" else
+                  cells_of(field, value), most, shown)
+        ax.set_title(title_of(row, field))
         if "mechanism" in options:
             for line in prandtl_lines(np.radians(options["mechanism"]), options["width"]):
                 for sign in (1., -1.):
@@ -207,9 +210,9 @@ def velocities(rows, options):
     if not good:
         return empty(text)
     x0, y0, x1, y1 = options["view"]
-    figure, axes = plot.panels(len(good), np.array([[x0, y0], [x1, y1]]))
+    figure, axes = panels(len(good), np.array([[x0, y0], [x1, y1]]))
     for ax, row in zip(axes, good):
-        (field, time), = plot.read_fields(row["folder"] / "points.pvd")
+        field, = read_states(row["folder"] / "points.pvd")
         speed = -field.data["velocity"][:, 1] / options["speed"]
         size = row["axes"].get(options["cell"], options["cell"])
         corner = options["box"]
@@ -219,9 +222,9 @@ def velocities(rows, options):
             ax.axhline(y, color="black", linewidth=0.7, zorder=0.5)
         inside = np.all((field.points > [x0, y0]) & (field.points < [x1, y1]), axis=1)
         drawn = ax.scatter(*field.points[inside].T, c=speed[inside], s=42.,
-                           cmap=plt.get_cmap("coolwarm"), norm=Normalize(-2., 2.),
+                           cmap=matplotlib.colormaps["coolwarm"], norm=Normalize(-2., 2.),
                            edgecolors="black", linewidths=0.4, zorder=2.)
-        half, level = options["width"] / 2., -time * options["speed"]
+        half, level = options["width"] / 2., -field.time * options["speed"]
         held = np.abs(field.data["displacement"][:, 1] - level) < 1e-6
         sunk = field.data["displacement"][:, 1] / level
         # The others in the cells beside the footing, at the depth of its points.
@@ -236,14 +239,14 @@ def velocities(rows, options):
                  f"and have {np.median(speed[beside]):.2f} of its velocity")):
             ax.scatter(*field.points[some & inside].T, s=110., marker="s", label=label,
                        facecolors="none", edgecolors=color, linewidths=1.6, zorder=3.)
-        ax.axvspan(-half, half, color=plot.ORANGE, alpha=0.2, zorder=0.)
+        ax.axvspan(-half, half, color=ORANGE, alpha=0.2, zorder=0.)
         ax.annotate("", (-half, y1 - 0.2 * size), (half, y1 - 0.2 * size),
                     arrowprops={"arrowstyle": "<->", "linewidth": 1.5})
         ax.text(0., y1 - 0.2 * size, "B", ha="center", va="center", fontsize=13,
                 bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.5})
-        ax.set_title(", ".join([*filter(None, [plain(row["label"])]), f"t = {time:.3g} s"]))
+        ax.set_title(title_of(row, field))
         ax.legend(loc="lower left")
-        plot.add_bar(ax, drawn, "downward velocity\n/ velocity of the footing",
+        add_bar(ax, drawn, "downward velocity\n/ velocity of the footing",
                      extend="both")
     note(figure, text)
     return figure
@@ -277,7 +280,7 @@ def frozen_steps(folder, young, poisson):
     numbers = sorted(int(path.stem.split("-")[1]) for path in folder.glob("frozen-*.h5"))
     if len(numbers) < 2 or numbers != list(range(1, len(numbers) + 1)):
         raise RuntimeError(f"'{folder}' has not the frozen problems of all steps")
-    substeps = plot.read_table(folder / "statistics.csv")["substeps (-)"]
+    substeps = read_table(folder / "statistics.csv")["substeps (-)"]
     stresses, increments, steps = [], [], []
     before = frozen_problem(folder, 1)
     for number in numbers[1:]:
@@ -325,9 +328,9 @@ def paths(axes, x, y, every):
     """A thin line from the origin for each point through time."""
     lines = np.stack([np.pad(x, ((1, 0), (0, 0))), np.pad(y, ((1, 0), (0, 0)))], axis=-1)
     axes.add_collection(LineCollection(
-        lines.transpose(1, 0, 2)[::every], colors=plot.BLUE, linewidths=0.5, alpha=0.35,
+        lines.transpose(1, 0, 2)[::every], colors=BLUE, linewidths=0.5, alpha=0.35,
         rasterized=True))
-    axes.plot(x[-1, ::every], y[-1, ::every], ".", color=plot.COLORS[1], markersize=3.,
+    axes.plot(x[-1, ::every], y[-1, ::every], ".", color=COLORS[1], markersize=3.,
               label="last step", rasterized=True)
     axes.autoscale_view()
 
@@ -344,7 +347,7 @@ def law(rows, options):
     steps, stress, z = frozen_steps(row["folder"], options["young"], options["poisson"])
     phi, theta = np.radians(options["phi"]), np.radians(options["theta"])
     a, b, k = np.sin(phi), np.sin(theta), np.sqrt(2.) * options["cohesion"] * np.cos(phi)
-    figure, axes = plt.subplots(2, 2, figsize=(11.5, 8.), constrained_layout=True)
+    figure, axes = subplots(2, 2, figsize=(11.5, 8.))
     i1, j = invariants(stress / 1e3)
     paths(axes[0, 0], i1, j, every)
     apex, lowest = 2e-3 * options["cohesion"] / np.tan(phi), options["lowest"]
@@ -364,9 +367,9 @@ def law(rows, options):
     lines = np.stack([np.broadcast_to(steps[:, None], product.shape), product], axis=-1)
     below = axes[1, 0]
     below.add_collection(LineCollection(
-        lines.transpose(1, 0, 2)[::every], colors=plot.BLUE, linewidths=0.4, alpha=0.3,
+        lines.transpose(1, 0, 2)[::every], colors=BLUE, linewidths=0.4, alpha=0.3,
         rasterized=True))
-    below.plot(steps, np.nanmax(product, axis=1), "o-", color=plot.COLORS[1],
+    below.plot(steps, np.nanmax(product, axis=1), "o-", color=COLORS[1],
                markersize=3.5, label="largest of all points")
     below.axhline(1e-10, color="black", linestyle="--", linewidth=1.2,
                   label="tolerance of the solver")
@@ -384,26 +387,13 @@ def law(rows, options):
 
 def newton(axes, row):
     """The error of each iteration, a line for each attempt at a step."""
-    table = plot.read_table(row["folder"] / "newton.csv")
-    error = np.maximum(table["relative residual (-)"], FLOOR)
-    scale = Normalize(1., table["step"][-1])
-    starts = np.flatnonzero(table["iteration"] == 0.)[1:]
-    for part in np.split(np.arange(len(error)), starts):
-        failed = table["converged"][part[0]] == 0.
-        axes.semilogy(table["iteration"][part], error[part], marker="o", markersize=3.,
-                      linewidth=1.1, linestyle=":" if failed else "-",
-                      color=plot.GREY if failed else
-                      plot.STEPS(scale(table["step"][part[0]])))
-    if np.any(table["converged"] == 0.):
-        axes.plot([], [], color=plot.GREY, linestyle=":",
-                  label="failed, the step was cut")
+    table = read_table(row["folder"] / "newton.csv")
+    _, bar = draw_attempts(axes, table,
+                           np.maximum(table["relative residual (-)"], FLOOR))
     axes.axhline(1e-10, color="black", linestyle="--", linewidth=1.2,
                  label="tolerance of the solver")
-    axes.set(xlabel="iteration", ylabel="relative residual (-)",
-             title="Newton's method")
-    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
-    axes.figure.colorbar(ScalarMappable(scale, plot.STEPS), ax=axes, label="step",
-                         ticks=MaxNLocator(6, integer=True))
+    axes.set_title("Newton's method")
+    axes.figure.colorbar(ax=axes, **bar)
 
 
 def strains(rows, options):
@@ -413,17 +403,18 @@ def strains(rows, options):
     if not good:
         return empty(text)
     row = good[0]
-    snapshots = plot.read_fields(row["folder"] / "points.pvd",
-                                 lambda series: plot.nearest(series, options["times"]))
+    file = row["folder"] / "points.pvd"
+    times = np.array([time for time, _ in read_series(file)])
+    fields = read_states(file, nearest(times, options["times"]))
     x0, y0, x1, y1 = options["view"]
-    figure, axes = plot.panels(len(snapshots), np.array([[x0, y0], [x1, y1]]))
-    values = [field.data["cumulative_plastic_strain"][:, 0] for field, _ in snapshots]
+    figure, axes = panels(len(fields), np.array([[x0, y0], [x1, y1]]))
+    values = values_of(fields, "cumulative_plastic_strain")
     norm = Normalize(0., options.get("largest") or max(v.max() for v in values))
-    for i, (ax, (field, time), value) in enumerate(zip(axes, snapshots, values)):
-        drawn = plot.disks(ax, field.points, field.data, value)
-        drawn.set(cmap=plot.STRAINS, norm=norm)
+    for i, (ax, field, value) in enumerate(zip(axes, fields, values)):
+        drawn = disks(ax, field, value)
+        drawn.set(cmap=STRAINS, norm=norm)
         ax.add_collection(drawn)
-        ax.set_title(f"{'abcdefgh'[i]}) t = {time:.3g} s, "
+        ax.set_title(f"{'abcdefgh'[i]}) t = {field.time:.3g} s, "
                      f"up to {100. * value.max():.0f} %")
         ax.label_outer()
     figure.suptitle(plain(row["label"] or row["group"]), fontsize=13)
@@ -454,11 +445,11 @@ def energies(rows, options):
     good, text = chosen(rows, options)
     if not good:
         return empty(text)
-    figure, axes = plt.subplots(1, len(good), figsize=(5.2 * len(good) + 1.6, 4.6),
-                                squeeze=False, sharey=True, constrained_layout=True)
+    figure, axes = subplots(1, len(good), figsize=(5.2 * len(good) + 1.6, 4.6),
+                                squeeze=False, sharey=True)
     colors = dict(zip(("kinetic", "elastic", "potential", "mechanical", "dissipation",
                        "total"),
-                      (plot.BLUE, plot.ORANGE, "#009E73", "#D55E00", "#CC79A7", "black")))
+                      (BLUE, ORANGE, "#009E73", "#D55E00", "#CC79A7", "black")))
     for ax, row in zip(axes.flat, good):
         time, curves = energy_table(row)
         for name, values in curves.items():
@@ -466,7 +457,7 @@ def energies(rows, options):
                     linestyle="--" if name == "total" else "-", label=name)
         ax.set(title=plain(row["label"] or row["group"]), xlabel="time (s)")
     axes[0, 0].set_ylabel("energy (kJ/m)")
-    axes[0, -1].legend(loc="upper left", bbox_to_anchor=(1., 1.02))
+    axes[0, -1].legend(**BESIDE)
     note(figure, text)
     return figure
 

@@ -9,6 +9,8 @@ import re
 import tomllib
 from pathlib import Path
 
+from geocone.parameter_file import lines_of
+
 
 class StudyError(Exception):
     """Wrong input, with the remedy."""
@@ -48,7 +50,7 @@ class Run:
 
     def inputs(self):
         """What the result depends on but the program, as one text."""
-        return "\n".join([parameters(self.file), *self.settings, str(self.ranks)])
+        return "\n".join([text_of(self.file), *self.settings, str(self.ranks)])
 
 
 @dataclasses.dataclass
@@ -65,23 +67,30 @@ class Study:
         """The name of its results."""
         return self.path.stem
 
+    def only(self, groups):
+        """Leaves some groups of runs, and what shows some of them."""
+        known = {run.group for run in self.runs}
+        for name in groups:
+            require(name in known, self.path, f"unknown group '{name}'",
+                    ", ".join(sorted(known)))
+        self.runs = [run for run in self.runs if run.group in groups]
+        for section in self.sections:
+            for kind in "figure", "table":
+                section[kind] = [shown for shown in section.get(kind, [])
+                                 if set(groups) & set(shown.get("groups", groups))]
+        self.sections = [section for section in self.sections
+                         if section["figure"] or section["table"]]
 
-def parameters(path, depth=0):
-    """A parameter file's text, with that of the files it includes or names. What the
-    program will refuse is left to it."""
+
+def text_of(path):
+    """A parameter file's text, with that of the files it includes or names."""
     lines = []
-    if depth > 20 or not path.is_file():
-        return f"{path} cannot be read"
-    for line in path.read_text(errors="replace").splitlines():
-        words = line.split()
-        if len(words) == 2 and words[0] == "include":
-            lines.append(parameters(path.parent / words[1], depth + 1))
-        else:
-            lines.append(line)
-            named = re.match(r"\s*set\s+File\s*=\s*(\S+)", line)
-            if named and (path.parent / named[1]).is_file():
-                data = (path.parent / named[1]).read_bytes()
-                lines.append(hashlib.sha256(data).hexdigest())
+    for line, file in lines_of(path):
+        lines.append(line)
+        named = re.match(r"\s*set\s+File\s*=\s*(\S+)", line)
+        if named and (file.parent / named[1]).is_file():
+            data = (file.parent / named[1]).read_bytes()
+            lines.append(hashlib.sha256(data).hexdigest())
     return "\n".join(lines)
 
 
@@ -197,7 +206,7 @@ def read_study(path):
         for shown in (*section.get("figure", []), *section.get("table", [])):
             where = f"the section '{section.get('title')}'"
             require("kind" in shown, path, f"{where} shows something without kind",
-                    "kind = MODULE.FUNCTION of scripts/report")
+                    "kind = MODULE.FUNCTION of python/geocone/report")
             for name in shown.get("groups", []):
                 require(name in groups, path, f"{where}: unknown group '{name}'",
                         ", ".join(sorted(groups)))

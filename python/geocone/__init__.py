@@ -1,0 +1,19 @@
+# Copyright (C) 2026 by the geocone authors
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Runs geocone and reads what its runs have left.
+
+    import geocone
+    run = geocone.run("prm/footing.prm", {"Mesh/Cell size": 0.05})
+    run = geocone.read("results/footing")           # the same, of a run that is there
+    run.summary["limit_load"]["value"]              # N/m
+    run.statistics["load (N/m)"]                    # a numpy array, a value per step
+    run.fields("points").point_data["velocity"]     # meshio, the last state
+
+`python3 -m geocone plot RUN-FOLDER` draws pictures, `python3 -m geocone report` computes
+studies. Nothing that is read is executed.
+"""
+
+from geocone.reader import Missing, ReadError, Run, read
+from geocone.runner import RunFailed, run
+
+__all__ = ["Missing", "ReadError", "Run", "RunFailed", "read", "run"]

@@ -1,0 +1,113 @@
+# Copyright (C) 2026 by the geocone authors
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Draws the results of geocone runs.
+
+For each run folder, as far as the files for them exist:
+  load_displacement.png, .svg      statistics.csv, the reference and the plateau
+  newton.png                       newton.csv: the residuals of all steps
+  energy.png                       statistics.csv: where the energy goes
+  plastic_strain_rate.png          the last cells-*.vtu, with the displacement
+                                   (or the velocity) of the mesh
+  plastic_strain_rate_points.png   the last points-*.vtu
+  plastic_strain.png               points-*.vtu at several times, if they move;
+                                   shear_stress.png of an elastic body instead
+of an explicit run energy.png, runout.png, points.png (plastic strain or shear stress at
+six times), structure.png and loading.png of soils with such ratios; of an element test
+stress_strain.png, stress_path.png, compression.png and ratios.png.
+"""
+
+import argparse
+import sys
+import warnings
+from pathlib import Path
+
+from geocone.reader import Missing, ReadError, Run
+
+try:
+    from geocone.style import PlotError, Skipped, finish, plain
+except ImportError as error:
+    sys.exit(f"error: {error}; Debian has it in python3-matplotlib")
+
+
+def pictures_of(run, times=None):
+    """What draws each picture of a run, by its name: functions of the run and the path.
+    Modules are loaded for what is drawn only."""
+    if run.method == "point":
+        from geocone.plots import element
+        return element.pictures(run)
+    if run.method == "explicit MPM":
+        from geocone.plots import explicit
+        return explicit.pictures(run, times)
+    from geocone.plots import energy, load, newton, points, rates
+    return {"load_displacement.png": load.draw_run,
+            "newton.png": newton.draw_run,
+            "energy.png": energy.draw_implicit,
+            "plastic_strain_rate.png": rates.draw_cells,
+            "plastic_strain_rate_points.png": rates.draw_points,
+            "plastic_strain.png": lambda run, path: points.draw_strains(run, path, times)}
+
+
+def draw_run(run, folder, times=None):
+    """Draws all pictures of a run into a folder."""
+    folder.mkdir(parents=True, exist_ok=True)
+    try:
+        for name, draw in pictures_of(run, times).items():
+            try:
+                draw(run, folder / name)
+            except (Missing, Skipped) as reason:
+                print(f"{folder / name} is not drawn: {reason}")
+    except (PlotError, ReadError, OSError):
+        raise
+    except Exception as problem:  # damaged results may fail anywhere
+        raise PlotError(f"what is in '{run.folder}' cannot be drawn: {problem!r}")
+
+
+def numbers(text):
+    """Numbers that are separated by commas."""
+    return [float(word) for word in text.split(",")]
+
+
+def main(arguments, prog="plot"):
+    """Draws what the command line asks for; returns the exit code."""
+    parser = argparse.ArgumentParser(
+        prog, description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folders", nargs="+", metavar="RUN-FOLDER")
+    parser.add_argument("--output", type=Path, metavar="DIR",
+                        help="folder of the pictures (of several runs: a folder "
+                        "in it for each) instead of the run's own")
+    parser.add_argument("--compare", type=Path, metavar="FILE.png",
+                        help="only draw the curves of all runs, into this picture")
+    parser.add_argument("--table", type=Path, metavar="FILE.md",
+                        help="only print a table of all runs, also into this file")
+    parser.add_argument("--times", type=numbers, metavar="T1,T2,...",
+                        help="times of the pictures of points (s)")
+    call = parser.parse_args(arguments)
+    # Fonts lack characters of some names; what is not finite is not drawn.
+    warnings.simplefilter("ignore")
+    for stream in (sys.stdout, sys.stderr):  # names of files may be no text
+        stream.reconfigure(errors="backslashreplace")
+    try:
+        runs = [Run(folder) for folder in call.folders]
+        names = [run.folder.resolve().name for run in runs]
+        if call.compare:
+            from geocone.plots import load
+            load.draw_curves([plain(name) for name in names], map(load.curve_of, runs),
+                             "load-displacement curves", None, call.compare)
+        if call.table:
+            from geocone.plots.table import write_table
+            write_table(runs, call.table)
+        if call.compare or call.table:
+            finish()
+            return 0
+        for run, name in zip(runs, names):
+            below = call.output and (call.output / name if len(runs) > 1 else call.output)
+            draw_run(run, below or run.folder, call.times)
+        finish()
+    except (PlotError, ReadError, Skipped, OSError) as problem:
+        try:
+            finish()
+        except PlotError:  # the first problem is told
+            pass
+        print(f"error: {problem}", file=sys.stderr)
+        return 1
+    return 0

@@ -1,0 +1,100 @@
+# Copyright (C) 2026 by the geocone authors
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""load_displacement.png and .svg: curves, their plateaus and references."""
+
+from collections import namedtuple
+
+import numpy as np
+from matplotlib.ticker import MaxNLocator
+
+from geocone.style import BESIDE, COLORS, ORANGE, Skipped, plain, save, subplots, unit_for
+
+Curve = namedtuple("Curve", "displacement load limit")  # mm, N/m, of the summary
+
+
+def curve_of(run):
+    """The load-displacement curve of a run."""
+    if "limit_load" not in run.summary:
+        raise Skipped(f"no load is observed in '{run.folder}'")
+    # The curve starts from rest, before the first step.
+    return Curve(np.insert(1e3 * run.statistics["displacement (m)"], 0, 0.),
+                 np.insert(run.statistics["load (N/m)"], 0, 0.),
+                 run.summary["limit_load"])
+
+
+def load_text(name, value, unit, error=None):
+    """A load, and its error, as the legend tells them."""
+    if value is None:
+        return f"{name}: not reached"
+    digits = f"{value / unit[1]:.{0 if abs(value / unit[1]) >= 999.5 else 2}f}"
+    return (f"{name}: {digits} {unit[0]}" +
+            ("" if error is None else f" ({100. * error:+.2f} %)"))
+
+
+def draw_lines(axes, names, curves, unit):
+    """Draws curves, plateaus and references; a single plateau has its own name."""
+    single = len(curves) == 1
+    for i, (name, (displacement, load, limit)) in enumerate(zip(names, curves)):
+        color, text = COLORS[i % len(COLORS)], load_text(
+            "plateau" if single else name, limit["value"], unit, limit["relative_error"])
+        # Many steps are often noisy: a thin line behind all others.
+        style = ({"linewidth": 1., "zorder": 1.2} if len(load) > 61 else
+                 {"marker": "o", "markersize": 3.5})
+        axes.plot(displacement, load / unit[1], color=color,
+                  label=name if single else text, **style)
+        last = displacement[np.argmax(np.abs(displacement))]
+        level = {"color": ORANGE if single else color, "linewidth": 5., "alpha": 0.7,
+                 "zorder": 1.5, "label": text if single else None}
+        if limit["value"] is None:
+            axes.plot([], [], **{**level, "alpha": 0.})
+            continue
+        ends = np.copysign(1e3 * limit["plateau_begins_at"], last), last
+        axes.fill_between(ends, limit["band_low"] / unit[1], limit["band_high"] / unit[1],
+                          color=level["color"], alpha=0.35, linewidth=0.)
+        axes.plot(ends, 2 * [limit["value"] / unit[1]], solid_capstyle="butt", **level)
+    references = {load_text(plain(limit["reference_name"]), limit["reference"], unit):
+                  limit["reference"] for _, _, limit in curves
+                  if limit["reference"] is not None}
+    for text, value in references.items():
+        axes.axhline(value / unit[1], color="black", linewidth=1.2, zorder=1.8,
+                     linestyle=(0, (6, 3)), label=text)
+
+
+def draw_curves(names, curves, title, run, *paths):
+    """Draws curves into a picture, of one run or None, and once more enlarged where
+    they end close."""
+    curves = list(curves)
+    single, ends = len(curves) == 1, [curve.limit[key] for curve in curves
+                                      for key in ("band_low", "band_high", "reference")]
+    loads = np.concatenate([*(curve.load for curve in curves), [e for e in ends if e]])
+    size = np.max(np.abs(loads))
+    unit = unit_for(size, "N/m")
+    figure, axes = subplots(figsize=(7. if single else 9.5, 4.6))
+    draw_lines(axes, names, curves, unit)
+    origin, = axes.plot(0., 0., " ")  # the axes begin there
+    origin.sticky_edges.x.append(0.)
+    origin.sticky_edges.y.append(0.)
+    axes.margins(x=0.03, y=0.07)
+    axes.set(title=title, xlabel="displacement (mm)", ylabel=f"load ({unit[0]})")
+    place = "best"
+    if None not in ends and 0. < np.ptp(ends) < 0.12 * size:
+        place = "lower right" if loads.mean() > 0. else "upper right"
+        zoom = axes.inset_axes([0.45, 0.36, 0.52, 0.38])
+        draw_lines(zoom, names, curves, unit)
+        margin = 0.25 * np.ptp(ends)
+        zoom.set(xlim=axes.get_xlim(), ylim=((min(ends) - margin) / unit[1],
+                                             (max(ends) + margin) / unit[1]))
+        zoom.tick_params(labelsize=9)
+        zoom.yaxis.set_major_locator(MaxNLocator(4))
+    if single:
+        axes.legend(loc=place)
+    else:
+        axes.legend(**BESIDE, title="limit load")
+    save(figure, run, *paths)
+
+
+def draw_run(run, path):
+    """Draws the curve of a run, also as .svg."""
+    size = run.summary["size"]
+    draw_curves([plain(f"load, {size['cells']} {size['element']} cells")],
+                [curve_of(run)], plain(run.name), run, path, path.with_suffix(".svg"))

@@ -1,0 +1,273 @@
+# Copyright (C) 2026 by the geocone authors
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Reads the folders of runs: summary, tables, fields, parameters."""
+
+import base64
+import csv
+import datetime
+import functools
+import json
+import os
+import socket
+import xml.etree.ElementTree as ElementTree
+import zlib
+from collections import namedtuple
+from pathlib import Path
+
+import numpy as np
+
+from geocone.parameter_file import parameters_of
+
+# The corners of a cell, by their number, as meshio calls it.
+CELL_TYPES = {1: "vertex", 2: "line", 3: "triangle", 4: "quad"}
+
+# points (n, 2) in m; cells (m, k) of indices; data {name: (n, components)}; time in s.
+Field = namedtuple("Field", "points cells data time", defaults=[None])
+
+
+class ReadError(Exception):
+    """What a folder or a file is damaged by, in a line."""
+
+
+class Missing(ReadError):
+    """What was asked for is not there: the run has not, or not yet, written it."""
+
+
+def read(folder):
+    """The run of a folder, as far as it has come.
+
+    @param folder a path
+    @return a Run
+    @throw ReadError if the folder has no summary.json of a run"""
+    return Run(folder)
+
+
+class Run:
+    """A run of geocone, as its folder tells of it. The summary is read
+    at once, all else when it is asked for.
+
+    folder      path of the folder
+    summary     what summary.json says, as dictionaries
+    name        of the parameter file, or of a resumed run
+    status      "finished", "running", or how it ended: "failed: WHY", "stopped: ...",
+                "killed: ..." (doc/runs.md)
+    warnings    what it warned of, a list of texts
+    statistics, newton, path, surfaces
+                the tables of steps, of iterations, of an element test and of its
+                surfaces: {"name (unit)": array}, an entry of the arrays per line
+    parameters  {"Section/Name": text}, as used by the run
+    """
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        file = self.folder / "summary.json"
+        try:
+            if file.exists() and not file.is_file():
+                raise ValueError("it is no file")
+            self.summary = json.loads(file.read_text())
+            self.name, self.status = self.summary["name"], status_of(self.summary)
+            self.warnings = list(self.summary.get("warnings", []))
+        except (OSError, ValueError, LookupError, TypeError, AttributeError,
+                RecursionError) as problem:
+            raise ReadError(f"'{folder}' has no summary.json of a run: {problem!r}")
+        # The pictures of a run ask for the same states again and again.
+        self.states = functools.lru_cache(maxsize=2)(self._states)
+
+    def __repr__(self):
+        return f"<geocone run '{self.folder}': {self.status}>"
+
+    def value(self, key):
+        """A value of the summary by its path, as in "limit_load/value"; or None."""
+        return leaves(self.summary).get(key)
+
+    def table(self, name):
+        """The columns of NAME.csv, {"name (unit)": array}.
+        @throw Missing if there are no lines, ReadError if there are damaged ones"""
+        return read_table(self.folder / f"{name}.csv")
+
+    statistics = functools.cached_property(lambda self: self.table("statistics"))
+    newton = functools.cached_property(lambda self: self.table("newton"))
+    path = functools.cached_property(lambda self: self.table("path"))
+    surfaces = functools.cached_property(lambda self: self.table("surfaces"))
+
+    @functools.cached_property
+    def parameters(self):
+        file = self.folder / "parameters.prm"
+        if not file.is_file():
+            raise Missing(f"there is no file '{file}'")
+        return parameters_of(file)
+
+    @property
+    def method(self):
+        """FEM, MPM or explicit MPM; None if that is not known, as of an element test."""
+        method = self.value("size/method")  # a run that goes on may not have it yet
+        file = self.folder / "parameters.prm"
+        return (self.parameters.get("Discretisation/Method")
+                if method is None and file.is_file() else method)
+
+    def times(self, series="points"):
+        """The times at which fields were written (s), an array."""
+        return np.array([time for time, _ in read_series(self._record(series))])
+
+    def fields(self, series="points", time=None):
+        """The fields of a series at one time.
+
+        @param series "points" (material points) or "cells" (the mesh; each cell has
+          points of its own, whose values are the cell's where they jump)
+        @param time in s, the nearest one that was written; None: the last one
+        @return a meshio.Mesh: points (n, 2), point_data {name: (n,) or (n, 3)},
+          info {"time": s}
+        @throw Missing if there are none, ReadError if they are damaged"""
+        import meshio  # takes as long as all other imports together
+        i = -1 if time is None else nearest(self.times(series), [time])[0]
+        state, = self._states(series, (int(i),))
+        kind = CELL_TYPES.get(state.cells.shape[1])
+        if kind is None:
+            raise ReadError(f"the cells of '{self._record(series)}' are neither points "
+                            "nor triangles nor quadrilaterals")
+        return meshio.Mesh(
+            state.points, [(kind, state.cells)], info={"time": state.time},
+            point_data={name: values[:, 0] if values.shape[1] == 1 else values
+                        for name, values in state.data.items()})
+
+    def _record(self, series):
+        return self.folder / f"{series}.pvd"
+
+    def _states(self, series, indices=(-1,)):
+        """The states of a series, of all pieces, by their places: a list of Fields."""
+        return read_states(self._record(series), indices)
+
+
+def is_silent(run):
+    """Whether a run that has not ended gives no sign of life: its process is gone, or
+    it has not told for ten minutes that it goes on."""
+    pid, sign = run.get("pid"), run.get("last_sign_of_life")
+    if run.get("host") == socket.gethostname() and isinstance(pid, int) and pid > 0:
+        try:
+            os.kill(pid, 0)
+        except ProcessLookupError:
+            return True
+        except OSError:  # another user's
+            pass
+    if isinstance(sign, str):
+        sign = datetime.datetime.fromisoformat(sign.replace("Z", "+00:00")).timestamp()
+    return (isinstance(sign, (int, float)) and
+            datetime.datetime.now().timestamp() - sign > 600.)
+
+
+def status_of(summary):
+    """The status of a summary, in a line. One that says "running" of a process that is
+    gone was killed."""
+    status = " ".join(summary["status"].split())
+    if status == "running" and is_silent(summary.get("run", {})):
+        status = "killed: it has given no sign of life"
+    return status
+
+
+def leaves(tree, prefix=""):
+    """The values of a summary by their paths, {"topic/name": value}."""
+    found = {}
+    for key, value in tree.items():
+        if isinstance(value, dict):
+            found.update(leaves(value, f"{prefix}{key}/"))
+        else:
+            found[prefix + key] = value
+    return found
+
+
+def read_table(path):
+    """The columns of a CSV file by name; an unfinished line is left out.
+    @throw Missing if there are no lines, ReadError if there are damaged ones"""
+    if not path.is_file():
+        raise Missing(f"there is no file '{path}'")
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            header, *lines = list(csv.reader(file)) or [[]]
+        rows = [line for line in lines if len(line) == len(header)]
+        table = np.array(rows, dtype=float)
+    except (OSError, ValueError, csv.Error) as problem:
+        raise ReadError(f"the table '{path}' cannot be read: {problem}")
+    if not rows:
+        raise Missing(f"'{path}' has no lines")
+    return dict(zip(header, table.T))
+
+
+def decode(array):
+    """The numbers of a VTK DataArray: ascii, or zlib's blocks in base64."""
+    dtype = np.dtype(array.get("type").lower()).newbyteorder("<")
+    if array.get("format") == "ascii":
+        return np.array((array.text or "").split(), dtype)
+    text = "".join(array.text.split())
+    # The header: number of blocks, their size, the last one's, compressed sizes.
+    n_blocks = int(np.frombuffer(base64.b64decode(text[:8]), "<u4", 1)[0])
+    n_chars = -(-(3 + n_blocks) * 4 // 3) * 4
+    sizes = np.frombuffer(base64.b64decode(text[:n_chars]), "<u4")[3:].tolist()
+    packed, ends = base64.b64decode(text[n_chars:]), np.cumsum(sizes)
+    return np.frombuffer(b"".join(zlib.decompress(packed[end - size:end])
+                                  for end, size in zip(ends, sizes)), dtype)
+
+
+def read_vtu(path):
+    """The pieces of a .vtu file, or of all files of a .pvtu record, as Fields."""
+    if not path.is_file():  # a device would be read without end
+        raise FileNotFoundError(None, "no file", str(path))
+    root = ElementTree.parse(path).getroot()
+    if path.suffix == ".pvtu":
+        return [field for piece in root.iter("Piece")
+                for field in read_vtu(path.parent / piece.get("Source"))]
+    fields = []
+    for piece in root.iter("Piece"):
+        if int(piece.get("NumberOfPoints")) == 0:  # a rank without cells
+            continue
+        points = decode(piece.find("Points/DataArray")).reshape(-1, 3)[:, :2]
+        cells = {array.get("Name"): decode(array) for array in piece.find("Cells")}
+        fields.append(Field(
+            points.astype(float),
+            cells["connectivity"].reshape(len(cells["offsets"]), -1),
+            {array.get("Name"): decode(array).reshape(len(points), -1)
+             for array in piece.find("PointData")}))
+    return fields
+
+
+def joined(pieces, time):
+    """The pieces of a state as one."""
+    first = np.cumsum([0] + [len(piece.points) for piece in pieces])
+    return Field(
+        np.concatenate([piece.points for piece in pieces]),
+        np.concatenate([piece.cells + n for piece, n in zip(pieces, first)]),
+        {name: np.concatenate([piece.data[name] for piece in pieces])
+         for name in pieces[0].data}, time)
+
+
+def damage_of_fields(reads):
+    """A reader of a .pvd series, whose errors are one kind that names the file."""
+    @functools.wraps(reads)
+    def reads_or_tells(path, *arguments):
+        if not path.is_file():
+            raise Missing(f"there is no file '{path}'")
+        try:
+            return reads(path, *arguments)
+        except (ElementTree.ParseError, zlib.error, LookupError, TypeError,
+                ValueError, AttributeError, OSError) as problem:
+            raise ReadError(f"the fields of '{path}' cannot be read: {problem!r}")
+    return reads_or_tells
+
+
+@damage_of_fields
+def read_series(path):
+    """The times (s) of a .pvd series and their files, [(time, path)]."""
+    return [(float(entry.get("timestep")), path.parent / entry.get("file"))
+            for entry in ElementTree.parse(path).getroot().iterfind(".//DataSet")]
+
+
+@damage_of_fields
+def read_states(path, indices=(-1,)):
+    """The states of a .pvd series at some places, the last one by itself: Fields."""
+    series = read_series(path)
+    return [joined(read_vtu(file), time)
+            for time, file in (series[i] for i in indices)]
+
+
+def nearest(times, wanted):
+    """The indices of the times that are nearest to the wanted ones."""
+    return np.unique([np.argmin(np.abs(times - t)) for t in wanted])

@@ -1,0 +1,202 @@
+# Copyright (C) 2026 by the geocone authors
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""How pictures look, and how they are written: colours, units, axes, disks, files.
+
+pyplot is not used: it takes long to load, and keeps figures that nobody shows."""
+
+import os
+import textwrap
+
+import matplotlib
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import EllipseCollection
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.ticker import MaxNLocator
+from matplotlib.tri import Triangulation
+
+from geocone.files import add_to_list
+
+# Okabe and Ito's colours and these maps are clear to colour-blind readers too.
+BLUE, ORANGE, GREY = "#0072B2", "#E69F00", "#a0a0a0"
+COLORS = [BLUE, "#D55E00", "#009E73", "#CC79A7", ORANGE, "#56B4E9", "#505050"]
+STEPS = ListedColormap(matplotlib.colormaps["viridis"](np.linspace(0., 0.92, 256)))
+RATES = ListedColormap(matplotlib.colormaps["magma_r"](np.linspace(0.06, 1., 256)))
+RATES.set_extremes(under="#ececec", bad="#ececec")
+STRAINS, RATIOS = matplotlib.colormaps["viridis"], matplotlib.colormaps["cividis"]
+for colors in STRAINS, RATIOS:
+    colors.set_extremes(under="#d4d4d4", bad="#d4d4d4")  # hardly deformed
+SHOWN = 1e-4  # a rate below this part of the greatest one is drawn as none
+BESIDE = {"loc": "upper left", "bbox_to_anchor": (1., 1.02)}  # a legend's place
+
+matplotlib.rcParams.update({
+    "font.size": 11, "axes.titlesize": 12, "legend.fontsize": 10,
+    "axes.grid": True, "grid.color": "#e0e0e0", "axes.axisbelow": True,
+    "legend.framealpha": 1., "legend.edgecolor": "#c0c0c0",
+    "savefig.dpi": 200, "savefig.bbox": "tight", "savefig.pad_inches": 0.08})
+
+
+class PlotError(Exception):
+    """What ends the drawing, told to the user."""
+
+
+class Skipped(Exception):
+    """Why a picture is not drawn."""
+
+
+def plain(text, longest=100):
+    """A text from outside as a picture may show it: none of it is typeset as
+    mathematics, nor hidden from a legend, as matplotlib does with '$' and '_'."""
+    text = "".join(c if c.isprintable() else "?" for c in str(text))
+    if len(text) > longest:
+        text = text[:longest - 1] + "…"
+    return (" " if text.startswith("_") else "") + text.replace("$", r"\$")
+
+
+def unit_for(size, name):
+    """The unit in which numbers up to a size are given: its name and value."""
+    power = (2 if size >= 1e7 else 1 if size >= 1e4 else 0 if size >= 1e-2 or size == 0.
+             else -1 if size >= 1e-5 else -2 if size >= 1e-8 else -3)
+    return ["", "k", "M", "n", "µ", "m"][power] + name, 1e3**power
+
+
+def subplots(*shape, figsize, **options):
+    """A figure and its axes, as pyplot's."""
+    figure = Figure(figsize, dpi=matplotlib.rcParams["savefig.dpi"],
+                    layout=ConstrainedLayoutEngine(h_pad=0.07, w_pad=0.07))
+    FigureCanvasAgg(figure)
+    return figure, figure.subplots(*shape, **options)
+
+
+def panels(n, view):
+    """A figure with n equal axes that show the view, (low, high) corners, side by side
+    if it is high."""
+    width, height = view[1] - view[0]
+    ratio = width / height
+    columns = (1 if ratio > 1. else n) if n < 3 else (1 if ratio > 2.5 else
+                                                      2 if ratio > 0.4 else n)
+    shape = np.array([-(-n // columns), columns])
+    # Of many panels only the outer ones have labels.
+    w = min((4.5 if shape.min() > 1 else 6.) * min(1., max(0.4, ratio)), 8. * ratio)
+    labels = [1.9, 1.] if n < 3 else [0.6, 0.5]
+    figure, axes = subplots(*shape, squeeze=False,
+                            figsize=shape[::-1] * ([w, w / ratio] + np.array(labels)))
+    for ax in axes.flat:
+        ax.set(xlim=(view[0][0], view[1][0]), ylim=(view[0][1], view[1][1]),
+               aspect="equal", xlabel="x (m)", ylabel="y (m)")
+        ax.yaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
+        ax.grid(False)
+    for ax in axes.flat[n:]:
+        ax.remove()
+    return figure, axes.flat[:n]
+
+
+def add_bar(axes, drawn, label, **options):
+    """Adds a colour bar as high as the axes."""
+    bar = axes.inset_axes([1.02, 0., 0.025, 1.])
+    axes.figure.colorbar(drawn, cax=bar, label=label, **options)
+
+
+def disks(axes, field, values):
+    """A disk for each point of a field, coloured by its value, the greatest in front;
+    its size is that of the point, as far as is known."""
+    points = field.points
+    if "volume" in field.data:
+        size = 1.2 * np.sqrt(field.data["volume"][:, 0])
+        # Points that fly may have grown without limit.
+        size = np.minimum(size, np.quantile(size, 0.98))
+    else:
+        # About as large as the smaller triangles around the points: the larger
+        # ones may bridge what is outside of the domain.
+        corners = Triangulation(*points.T).triangles
+        (ax, ay), (bx, by) = (np.diff(points[corners[:, [0, i]]], axis=1)[:, 0].T
+                              for i in (1, 2))
+        area = np.repeat(np.abs(ax * by - ay * bx), 3)
+        number = np.bincount(corners.ravel(), minlength=len(points))
+        order = np.lexsort((area, corners.ravel()))
+        size = 0.9 * np.sqrt(area[order][np.cumsum(number) - number + number // 3])
+    view = np.ptp([axes.get_xlim(), axes.get_ylim()], axis=1)
+    upwards = np.argsort(values)
+    size = np.maximum(size, view.max() / 500.)[upwards]
+    return EllipseCollection(size, size, 0. * size, units="xy", linewidths=0.,
+                             offsets=points[upwards], array=values[upwards],
+                             offset_transform=axes.transData)
+
+
+# Folders of the runs whose warning is in a picture.
+warned = set()
+
+
+def annotate(figure, run):
+    """Says under the title of a picture that its run has not finished, and at the foot
+    of the run's first picture what it warned of."""
+    if run.status != "finished":
+        title = figure._suptitle or figure.axes[0].title
+        title.set_text(title.get_text() + "\n ")
+        figure.axes[0].annotate(
+            plain(run.status.split(" remedy:")[0]), (0.5, 0.), xycoords=title,
+            ha="center", va="bottom", fontsize=9, color="#c00000", in_layout=False,
+            annotation_clip=False)
+    if run.warnings and run.folder not in warned:
+        warned.add(run.folder)
+        more = len(run.warnings) - 1
+        text = f"warning: {plain(run.warnings[0], 300)}" + (
+            f" (+ {more} more, see log.txt)" if more else "")
+        figure.text(0.01, -0.01, textwrap.fill(text, int(16. * figure.get_figwidth())),
+                    fontsize=8, color="#606060", va="top")
+
+
+def write_figure(figure, paths, cropped):
+    """Writes a figure into files. What has equal axes or a foot is cropped, which
+    draws it twice."""
+    if not cropped:
+        figure.get_layout_engine().execute(figure)
+        figure.set_layout_engine("none")
+    for path in paths:
+        try:
+            with matplotlib.rc_context({"savefig.bbox": "tight" if cropped else None}):
+                figure.savefig(path, **(
+                    {"pil_kwargs": {"compress_level": 3}} if path.suffix == ".png" else {}))
+        except (OSError, ValueError) as problem:
+            raise PlotError(f"'{path}' cannot be written: {problem}")
+
+
+# Processes that write figures: number, where their errors are read, the files.
+writers = []
+
+
+def save(figure, run, *paths, cropped=False):
+    """Writes the figure of a run, or of several (None), as a process of its own: most
+    of the time goes into this. finish() waits for them."""
+    if run:
+        annotate(figure, run)
+        cropped = cropped or bool(figure.texts)
+    while len(writers) >= len(os.sched_getaffinity(0)):
+        finish(1)
+    source, sink = os.pipe()
+    process = os.fork()
+    if process == 0:
+        error = b""
+        try:
+            write_figure(figure, paths, cropped)
+        except Exception as problem:  # told by the parent
+            error = str(problem).encode("utf-8", "replace")
+        os.write(sink, error)
+        os._exit(0 if not error else 1)
+    os.close(sink)
+    writers.append((process, source, paths))
+
+
+def finish(most=None):
+    """Waits for figures, all or some, and prints the names of their files."""
+    for process, source, paths in writers[:most]:
+        writers.pop(0)
+        with open(source, "rb") as pipe:
+            error = pipe.read().decode()
+        if os.waitpid(process, 0)[1] != 0:
+            raise PlotError(error or f"'{paths[0]}' cannot be written")
+        for path in paths:
+            add_to_list(path)
+            print(path)
