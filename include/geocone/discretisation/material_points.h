@@ -83,7 +83,7 @@ namespace geocone
     const double *
     history_of(const unsigned int point) const
     {
-      return history.data() + n_history * point;
+      return history.data() + static_cast<std::size_t>(n_history) * point;
     }
 
     /** @name Of points that move, at t_n; empty otherwise */
