@@ -10,9 +10,9 @@ run --output a --set 'Material point method/Transfer = APIC' \
   --set 'Explicit/Courant number = 0.2' --set 'Materials/soil/Type = Tresca'
 [ "$(wc -l <err)" = 1 ]
 grep -q '^warning: set, but not used by this run: ' err
-for name in 'Material point method/Transfer (needs Discretisation/Method = MPM)' \
+for name in 'Material point method/Transfer (needs Discretisation/Method = MPM or explicit MPM)' \
   'Explicit/Courant number (needs Discretisation/Method = explicit MPM)' \
-  'Materials/soil/Friction angle (needs Type = Mohr-Coulomb)'; do
+  'Materials/soil/Friction angle (needs Type = Mohr-Coulomb or hardening Mohr-Coulomb)'; do
   grep -qF "$name" err || { cat err; exit 1; }
 done
 /usr/bin/python3 - <<'PYTHON'
