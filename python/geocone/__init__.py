@@ -3,8 +3,8 @@
 """Runs geocone and reads what its runs have left.
 
     import geocone
-    run = geocone.run("prm/footing.prm", {"Mesh/Cell size": 0.05})
-    run = geocone.read("results/footing")           # the same, of a run that is there
+    run = geocone.run("prm/footing_mpm.prm", {"Mesh/Cell size": 0.1})
+    run = geocone.read("results/footing_mpm")       # the same, of a run that is there
     run.summary["limit_load"]["value"]              # N/m
     run.statistics["load (N/m)"]                    # a numpy array, a value per step
     run.fields("points").point_data["velocity"]     # meshio, the last state

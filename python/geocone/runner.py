@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Calls geocone."""
 
+import contextlib
 import os
 import shutil
 import signal
@@ -102,6 +103,12 @@ def start(call):
                             env=environment, start_new_session=True)
 
 
+def send(child, number):
+    """Sends a signal to a call and all that it has started."""
+    with contextlib.suppress(ProcessLookupError):  # it has just ended
+        os.killpg(child.pid, number)
+
+
 def finish(child, time_limit=None):
     """Waits for a call, at most so many seconds; what came of it."""
     began = time.monotonic()
@@ -110,11 +117,11 @@ def finish(child, time_limit=None):
             output, _ = child.communicate(timeout=time_limit)
             code, reason = child.returncode, reason_of(child.returncode, output)
         except subprocess.TimeoutExpired:
-            os.killpg(child.pid, signal.SIGKILL)
+            send(child, signal.SIGKILL)
             output, _ = child.communicate()
             code, reason = None, f"no end in {duration(time_limit)}"
         except BaseException:  # e.g. Ctrl-C: the run writes a checkpoint and ends
-            os.killpg(child.pid, signal.SIGTERM)
+            send(child, signal.SIGTERM)
             raise
     return Ended(code, output, time.monotonic() - began, reason)
 

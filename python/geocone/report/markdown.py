@@ -26,6 +26,7 @@ def page_text(part):
     text = f"# {part['title']}\n\n" + wrapped(part["source"])
     for section in part["sections"]:
         text += f"## {section['title']}\n\n" + wrapped(section["source"])
+        text += "".join(f"**{problem}**\n\n" for problem in section["problems"])
         for figure in section["figures"]:
             text += (f"![{section['title']}](figures/{figure['file']})\n\n" +
                      wrapped(figure["source"]))

@@ -10,7 +10,6 @@ import csv
 import hashlib
 import io
 import json
-import os
 import shlex
 import shutil
 import signal
@@ -20,7 +19,7 @@ import time
 
 from geocone.files import write_whole
 from geocone.reader import leaves
-from geocone.runner import ROOT, command, duration, finish, start
+from geocone.runner import ROOT, command, duration, finish, send, start
 
 
 def read_json(path):
@@ -113,7 +112,7 @@ class Computer:
         self.stopped = True
         with self.lock:
             for child in self.children:
-                os.killpg(child.pid, signal.SIGTERM)
+                send(child, signal.SIGTERM)
 
     def compute(self, runs):
         """Computes what is not there yet, the longest first as far as is known."""
