@@ -98,9 +98,7 @@ namespace geocone
       if (begins("[Bool"))
         return "true | false";
       if (begins("[Integer"))
-        {
-          return "a whole number" + bounds(pattern);
-        }
+        return "a whole number" + bounds(pattern);
       if (begins("[Double"))
         return "a number" + bounds(pattern);
       if (begins("[List"))

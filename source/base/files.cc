@@ -108,6 +108,12 @@ namespace geocone
         // The library's writers throw where a stream fails.
         out.setstate(std::ios::failbit);
       }
+    catch (...)
+      {
+        // Perhaps for want of memory: nothing here may need any.
+        ::unlink(temporary.c_str());
+        throw;
+      }
     const int cause_of_writing = out ? 0 : errno;
     errno                      = 0;
     out.close();
@@ -121,8 +127,7 @@ namespace geocone
       }
     if (!out || error)
       {
-        std::error_code ignored;
-        fs::remove(temporary, ignored);
+        ::unlink(temporary.c_str());
         throw RunError("the file '" + file_name + "' cannot be written" +
                        cause_and_remedy(cause));
       }

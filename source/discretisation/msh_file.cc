@@ -5,10 +5,6 @@
 #include <geocone/base/log.h>
 #include <geocone/discretisation/msh_file.h>
 
-#include <deal.II/grid/grid_tools.h>
-
-#include <deal.II/numerics/rtree.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -30,8 +26,6 @@ namespace geocone
 
     const std::string versions =
       "gmsh's .msh files of version 2.2 or 4.1, ASCII or binary";
-    const std::string write_anew =
-      "write it anew, e.g.: gmsh OLD.msh -save -format msh41 -o NEW.msh";
 
     bool
     is_space(const char c)
@@ -79,7 +73,7 @@ namespace geocone
 
       [[noreturn]] void
       refuse(const std::string &fault,
-             const std::string &remedy = write_anew) const
+             const std::string &remedy = msh_remedy) const
       {
         const std::string place =
           binary ? "byte " + std::to_string(last)
@@ -150,7 +144,7 @@ namespace geocone
                        " than it announces, or less: " +
                        shown(text.substr(position, 60)) + " instead of $End" +
                        name,
-                 "copy it again, or " + write_anew);
+                 "copy it again, or " + msh_remedy);
         position += end.size();
       }
 
@@ -530,7 +524,7 @@ namespace geocone
         if (announced != found)
           in.refuse("it announces " + std::to_string(announced) + " " + items +
                       ", but its blocks hold " + std::to_string(found),
-                    "copy it again, or " + write_anew);
+                    "copy it again, or " + msh_remedy);
       }
 
       /** Reads the nodes of an element and keeps it unless it is a point. */
@@ -710,167 +704,6 @@ namespace geocone
       bool                                       have_entities = false;
       std::array<std::map<int, unsigned int>, 3> groups_of_entity;
     };
-
-    double
-    signed_area(const std::vector<Point<dim>>   &points,
-                const std::vector<unsigned int> &around)
-    {
-      // From the first point: far from the origin, products of coordinates
-      // would lose the area in their rounding.
-      double area = 0.;
-      for (std::size_t i = 1; i + 1 < around.size(); ++i)
-        {
-          const dealii::Tensor<1, dim> a =
-            points[around[i]] - points[around[0]];
-          const dealii::Tensor<1, dim> b =
-            points[around[i + 1]] - points[around[0]];
-          area += (a[0] * b[1] - b[0] * a[1]) / 2.;
-        }
-      return area;
-    }
-
-    /** The smallest signed area of a corner: negative where not convex. */
-    double
-    worst_corner(const std::vector<Point<dim>>   &points,
-                 const std::vector<unsigned int> &around)
-    {
-      double            worst = std::numeric_limits<double>::max();
-      const std::size_t n     = around.size();
-      for (std::size_t i = 0; i < n; ++i)
-        worst = std::min(
-          worst,
-          signed_area(points,
-                      {around[i], around[(i + 1) % n], around[(i + 2) % n]}));
-      return worst;
-    }
-
-    std::string
-    place(const Point<dim> &x)
-    {
-      return format("(%g, %g)", x[0], x[1]);
-    }
-
-    /** Each edge must be passed once in each direction at most. */
-    void
-    check_overlap(const std::vector<Point<dim>>                &points,
-                  const std::vector<std::vector<unsigned int>> &around,
-                  const std::string                            &what)
-    {
-      std::vector<std::array<unsigned int, 2>> edges;
-      for (const auto &v : around)
-        for (std::size_t i = 0; i < v.size(); ++i)
-          edges.push_back({{v[i], v[(i + 1) % v.size()]}});
-      std::sort(edges.begin(), edges.end());
-      const auto twice = std::adjacent_find(edges.begin(), edges.end());
-      if (twice != edges.end())
-        throw InputError(what + ": two cells overlap at the edge from " +
-                         place(points[(*twice)[0]]) + " to " +
-                         place(points[(*twice)[1]]) +
-                         "\n  allowed: cells side by side\n  remedy:  look for "
-                         "cells that are there twice, or mesh anew");
-    }
-
-    /** The shortest edge against the largest coordinate. */
-    void
-    check_resolution(const std::vector<Point<dim>>                &points,
-                     const std::vector<std::vector<unsigned int>> &around,
-                     const std::string                            &what)
-    {
-      for (const Point<dim> &x : points)
-        if (std::max(std::abs(x[0]), std::abs(x[1])) > largest_coordinate)
-          throw InputError(what + ": there is a node at " + place(x) +
-                           format("\n  allowed: coordinates up to %g m\n",
-                                  largest_coordinate) +
-                           "  remedy:  scale the mesh to m");
-      const double smallest = resolved_length(points);
-      for (const auto &v : around)
-        for (std::size_t i = 0; i < v.size(); ++i)
-          {
-            const Point<dim> &a = points[v[i]];
-            const Point<dim> &b = points[v[(i + 1) % v.size()]];
-            if (!(a.distance(b) >= smallest))
-              throw InputError(
-                what + ": the edge from " + place(a) + " to " + place(b) +
-                format(" has a length of %g m\n  allowed: edges of %g m or "
-                       "more, for the coordinates of this mesh\n",
-                       a.distance(b),
-                       smallest) +
-                "  remedy:  mesh anew with larger cells, or move the body "
-                "nearer to the origin");
-          }
-    }
-
-    /** A vertex in the middle of another cell's edge leaves a gap there. */
-    void
-    check_hanging_nodes(const CoarseMesh &mesh, const std::string &what)
-    {
-      const auto                edges = mesh.outer_edges();
-      std::vector<unsigned int> vertices;
-      for (const auto &edge : edges)
-        vertices.insert(vertices.end(), edge.begin(), edge.end());
-      std::sort(vertices.begin(), vertices.end());
-      vertices.erase(std::unique(vertices.begin(), vertices.end()),
-                     vertices.end());
-      std::vector<std::pair<Point<dim>, unsigned int>> places;
-      for (const unsigned int v : vertices)
-        places.emplace_back(mesh.points[v], v);
-      const auto tree = dealii::pack_rtree(places);
-      std::vector<std::pair<Point<dim>, unsigned int>> near;
-      for (const auto &edge : edges)
-        {
-          const Point<dim> &a         = mesh.points[edge[0]];
-          const Point<dim> &b         = mesh.points[edge[1]];
-          const double      tolerance = 1e-9 * a.distance(b);
-          Point<dim>        lower, upper;
-          for (unsigned int c = 0; c < dim; ++c)
-            {
-              lower[c] = std::min(a[c], b[c]) - tolerance;
-              upper[c] = std::max(a[c], b[c]) + tolerance;
-            }
-          near.clear();
-          tree.query(boost::geometry::index::intersects(
-                       dealii::BoundingBox<dim>({lower, upper})),
-                     std::back_inserter(near));
-          for (const auto &[x, v] : near)
-            if (v != edge[0] && v != edge[1] &&
-                distance_to_segment(x, a, b) < tolerance)
-              throw InputError(
-                what + ": the node at " + place(x) +
-                " hangs on the edge from " + place(a) + " to " + place(b) +
-                "\n  allowed: conforming meshes without double nodes\n"
-                "  remedy:  in gmsh, Coherence before meshing, or "
-                "Mesh.RemoveDuplicateNodes");
-        }
-    }
-
-    /** Physical curves by number and by name, each meaning one curve. */
-    void
-    set_sides(const MshData &data, const std::string &what, CoarseMesh &mesh)
-    {
-      for (const int group : data.curve_groups)
-        mesh.sides[std::to_string(group)] = group;
-      for (const int group : data.curve_groups)
-        if (const auto name = data.curve_names.find(group);
-            name != data.curve_names.end())
-          {
-            const auto [side, is_new] = mesh.sides.emplace(name->second, group);
-            if (!is_new && side->second != dealii::types::boundary_id(group))
-              throw InputError(what + ": '" + name->second +
-                               "' is the name of the physical curve " +
-                               std::to_string(group) +
-                               ", and the name or number of another one\n"
-                               "  allowed: names that are unique\n"
-                               "  remedy:  rename one of them in gmsh");
-          }
-    }
-
-    std::string
-    name_of_curve(const MshData &data, const int group)
-    {
-      const auto name = data.curve_names.find(group);
-      return name == data.curve_names.end() ? std::to_string(group)
-                                            : "'" + name->second + "'";
-    }
   } // namespace
 
   unsigned int
@@ -946,166 +779,5 @@ namespace geocone
   parse_msh(const std::string &text, const std::string &what)
   {
     return Reader(text, what).read();
-  }
-
-  CoarseMesh
-  coarse_mesh(const MshData     &data,
-              const std::string &what,
-              const Regions     &regions)
-  {
-    if (data.cells.empty())
-      throw InputError(what + " holds no cells in two dimensions\n"
-                              "  allowed: triangles or quadrilaterals\n"
-                              "  remedy:  mesh a surface in the (x, y) plane "
-                              "and save it (if there are physical groups, "
-                              "the surface needs one)");
-    if (data.nodes.size() >= std::numeric_limits<int>::max() ||
-        data.cells.size() >= std::numeric_limits<int>::max())
-      throw InputError(what + " has more than 2^31 nodes or cells\n"
-                              "  remedy:  mesh with fewer cells");
-
-    std::vector<std::pair<std::uint64_t, unsigned int>> node_of_tag;
-    for (unsigned int i = 0; i < data.nodes.size(); ++i)
-      node_of_tag.emplace_back(data.nodes[i].tag, i);
-    std::sort(node_of_tag.begin(), node_of_tag.end());
-    for (std::size_t i = 0; i + 1 < node_of_tag.size(); ++i)
-      if (node_of_tag[i].first == node_of_tag[i + 1].first)
-        throw InputError(
-          what + ": there are two nodes with the tag " +
-          std::to_string(node_of_tag[i].first) +
-          "\n  allowed: tags that are unique\n  remedy:  " + write_anew);
-    const auto node = [&](const MshData::Element &element,
-                          const unsigned int      i) -> unsigned int {
-      const std::uint64_t tag = element.nodes[i];
-      const auto          at  = std::lower_bound(
-        node_of_tag.begin(), node_of_tag.end(), std::make_pair(tag, 0U));
-      if (at == node_of_tag.end() || at->first != tag)
-        throw InputError(what + ": the node " + std::to_string(tag) +
-                         " of the element " + std::to_string(element.tag) +
-                         " is missing\n  allowed: nodes of the section $Nodes\n"
-                         "  remedy:  " +
-                         write_anew);
-      return at->second;
-    };
-
-    // gmsh's order: by surface, and the triangles of a surface come first.
-    std::vector<unsigned int> order(data.cells.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::stable_sort(order.begin(),
-                     order.end(),
-                     [&](const unsigned int a, const unsigned int b) {
-                       const MshData::Element &first  = data.cells[a];
-                       const MshData::Element &second = data.cells[b];
-                       return std::make_pair(first.entity, first.type) <
-                              std::make_pair(second.entity, second.type);
-                     });
-
-    // Only nodes of cells become vertices: there may be others.
-    CoarseMesh             mesh;
-    constexpr unsigned int none    = -1;
-    double                 largest = 0.;
-    for (const MshData::Node &node : data.nodes)
-      largest = std::max({largest, std::abs(node.x[0]), std::abs(node.x[1])});
-    std::vector<unsigned int>              vertex(data.nodes.size(), none);
-    std::vector<std::vector<unsigned int>> around;
-    for (const unsigned int c : order)
-      {
-        const MshData::Element   &cell = data.cells[c];
-        std::vector<unsigned int> vertices;
-        for (unsigned int i = 0; i < n_nodes_of_type(cell.type); ++i)
-          {
-            const unsigned int n = node(cell, i);
-            if (vertex[n] == none)
-              {
-                const auto &x = data.nodes[n].x;
-                if (!(std::abs(x[2]) <= 1e-9 * largest))
-                  throw InputError(
-                    what + ": the node " + std::to_string(data.nodes[n].tag) +
-                    format(" is at (%g, %g, %g)", x[0], x[1], x[2]) +
-                    "\n  allowed: nodes in the plane z = 0\n  remedy:  turn or "
-                    "move the mesh into the (x, y) plane (in gmsh: Rotate, "
-                    "Translate)");
-                vertex[n] = mesh.points.size();
-                mesh.points.emplace_back(x[0], x[1]);
-              }
-            vertices.push_back(vertex[n]);
-          }
-        around.push_back(vertices);
-      }
-    check_resolution(mesh.points, around, what);
-
-    // A mesh may be oriented clockwise as a whole; single cells may not.
-    double total = 0.;
-    for (const auto &vertices : around)
-      total += signed_area(mesh.points, vertices);
-    for (std::size_t c = 0; c < around.size(); ++c)
-      {
-        std::vector<unsigned int> &v = around[c];
-        if (total < 0.)
-          std::reverse(v.begin(), v.end());
-        if (!(worst_corner(mesh.points, v) > 0.))
-          throw InputError(
-            what + ": the cell " + std::to_string(data.cells[order[c]].tag) +
-            " at " + place(mesh.points[v[0]]) +
-            " is inverted or not convex\n  allowed: cells with positive area "
-            "at every corner\n  remedy:  reorder its nodes, or mesh anew");
-      }
-    check_overlap(mesh.points, around, what);
-    for (std::size_t c = 0; c < around.size(); ++c)
-      {
-        const std::vector<unsigned int> &v = around[c];
-        dealii::CellData<dim>            cell(v.size());
-        cell.vertices = v;
-        if (v.size() == 4)
-          // deal.II numbers lexicographically.
-          std::swap(cell.vertices[2], cell.vertices[3]);
-        mesh.cells.push_back(cell);
-        // The last material that fills the cell, as everywhere.
-        const Point<dim> centre = mesh.centre(cell);
-        unsigned int     filled = regions.material_at(centre, -1);
-        for (const int group : data.group_lists[data.cells[order[c]].groups])
-          filled = std::max(filled, regions.material_at(centre, group));
-        mesh.cells.back().material_id = filled;
-      }
-
-    // Edges with the physical curves they are on.
-    std::vector<std::pair<std::array<unsigned int, 2>, int>> edges_of_groups;
-    for (const MshData::Element &line : data.lines)
-      {
-        const unsigned int a = vertex[node(line, 0)], b = vertex[node(line, 1)];
-        if (a != none && b != none)
-          for (const int group : data.group_lists[line.groups])
-            edges_of_groups.push_back(
-              {{{std::min(a, b), std::max(a, b)}}, group});
-      }
-    std::sort(edges_of_groups.begin(), edges_of_groups.end());
-    edges_of_groups.erase(
-      std::unique(edges_of_groups.begin(), edges_of_groups.end()),
-      edges_of_groups.end());
-    set_sides(data, what, mesh);
-    for (const auto &edge : mesh.outer_edges())
-      {
-        const auto side = std::lower_bound(edges_of_groups.begin(),
-                                           edges_of_groups.end(),
-                                           std::make_pair(edge, 0));
-        if (side == edges_of_groups.end() || side->first != edge)
-          continue;
-        if (side + 1 != edges_of_groups.end() && (side + 1)->first == edge)
-          throw InputError(
-            what + ": the edge from " + place(mesh.points[edge[0]]) + " to " +
-            place(mesh.points[edge[1]]) + " is on the physical curves " +
-            name_of_curve(data, side->second) + " and " +
-            name_of_curve(data, (side + 1)->second) +
-            "\n  allowed: one physical curve for each edge\n  remedy:  make "
-            "groups that share no curve; a condition takes several sides");
-        dealii::CellData<1> line(2);
-        line.vertices    = {edge[0], edge[1]};
-        line.boundary_id = side->second;
-        mesh.boundary.boundary_lines.push_back(line);
-      }
-    check_hanging_nodes(mesh, what);
-    if (!mesh.has_triangles())
-      dealii::GridTools::consistently_order_cells(mesh.cells);
-    return mesh;
   }
 } // namespace geocone

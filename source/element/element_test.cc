@@ -27,8 +27,8 @@ namespace geocone
                   "scenes: xx, yy, xy) | 3D.");
     add_parameter("Initial stress",
                   initial_stress,
-                  "xx, yy, zz, xy, yz, zx (Pa), tension positive. In plane "
-                  "strain zz is used by laws that know it.");
+                  "xx, yy, zz, xy, yz, zx (Pa), tension positive. Laws of the "
+                  "plane carry zz along.");
     add_parameter("Initial specific volume",
                   initial_volume,
                   "v = 1 + e at the start (-), > 1: for the column ln v.");

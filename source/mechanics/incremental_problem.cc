@@ -8,7 +8,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <map>
 
 namespace geocone
 {
@@ -33,91 +32,13 @@ namespace geocone
     , mode(points.n_points(), Mode::elastic)
     , previous_mode(points.n_points(), Mode::elastic)
     , tangent(points.n_points())
+    , turned(points, unknowns)
   {
     for (unsigned int p = 0; p < points.n_points(); ++p)
       if (runs.empty() || runs.back().material != points.material[p])
         runs.push_back({p, p + 1, points.material[p]});
       else
         ++runs.back().end;
-    if (unknowns.turned_nodes.empty())
-      return;
-    std::map<unsigned int, const Unknowns::TurnedNode *> turned;
-    for (const Unknowns::TurnedNode &node : unknowns.turned_nodes)
-      turned[node.node] = &node;
-    for (unsigned int c = 0; c < points.n_cells(); ++c)
-      {
-        first_turn.push_back(turns.size());
-        for (unsigned int i = 0; i < points.n_nodes; ++i)
-          if (const auto found =
-                turned.find(points.nodes[c * points.n_nodes + i]);
-              found != turned.end())
-            turns.push_back({i, found->second->n_x, found->second->n_y});
-      }
-    first_turn.push_back(turns.size());
-  }
-
-  const IncrementalProblem::Turn *
-  IncrementalProblem::turn_of(const unsigned int c, const unsigned int i) const
-  {
-    if (!turns.empty())
-      for (unsigned int k = first_turn[c]; k < first_turn[c + 1]; ++k)
-        if (turns[k].node == i)
-          return &turns[k];
-    return nullptr;
-  }
-
-  void
-  IncrementalProblem::velocities_to_xy(const unsigned int c,
-                                       double            *cell_v) const
-  {
-    if (turns.empty())
-      return;
-    for (unsigned int i = first_turn[c]; i < first_turn[c + 1]; ++i)
-      {
-        double      *v = cell_v + dim * turns[i].node;
-        const double n = v[0], t = v[1];
-        v[0] = turns[i].n_x * n - turns[i].n_y * t;
-        v[1] = turns[i].n_y * n + turns[i].n_x * t;
-      }
-  }
-
-  void
-  IncrementalProblem::forces_to_dofs(const unsigned int c, double *cell_f) const
-  {
-    if (turns.empty())
-      return;
-    for (unsigned int i = first_turn[c]; i < first_turn[c + 1]; ++i)
-      {
-        double      *f = cell_f + dim * turns[i].node;
-        const double x = f[0], y = f[1];
-        f[0] = turns[i].n_x * x + turns[i].n_y * y;
-        f[1] = turns[i].n_x * y - turns[i].n_y * x;
-      }
-  }
-
-  void
-  IncrementalProblem::matrix_to_dofs(const unsigned int c,
-                                     const unsigned int n_dofs,
-                                     const bool         upper,
-                                     double            *K) const
-  {
-    if (turns.empty() || first_turn[c] == first_turn[c + 1])
-      return;
-    if (upper)
-      for (unsigned int i = 0; i < n_dofs; ++i)
-        for (unsigned int j = 0; j < i; ++j)
-          K[n_dofs * i + j] = K[n_dofs * j + i];
-    std::vector<double> column(n_dofs);
-    for (unsigned int j = 0; j < n_dofs; ++j)
-      {
-        for (unsigned int i = 0; i < n_dofs; ++i)
-          column[i] = K[n_dofs * i + j];
-        forces_to_dofs(c, column.data());
-        for (unsigned int i = 0; i < n_dofs; ++i)
-          K[n_dofs * i + j] = column[i];
-      }
-    for (unsigned int i = 0; i < n_dofs; ++i)
-      forces_to_dofs(c, K + n_dofs * i);
   }
 
   void
@@ -256,7 +177,7 @@ namespace geocone
         {
           double cell_v[2 * n];
           gather<n>(v.begin(), &points.nodes[c * n], cell_v);
-          velocities_to_xy(c, cell_v);
+          turned.velocities_to_xy(c, cell_v);
           strains_of_cell<n>(c, cell_v, h, strain);
         }
     });
@@ -280,7 +201,7 @@ namespace geocone
               return points.weight[p] * stress[p];
             },
             cell_f);
-          forces_to_dofs(c, cell_f);
+          turned.forces_to_dofs(c, cell_f);
           scatter_add<n>(cell_f, &points.nodes[c * n], dst.begin());
         }
     });
@@ -416,7 +337,7 @@ namespace geocone
             {
               double g[dim] = {points.gradients[2 * n * p + i],
                                points.gradients[2 * n * p + n + i]};
-              if (const Turn *turn = turn_of(c, i))
+              if (const TurnedDofs::Turn *turn = turned.turn_of(c, i))
                 {
                   const double gx = g[0], gy = g[1];
                   g[0] = turn->n_x * gx + turn->n_y * gy;
@@ -607,7 +528,7 @@ namespace geocone
                     for (int d = 0; d < 2; ++d)
                       K[2 * n * (2 * i + d) + 2 * j + d] += m * N[i] * N[j];
               }
-          matrix_to_dofs(c, 2 * n, one_triangle, K);
+          turned.matrix_to_dofs(c, 2 * n, one_triangle, K);
           for (int i = 0; i < 2 * n; ++i)
             for (int j = one_triangle ? i : 0; j < 2 * n; ++j, ++place)
               if (*place >= 0)
@@ -639,7 +560,7 @@ namespace geocone
         {
           double cell_v[2 * n], cell_f[2 * n] = {};
           gather<n>(dv.begin(), &points.nodes[c * n], cell_v);
-          velocities_to_xy(c, cell_v);
+          turned.velocities_to_xy(c, cell_v);
           strains_of_cell<n>(c, cell_v, h, rate);
           add_forces_of_cell<n>(
             c,
@@ -647,7 +568,7 @@ namespace geocone
               return points.weight[p] * (tangent[p] * rate[p]);
             },
             cell_f);
-          forces_to_dofs(c, cell_f);
+          turned.forces_to_dofs(c, cell_f);
           scatter_add<n>(cell_f, &points.nodes[c * n], dst.begin());
         }
     });
@@ -669,7 +590,7 @@ namespace geocone
           {
             double cell_v[2 * n] = {};
             cell_v[j]            = 1.;
-            velocities_to_xy(c, cell_v);
+            turned.velocities_to_xy(c, cell_v);
             strains_of_cell<n>(c, cell_v, 1., column);
             for (unsigned int p = points.first_point[c];
                  p < points.first_point[c + 1];
@@ -696,102 +617,5 @@ namespace geocone
       return Mandel::Zero();
     return strain[p] - materials[points.material[p]].elasticity().strain(
                          Mandel(stress[p] - points.stress[p]));
-  }
-
-  std::string
-  IncrementalProblem::not_a_number() const
-  {
-    std::string where;
-    for (unsigned int p = 0; p < points.n_points() && where.empty(); ++p)
-      if (!strain[p].allFinite() || !stress[p].allFinite())
-        where = format(" at the point %u (%g, %g)",
-                       points.id.empty() ? p : points.id[p],
-                       points.position[p][0],
-                       points.position[p][1]);
-    return text_of_any_rank(layout->get_mpi_communicator(), where);
-  }
-
-  Quality
-  IncrementalProblem::quality() const
-  {
-    // Two passes: the scales of all ranks first.
-    const MPI_Comm comm     = layout->get_mpi_communicator();
-    double     stress_scale = 0., k_scale = 0., y_scale = 0., compliance = 0.;
-    const auto z_at = [&](const unsigned int p) {
-      const Elasticity &elasticity = materials[points.material[p]].elasticity();
-      return to_cone_axes(Mandel(
-        elasticity.strain(Mandel(stress[p] - points.stress[p])) - strain[p]));
-    };
-    // Of the end of the step.
-    const auto exact_cone = [&](const unsigned int p, const Mandel &z) {
-      return materials[points.material[p]]
-        .flow_cone(points.history_of(p))
-        ->hardened(z);
-    };
-    const auto solved_cone = [&](const unsigned int p, const FlowCone &exact) {
-      return exact.delayed(friction_lag, to_cone_axes(points.stress[p])[0]);
-    };
-    const auto has_cone = [&](const Run &run) {
-      return materials[run.material]
-        .flow_cone(points.history_of(run.begin))
-        .has_value();
-    };
-    for (const Run &run : runs)
-      if (has_cone(run))
-        {
-          compliance = std::max(
-            compliance, 1. / materials[run.material].elasticity().two_G);
-          for (unsigned int p = run.begin; p < run.end; ++p)
-            {
-              const Mandel   z    = z_at(p);
-              const FlowCone cone = exact_cone(p, z);
-              k_scale             = std::max(k_scale, cone.k);
-              stress_scale        = std::max(stress_scale, stress[p].norm());
-              y_scale = std::max(y_scale, solved_cone(p, cone).psi(z).norm());
-            }
-        }
-    stress_scale = Utilities::MPI::max(stress_scale, comm) +
-                   Utilities::MPI::max(k_scale, comm);
-    y_scale = std::max(Utilities::MPI::max(y_scale, comm),
-                       stress_scale * Utilities::MPI::max(compliance, comm));
-
-    Quality worst;
-    for (const Run &run : runs)
-      if (has_cone(run))
-        for (unsigned int p = run.begin; p < run.end; ++p)
-          {
-            const double   two_G = materials[run.material].elasticity().two_G;
-            const Mandel   z     = z_at(p);
-            const FlowCone exact = exact_cone(p, z);
-            const FlowCone cone  = solved_cone(p, exact);
-            const Mandel   s     = to_cone_axes(stress[p]);
-            Quality        here;
-            here.cone_violation = cone.yield_function(s) / stress_scale;
-            here.cone_excess    = exact.yield_function(s);
-            // The complementarity law is that of a cone without a cut-off.
-            if (s[0] > -cone.tension + 1e-12 * stress_scale)
-              {
-                const Mandel y = cone.psi(z);
-                here.natural_map =
-                  natural_map(cone, s, y, two_G).norm() / stress_scale;
-                if (y_scale > 0.)
-                  {
-                    here.dual_violation = cone.dual_violation(y) / y_scale;
-                    here.complementarity =
-                      std::abs(cone.complementarity_product(y, s)) /
-                      (y_scale * stress_scale);
-                  }
-              }
-            worst.take_worse(here);
-          }
-    std::array<double, 5> values = {{worst.natural_map,
-                                     worst.cone_violation,
-                                     worst.dual_violation,
-                                     worst.complementarity,
-                                     worst.cone_excess}};
-    Utilities::MPI::max(ArrayView<const double>(values.data(), values.size()),
-                        comm,
-                        ArrayView<double>(values.data(), values.size()));
-    return {values[0], values[1], values[2], values[3], values[4]};
   }
 } // namespace geocone

@@ -14,10 +14,12 @@ namespace geocone
     , materials(materials)
     , rho(rho)
   {
-    // Laws without a point's own cone have one for all steps.
     for (unsigned int i = 0; i < materials.size(); ++i)
-      cones.push_back(materials[i].hardens() ? std::nullopt
-                                             : materials[i].flow_cone(nullptr));
+      {
+        cones.push_back(materials[i].initial_cone());
+        // A law may harden without a cone.
+        hardens.push_back(materials[i].hardens() && cones.back());
+      }
   }
 
   NaturalMap::Error
@@ -31,18 +33,21 @@ namespace geocone
     double     largest_k = 0.;
     for (unsigned int p = 0; p < strain.size(); ++p)
       {
-        const unsigned int            material = points.material[p];
-        const std::optional<FlowCone> cone =
-          materials[material].hardens()
-            ? materials[material].flow_cone(points.history_of(p))
-            : cones[material];
+        const unsigned int material = points.material[p];
+        FlowCone           at_point;
+        const FlowCone    *cone = cones[material] ? &*cones[material] : nullptr;
+        if (hardens[material])
+          {
+            at_point = *materials[material].flow_cone(points.history_of(p));
+            cone     = &at_point;
+          }
         const Elasticity &elasticity = materials[material].elasticity();
         Mandel            s          = stress[p];
         if (moves)
           s += tangent[p] * (strain[p] - last_strain[p]);
 
         mode[p] = Mode::elastic;
-        if (cone)
+        if (cone != nullptr)
           {
             const double rho_p = rho * elasticity.two_G;
             const Mandel z     = to_cone_axes(

@@ -242,8 +242,7 @@ namespace geocone
     std::vector<double> history(group.n_history);
     for (unsigned int p = 0; p < group.n_points(); ++p)
       {
-        for (unsigned int k = 0; k < group.n_history; ++k)
-          history[k] = group[group.first_history() + k][p];
+        group.copy_history(p, history.data());
         values[p] = shown({{group[Field::s_xx][p],
                             group[Field::s_yy][p],
                             group[Field::s_xy][p]}},

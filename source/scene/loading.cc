@@ -309,8 +309,7 @@ namespace geocone
     add_parameter("Stress xy", texts[2], "As Stress xx.");
     add_parameter("Stress zz",
                   text_zz,
-                  "For 'given' and laws that know it: as Stress xx; empty: "
-                  "equal to it.");
+                  "For 'given': as Stress xx; empty: equal to it.");
     add_parameter("K0",
                   k0_text,
                   "For 'geostatic': horizontal over vertical stress (-), > 0, "

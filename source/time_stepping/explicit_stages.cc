@@ -210,10 +210,11 @@ namespace geocone
             std::vector<double>    values(n);
             for (unsigned int p = 0; p < group.n_points() && n > 0; ++p)
               {
-                for (unsigned int k = 0; k < n; ++k)
-                  values[k] = group[group.first_history() + k][p];
-                start.set(
-                  law, stress_of(group, p), group.position(p), values.data());
+                group.copy_history(p, values.data());
+                start.set(law,
+                          stress_of(group, p, values.data()),
+                          group.position(p),
+                          values.data());
                 for (unsigned int k = 0; k < n; ++k)
                   group[group.first_history() + k][p] = values[k];
               }

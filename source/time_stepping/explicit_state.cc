@@ -20,18 +20,17 @@ namespace geocone
   }
 
   ConstitutiveLaw::Stress
-  ExplicitMPM::stress_of(const PointArrays &group, const unsigned int p) const
+  ExplicitMPM::stress_of(const PointArrays &group,
+                         const unsigned int p,
+                         const double      *history) const
   {
-    std::vector<double> history(group.n_history);
-    for (unsigned int k = 0; k < group.n_history; ++k)
-      history[k] = group[group.first_history() + k][p];
     const double xx = group[Field::s_xx][p], yy = group[Field::s_yy][p],
                  xy = group[Field::s_xy][p];
-    return {{xx,
-             yy,
-             scene->materials.law(group.material)
-               .stress_zz({{xx, yy, xy}}, history.data()),
-             xy}};
+    return {
+      {xx,
+       yy,
+       scene->materials.law(group.material).stress_zz({{xx, yy, xy}}, history),
+       xy}};
   }
 
   double
@@ -88,10 +87,10 @@ namespace geocone
             s.largest_speed          = std::max(s.largest_speed, v.norm());
             s.largest_plastic_strain = std::max(
               s.largest_plastic_strain, group[Field::plastic_strain][p]);
-            for (unsigned int k = 0; k < group.n_history; ++k)
-              values[k] = group[group.first_history() + k][p];
+            group.copy_history(p, values.data());
             const double c2 =
-              law.wave_modulus(stress_of(group, p), values.data()) *
+              law.wave_modulus(stress_of(group, p, values.data()),
+                               values.data()) *
               group[Field::volume][p] / m;
             if (c2 > fastest)
               {

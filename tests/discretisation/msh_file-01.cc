@@ -9,7 +9,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/parameter_file.h>
-#include <geocone/discretisation/msh_file.h>
+#include <geocone/discretisation/msh_mesh.h>
 #include <geocone/scene/scene.h>
 
 #include <deal.II/base/mpi.h>
@@ -284,10 +284,8 @@ main(int argc, char **argv)
   for (const auto &cell : mesh.cells)
     ++n_cells[{cell.material_id, cell.vertices.size()}];
   for (const auto &[kind, n] : n_cells)
-    std::printf("material %u: %u cells with %zu vertices\n",
-                kind.first,
-                n,
-                kind.second);
+    std::printf(
+      "material %u: %u cells with %zu vertices\n", kind.first, n, kind.second);
 
   // The standard fixes this generator's numbers, but not the distributions'.
   std::mt19937 random(1);

@@ -4,8 +4,6 @@
 #ifndef geocone_discretisation_msh_file_h
 #define geocone_discretisation_msh_file_h
 
-#include <geocone/discretisation/coarse_mesh.h>
-
 #include <boost/serialization/array.hpp>
 #include <boost/serialization/map.hpp>
 #include <boost/serialization/set.hpp>
@@ -100,6 +98,10 @@ namespace geocone
     std::map<std::vector<int>, unsigned int> place_of_list = {{{}, 0}};
   };
 
+  /** How a damaged file is mended. */
+  inline const std::string msh_remedy =
+    "write it anew, e.g.: gmsh OLD.msh -save -format msh41 -o NEW.msh";
+
   /** The number of nodes of an element of one of MshData's types. */
   unsigned int
   n_nodes_of_type(const int type);
@@ -140,19 +142,6 @@ namespace geocone
    */
   MshData
   parse_msh(const std::string &text, const std::string &what);
-
-  /**
-   * The mesh of the cells: vertices in the order in which the cells use them,
-   * cells in the order of their surfaces, and of each surface first the
-   * triangles; the edges of physical curves are the sides.
-   * @throws InputError if nodes are missing, not finite, not in the plane z = 0,
-   * or too close together for their coordinates; if there are no cells, or some
-   * are inverted, overlap, or have hanging nodes
-   */
-  CoarseMesh
-  coarse_mesh(const MshData     &data,
-              const std::string &what,
-              const Regions     &regions);
 } // namespace geocone
 
 #endif

@@ -84,6 +84,14 @@ namespace geocone
       return n_common + n_history;
     }
 
+    /** The history variables of a point, n_history of them. */
+    void
+    copy_history(const unsigned int p, double *values) const
+    {
+      for (unsigned int k = 0; k < n_history; ++k)
+        values[k] = data[first_history() + k][p];
+    }
+
     unsigned int
     n_fields() const
     {

@@ -54,7 +54,7 @@ namespace geocone
     virtual void
     accept() = 0;
 
-    /** The stress of the last accepted state (Pa); zz is 0 if it is unknown. */
+    /** The stress of the last accepted state (Pa). */
     virtual Tensor6
     stress() const = 0;
 

@@ -79,6 +79,8 @@ namespace geocone
     FlowCone
     hardened(const V &z) const
     {
+      if (hardening == 0.)
+        return *this;
       return {a, b, k + hardening * tangential_norm(z), tension};
     }
 

@@ -9,6 +9,7 @@
 #include <geocone/discretisation/material_points.h>
 #include <geocone/materials/material_library.h>
 #include <geocone/mechanics/natural_map.h>
+#include <geocone/mechanics/turned_dofs.h>
 #include <geocone/mechanics/unknowns.h>
 
 #include <algorithm>
@@ -374,36 +375,7 @@ namespace geocone
     /** Place of the diagonal entry of each free row. */
     std::vector<int> diagonal;
 
-    /** A node of a cell whose dofs are turned (Unknowns::turned_nodes). */
-    struct Turn
-    {
-      unsigned int node; ///< of the cell
-      double       n_x, n_y;
-    };
-
-    /** Where there are any: those of cell c begin at first_turn[c]. */
-    std::vector<Turn>         turns;
-    std::vector<unsigned int> first_turn;
-
-    /** That of a node of a cell, or null. */
-    const Turn *
-    turn_of(const unsigned int c, const unsigned int node) const;
-
-    /** Velocities of a cell from components of the dofs to x and y. */
-    void
-    velocities_to_xy(const unsigned int c, double *cell_v) const;
-
-    /** Forces of a cell from x and y to components of the dofs. */
-    void
-    forces_to_dofs(const unsigned int c, double *cell_f) const;
-
-    /** The same for both sides of the matrix of a cell.
-     *  @param n_dofs its rows @param upper whether only those entries are set */
-    void
-    matrix_to_dofs(const unsigned int c,
-                   const unsigned int n_dofs,
-                   const bool         upper,
-                   double            *K) const;
+    TurnedDofs turned;
 
     /** Of H in the metric of scale(), for the present step, or empty. */
     Multipliers::Factors row_factors;

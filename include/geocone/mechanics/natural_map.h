@@ -58,6 +58,7 @@ namespace geocone
     const Materials                     &materials;
     const double                         rho;
     std::vector<std::optional<FlowCone>> cones;       ///< by material
+    std::vector<char>                    hardens;     ///< whether they do
     std::vector<Mandel>                  last_strain; ///< or empty
   };
 } // namespace geocone

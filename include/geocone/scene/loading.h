@@ -171,8 +171,8 @@ namespace geocone
        const Materials          &materials,
        const Regions            &regions) const;
 
-    /** Out-of-plane stress (Pa): as s_xx, unless it is given by a formula.
-     *  Laws in the plane have no use for it. */
+    /** Out-of-plane stress (Pa): as s_xx, unless it is given by a
+     *  formula. Laws in the plane only carry it along. */
     double
     zz_at(const dealii::Point<dim> &x, const Mandel &in_plane) const;
 

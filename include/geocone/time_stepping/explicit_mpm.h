@@ -266,9 +266,11 @@ namespace geocone
     void
     end_removal();
 
-    /** The plane-strain stress; s_zz as far as the law knows it. */
+    /** The plane-strain stress of a point with this history (Pa). */
     ConstitutiveLaw::Stress
-    stress_of(const PointArrays &group, const unsigned int p) const;
+    stress_of(const PointArrays &group,
+              const unsigned int p,
+              const double      *history) const;
 
     BlockPoints
     block(const unsigned int group, const unsigned int first);
