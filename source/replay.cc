@@ -98,17 +98,15 @@ namespace geocone
       folder.make();
       IncrementalProblem &problem = thawed.problem();
       newton.check(problem);
-      const auto linear_solver = make_linear_solver(
+      LinearSystem system(
         newton.linear_solver_name(), MPI_COMM_SELF, problem.is_symmetric());
       dealii::TimerOutput timer(
         std::cout, dealii::TimerOutput::never, dealii::TimerOutput::cpu_times);
       dealii::Timer clock;
-      SparseMatrix  matrix =
-        problem.make_pattern(linear_solver->wants_one_triangle());
-      linear_solver->analyse(matrix);
+      system.set_pattern(problem, timer);
       Vector             v = thawed.start(), residual = problem.make_vector();
       const SolverReport report =
-        newton.solve(problem, matrix, *linear_solver, timer, v, residual, {});
+        newton.solve(problem, system, timer, v, residual, {});
       const double  cpu     = clock.cpu_time();
       const Quality quality = problem.quality();
 

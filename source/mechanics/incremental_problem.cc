@@ -47,11 +47,11 @@ namespace geocone
                                  const Vector &v,
                                  const Vector &prescribed_velocity)
   {
-    h            = step;
-    friction_lag = 0.;
-    force        = external_force;
-    velocity_L   = v;
-    prescribed   = prescribed_velocity;
+    h          = step;
+    law        = LocalLaw();
+    force      = external_force;
+    velocity_L = v;
+    prescribed = prescribed_velocity;
     elastic_diagonal.reinit(0);
     row_factors = Multipliers::Factors();
     if (consistent_part > 0.)
@@ -143,7 +143,7 @@ namespace geocone
     increment.stress_n  = ArrayView<const Mandel>(&points.stress[run.begin], n);
     increment.history_n = points.history_of(run.begin);
     increment.n_history = points.n_history;
-    increment.friction_lag = friction_lag;
+    increment.friction_lag = law.friction_lag;
     return increment;
   }
 
@@ -169,8 +169,11 @@ namespace geocone
   }
 
   ResidualReport
-  IncrementalProblem::residual(Vector &dst, const Vector &v)
+  IncrementalProblem::residual(Vector         &dst,
+                               const Vector   &v,
+                               const LocalLaw &local_law)
   {
+    law = local_law;
     with_n_nodes(points.n_nodes, [&](const auto n_constant) {
       constexpr int n = n_constant;
       for (unsigned int c = 0; c < points.n_cells(); ++c)
@@ -184,8 +187,12 @@ namespace geocone
 
     previous_mode.swap(mode);
     NaturalMap::Error error;
-    if (by_natural_map)
-      error = by_natural_map->update(strain, stress, tangent, mode);
+    if (law.natural_map != nullptr)
+      {
+        error   = law.natural_map->update(strain, mode);
+        stress  = law.natural_map->stress();
+        tangent = law.natural_map->tangent();
+      }
     else
       update_materials(false);
 
@@ -267,7 +274,7 @@ namespace geocone
     report.n_cone     = sums[5];
     report.n_apex     = sums[6];
     report.n_switched = sums[7];
-    if (by_natural_map)
+    if (law.natural_map != nullptr)
       {
         const MPI_Comm comm  = layout->get_mpi_communicator();
         const double   scale = Utilities::MPI::max(error.stress_scale, comm);

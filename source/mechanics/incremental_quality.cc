@@ -45,7 +45,7 @@ namespace geocone
         ->hardened(z);
     };
     const auto solved_cone = [&](const unsigned int p, const FlowCone &exact) {
-      return exact.delayed(friction_lag, to_cone_axes(points.stress[p])[0]);
+      return exact.delayed(law.friction_lag, to_cone_axes(points.stress[p])[0]);
     };
     const auto has_cone = [&](const Run &run) {
       return materials[run.material]

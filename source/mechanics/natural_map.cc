@@ -7,12 +7,15 @@
 
 namespace geocone
 {
-  NaturalMap::NaturalMap(const MaterialPoints &points,
-                         const Materials      &materials,
-                         const double          rho)
+  NaturalMap::NaturalMap(const MaterialPoints      &points,
+                         const Materials           &materials,
+                         const double               rho,
+                         const std::vector<Mandel> &start)
     : points(points)
     , materials(materials)
     , rho(rho)
+    , iterate(start)
+    , slope(start.size())
   {
     for (unsigned int i = 0; i < materials.size(); ++i)
       {
@@ -23,10 +26,7 @@ namespace geocone
   }
 
   NaturalMap::Error
-  NaturalMap::update(const std::vector<Mandel> &strain,
-                     std::vector<Mandel>       &stress,
-                     std::vector<MandelMatrix> &tangent,
-                     std::vector<Mode>         &mode)
+  NaturalMap::update(const std::vector<Mandel> &strain, std::vector<Mode> &mode)
   {
     const bool moves = !last_strain.empty();
     Error      error;
@@ -42,9 +42,9 @@ namespace geocone
             cone     = &at_point;
           }
         const Elasticity &elasticity = materials[material].elasticity();
-        Mandel            s          = stress[p];
+        Mandel            s          = iterate[p];
         if (moves)
-          s += tangent[p] * (strain[p] - last_strain[p]);
+          s += slope[p] * (strain[p] - last_strain[p]);
 
         mode[p] = Mode::elastic;
         if (cone != nullptr)
@@ -79,15 +79,15 @@ namespace geocone
                 const MandelMatrix A =
                   MandelMatrix::Identity() - J + B * S.asDiagonal();
                 const auto factors = A.partialPivLu();
-                stress[p]  = from_cone_axes(Mandel(x - factors.solve(R)));
-                tangent[p] = from_cone_axes(MandelMatrix(factors.solve(B)));
+                iterate[p] = from_cone_axes(Mandel(x - factors.solve(R)));
+                slope[p]   = from_cone_axes(MandelMatrix(factors.solve(B)));
               }
           }
         if (mode[p] == Mode::elastic)
           {
             // J = I, where the linear law is solved at once.
-            stress[p]  = points.stress[p] + elasticity.stress(strain[p]);
-            tangent[p] = elasticity.stiffness();
+            iterate[p] = points.stress[p] + elasticity.stress(strain[p]);
+            slope[p]   = elasticity.stiffness();
           }
       }
     error.stress_scale += largest_k;

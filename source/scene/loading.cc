@@ -307,9 +307,8 @@ namespace geocone
                   "For 'given': formula in x, y (Pa, tension positive).");
     add_parameter("Stress yy", texts[1], "As Stress xx.");
     add_parameter("Stress xy", texts[2], "As Stress xx.");
-    add_parameter("Stress zz",
-                  text_zz,
-                  "For 'given': as Stress xx; empty: equal to it.");
+    add_parameter(
+      "Stress zz", text_zz, "For 'given': as Stress xx; empty: equal to it.");
     add_parameter("K0",
                   k0_text,
                   "For 'geostatic': horizontal over vertical stress (-), > 0, "

@@ -17,51 +17,6 @@ namespace geocone
      * that is taken for rounding.
      */
     constexpr double floor_factor = 0.5, largest_floor = 1e-6;
-
-    /**
-     * Solves [K -H'; H 0] (dv, dlambda) = (rhs, defect) for dv.
-     * @param[in,out] rhs owned rows in, dv out
-     */
-    void
-    solve_constrained(const Unknowns        &unknowns,
-                      LinearSolver          &linear_solver,
-                      const Eigen::VectorXd &defect,
-                      const MPI_Comm         comm,
-                      std::vector<double>   &rhs)
-    {
-      const Multipliers &rows = unknowns.multipliers;
-      const unsigned int m    = rows.n_rows();
-      if (m == 0)
-        {
-          linear_solver.solve(rhs);
-          return;
-        }
-      using Matrix          = Eigen::MatrixXd;
-      const std::size_t   n = rhs.size();
-      std::vector<double> columns(n * (m + 1), 0.);
-      std::copy(rhs.begin(), rhs.end(), columns.begin());
-      std::vector<int> places;
-      for (const unsigned int dof : rows.dofs())
-        places.push_back(unknowns.free_row[dof]);
-      for (unsigned int k = 0; k < m; ++k)
-        for (unsigned int j = 0; j < places.size(); ++j)
-          columns[n * (k + 1) + places[j]] = rows.coefficients()(k, j);
-      linear_solver.solve(columns, m + 1);
-
-      const Eigen::Map<const Matrix> solved(columns.data(), n, m + 1);
-      Matrix                         touched(places.size(), m + 1);
-      for (unsigned int j = 0; j < places.size(); ++j)
-        touched.row(j) = solved.row(places[j]);
-      Matrix products = rows.coefficients() * touched;
-      dealii::Utilities::MPI::sum(
-        dealii::ArrayView<const double>(products.data(), products.size()),
-        comm,
-        dealii::ArrayView<double>(products.data(), products.size()));
-      const Eigen::VectorXd change =
-        products.rightCols(m).partialPivLu().solve(defect - products.col(0));
-      Eigen::Map<Eigen::VectorXd>(rhs.data(), n) =
-        solved.col(0) + solved.rightCols(m) * change;
-    }
   } // namespace
 
   void
@@ -74,11 +29,11 @@ namespace geocone
   }
 
   ResidualReport
-  StepWorkspace::evaluate() const
+  StepWorkspace::evaluate(const LocalLaw &law) const
   {
     TimerOutput::Scope scope(timer, "residual");
     v.update_ghost_values();
-    return problem.residual(residual, v);
+    return problem.residual(residual, v, law);
   }
 
   void
@@ -143,13 +98,8 @@ namespace geocone
   bool
   StepWorkspace::factorise(const double elastic_blend) const
   {
-    {
-      TimerOutput::Scope scope(timer, "assemble");
-      problem.linearise(matrix, elastic_blend);
-    }
-    TimerOutput::Scope scope(timer, "factorise");
     ++report.factorisations;
-    return linear_solver.factorise(matrix);
+    return system.factorise(problem, elastic_blend, timer);
   }
 
   void
@@ -164,7 +114,7 @@ namespace geocone
         problem.apply_tangent(direction, *prescribed);
       }
     const Unknowns     &unknowns = problem.free_dofs();
-    std::vector<double> rhs(matrix.n_owned);
+    std::vector<double> rhs(system.n_owned_rows());
     for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
       if (unknowns.is_free(i))
         rhs[unknowns.free_row[i]] =
@@ -172,8 +122,7 @@ namespace geocone
           (prescribed != nullptr ? direction.local_element(i) : 0.);
     {
       TimerOutput::Scope scope(timer, "solve");
-      solve_constrained(
-        unknowns, linear_solver, defect, v.get_mpi_communicator(), rhs);
+      system.solve(unknowns, defect, rhs);
     }
     ++report.iterations;
     for (unsigned int i = 0; i < v.locally_owned_size(); ++i)

@@ -55,9 +55,10 @@ namespace geocone
         kinematics.velocity.local_element(dim * node + c) =
           scene->initial_velocity.at(space.node_positions()[node])[c];
 
-    linear_solver = make_linear_solver(newton.linear_solver_name(),
-                                       mesh.triangulation().get_communicator(),
-                                       scene->materials.symmetric());
+    system =
+      std::make_unique<LinearSystem>(newton.linear_solver_name(),
+                                     mesh.triangulation().get_communicator(),
+                                     scene->materials.symmetric());
     if (!inertia)
       constraints->check_support(mesh, space);
     loads = std::make_unique<Loads>(*scene, mesh, space);
@@ -73,9 +74,7 @@ namespace geocone
                                            space.partitioner(),
                                            inertia ? &lumped_mass : nullptr);
     newton.check(*problem);
-    matrix = problem->make_pattern(linear_solver->wants_one_triangle());
-    TimerOutput::Scope scope(timer, "analyse");
-    linear_solver->analyse(matrix);
+    system->set_pattern(*problem, timer);
     return "";
   }
 
@@ -142,8 +141,7 @@ namespace geocone
     StepReport report;
     Vector     residual = problem->make_vector();
     Vector     v        = velocity_n;
-    report.newton =
-      newton.solve(*problem, matrix, *linear_solver, timer, v, residual, {});
+    report.newton    = newton.solve(*problem, *system, timer, v, residual, {});
     report.converged = report.newton.converged;
     freezer.take(*problem, velocity_n, false, report.converged);
     if (!report.converged)

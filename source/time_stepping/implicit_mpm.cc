@@ -128,10 +128,11 @@ namespace geocone
     points = particles.collect(*mesh, *space);
     datum  = mesh->lower_corner();
 
-    constraints   = std::make_unique<Constraints>(*scene, *mesh, *space);
-    linear_solver = make_linear_solver(newton.linear_solver_name(),
-                                       mesh->triangulation().get_communicator(),
-                                       scene->materials.symmetric());
+    constraints = std::make_unique<Constraints>(*scene, *mesh, *space);
+    system =
+      std::make_unique<LinearSystem>(newton.linear_solver_name(),
+                                     mesh->triangulation().get_communicator(),
+                                     scene->materials.symmetric());
     force.reinit(space->partitioner());
     if (rule.is_affine())
       for (unsigned int p = 0; p < points.n_points(); ++p)
@@ -236,17 +237,7 @@ namespace geocone
               : 0.;
       velocity_L.update_ghost_values();
     }
-    {
-      TimerOutput::Scope scope(timer, "analyse");
-      SparseMatrix       next =
-        problem->make_pattern(linear_solver->wants_one_triangle());
-      const int changes = next.row_start != matrix.row_start ||
-                          next.column != matrix.column ||
-                          next.global_index != matrix.global_index;
-      matrix = std::move(next);
-      if (Utilities::MPI::max(changes, force.get_mpi_communicator()) > 0)
-        linear_solver->analyse(matrix);
-    }
+    system->set_pattern(*problem, timer);
     begun = true;
   }
 
@@ -356,13 +347,8 @@ namespace geocone
                                      : 0.;
         constraints->set_values(v, end);
         const Vector v_start = v;
-        SolverReport tried   = newton.solve(*problem,
-                                          matrix,
-                                          *linear_solver,
-                                          timer,
-                                          v,
-                                          residual,
-                                          {start == Start::particles});
+        SolverReport tried   = newton.solve(
+          *problem, *system, timer, v, residual, {start == Start::particles});
         tried.add_earlier(report.newton);
         report.newton = std::move(tried);
         freezer.take(*problem, v_start, true, report.newton.converged);

@@ -71,6 +71,17 @@ namespace geocone
     }
   };
 
+  /** Where residual() takes the stresses from. */
+  struct LocalLaw
+  {
+    /** The materials' closed-form return maps, with a part of the normal stress on
+     *  which strength depends from t_n (Increment::friction_lag). */
+    double friction_lag = 0.;
+
+    /** Or the iterate of the natural map, which moves with each residual(). */
+    NaturalMap *natural_map = nullptr;
+  };
+
   /**
    * One implicit step as a root-finding problem for the velocities v of the free
    * dofs (backward Euler):
@@ -79,11 +90,9 @@ namespace geocone
    * with prescribed velocities eliminated. The multipliers are functions of v:
    * those that leave the least residual in the metric of scale(), which at the
    * solution are the multipliers. The mass is M = (1 - c) diag(m) + c M_c, with
-   * M_c the sum of m_p N_p' N_p over the points. The stress is that of the
-   * materials (closed-form return maps), or that of the iterate of NaturalMap,
-   * which changes with each residual(). It knows points, weights, gradients and
+   * M_c the sum of m_p N_p' N_p over the points. It knows points, weights, gradients and
    * constraints, and never asks whether they are FEM or MPM. The state at t_n is
-   * const; trial states live here.
+   * const; trial states live here, and are those of the last residual().
    */
   class IncrementalProblem
   {
@@ -113,40 +122,19 @@ namespace geocone
                const Vector &prescribed);
 
     /**
-     * Takes a part of the normal stress on which strength depends from t_n
-     * (Increment::friction_lag), from the next residual() on.
-     */
-    void
-    set_friction_lag(const double lag)
-    {
-      friction_lag = lag;
-    }
-
-    /** Takes the stress from the materials, from the next residual() on. */
-    void
-    use_return_map()
-    {
-      by_natural_map.reset();
-    }
-
-    /**
-     * Takes the stress from NaturalMap, from the next residual() on.
-     * @param rho in units of 2G of each point
-     * @param start where the iteration for s starts (Pa)
-     */
-    void
-    use_natural_map(const double rho, const std::vector<Mandel> &start)
-    {
-      stress = start;
-      by_natural_map.emplace(points, materials, rho);
-    }
-
-    /**
-     * Evaluates trial states and R(v) in all rows; in prescribed rows it is the
-     * reaction. @p v needs its ghosts.
+     * Evaluates trial states and R(v) in all rows by a local law; in prescribed
+     * rows it is the reaction. @p v needs its ghosts.
      */
     ResidualReport
-    residual(Vector &dst, const Vector &v);
+    residual(Vector &dst, const Vector &v, const LocalLaw &law = {});
+
+    /** The law that linearises the complementarity problem itself at each
+     *  residual(). */
+    NaturalMap
+    make_natural_map(const double rho, const std::vector<Mandel> &start) const
+    {
+      return NaturalMap(points, materials, rho, start);
+    }
 
     /** Whether the Jacobian is symmetric positive definite. */
     bool
@@ -322,7 +310,7 @@ namespace geocone
     void
     update_tangents() const
     {
-      if (!by_natural_map)
+      if (law.natural_map == nullptr)
         update_materials(true);
     }
 
@@ -333,11 +321,11 @@ namespace geocone
     const Vector                                                    *mass;
     const double consistent_part;
 
-    double        h            = 0.;
-    double        friction_lag = 0.;
-    const Vector *force        = nullptr;
+    double        h     = 0.;
+    const Vector *force = nullptr;
     Vector        velocity_L;
     Vector        prescribed;
+    LocalLaw      law; ///< of the last residual()
 
     Vector          elastic_diagonal; ///< of the present h, or empty
     Eigen::VectorXd lambda;
@@ -357,8 +345,6 @@ namespace geocone
     add_forces_of_cell(const unsigned int    c,
                        const WeightedStress &weighted_stress,
                        double               *cell_f) const;
-
-    std::optional<NaturalMap> by_natural_map; ///< or nothing: the return map
 
     std::vector<Mandel>               strain;
     mutable std::vector<Mandel>       stress;

@@ -28,10 +28,14 @@ namespace geocone
   class NaturalMap
   {
   public:
-    /** @param rho in units of 2G of each point */
-    NaturalMap(const MaterialPoints &points,
-               const Materials      &materials,
-               const double          rho);
+    /**
+     * @param rho in units of 2G of each point
+     * @param start where the iteration for s starts, by point (Pa)
+     */
+    NaturalMap(const MaterialPoints      &points,
+               const Materials           &materials,
+               const double               rho,
+               const std::vector<Mandel> &start);
 
     /** |R| of the worst point and the stress to compare it with (Pa). */
     struct Error
@@ -41,24 +45,35 @@ namespace geocone
     };
 
     /**
-     * Moves s with the strain increments e, and linearises there.
-     * @param[in,out] stress in: s - A^-1 R of the last call with its tangent, or
-     * the start of s where there was none; out: that of this call (Pa)
-     * @param[in,out] tangent T, in the same way (Pa)
+     * Moves s with the strain increments e since the last call, and linearises
+     * there.
      * @param[out] mode where s - rho Psi(z) lies: in C, beside it, or at its tip
      */
     Error
-    update(const std::vector<Mandel> &strain,
-           std::vector<Mandel>       &stress,
-           std::vector<MandelMatrix> &tangent,
-           std::vector<Mode>         &mode);
+    update(const std::vector<Mandel> &strain, std::vector<Mode> &mode);
+
+    /** s - A^-1 R of the last update(), by point (Pa); before it the start. */
+    const std::vector<Mandel> &
+    stress() const
+    {
+      return iterate;
+    }
+
+    /** T of the last update(), by point (Pa). */
+    const std::vector<MandelMatrix> &
+    tangent() const
+    {
+      return slope;
+    }
 
   private:
     const MaterialPoints                &points;
     const Materials                     &materials;
     const double                         rho;
-    std::vector<std::optional<FlowCone>> cones;       ///< by material
-    std::vector<char>                    hardens;     ///< whether they do
+    std::vector<std::optional<FlowCone>> cones;   ///< by material
+    std::vector<char>                    hardens; ///< whether they do
+    std::vector<Mandel>                  iterate;
+    std::vector<MandelMatrix>            slope;
     std::vector<Mandel>                  last_strain; ///< or empty
   };
 } // namespace geocone

@@ -4,6 +4,7 @@
 #ifndef geocone_solvers_nonsmooth_newton_h
 #define geocone_solvers_nonsmooth_newton_h
 
+#include <geocone/base/choice.h>
 #include <geocone/mechanics/reduced_problem.h>
 #include <geocone/solvers/reduced_report.h>
 #include <geocone/solvers/step_workspace.h>
@@ -15,27 +16,9 @@
 namespace geocone
 {
   /**
-   * Semismooth Newton method for R(v) = 0 with the generalised Jacobian of the
-   * closed-form return map (the natural map in the elastic metric, with (s, z)
-   * eliminated point by point). The change of the prescribed velocities and the
-   * defect of the constraints H v = q enter the first linear system, whose step
-   * is full. With multipliers the Schur complement H K^-1 H' is formed by as many
-   * more right-hand sides as there are rows. Convergence: |R_free| <=
-   * max(tolerance x greatest norm of a part of R, absolute).
-   *
-   * Globalisation, by name:
-   *  - line search: that of line_search.h, along each Newton direction;
-   *  - elastic blend: full steps with the tangent (1 - w) C + w D, where
-   *    w = min(1/2, c |R_free| / |B'V s|) vanishes with the residual; c = 0.3 with
-   *    the return map, 0.05 with the natural map;
-   *  - merit search: steps are halved until the merit sum R_i^2 / D_i falls, D
-   *    the diagonal of the elastic Jacobian; where that stalls the tangent is
-   *    blended, w = max(0.02, 3 w), until it works again;
-   *  - lag continuation: friction that lags is easy (its law is nearer to
-   *    associated flow, and explicit at lag 1), so that the exact law is reached
-   *    on a path of solutions whose lag falls from 1/2 to 0; each is the start
-   *    of the next, with the line search;
-   *  - none: full Newton steps.
+   * The nonsmooth solver of a step: which formulation, globalisation and law are
+   * tried, and in which order. NewtonLoop is the iteration, Globalisation and
+   * LagContinuation make it converge from afar.
    * Formulation and globalisation automatic: for theta >= phi/2 the return map
    * with the line search. Otherwise, and where that fails, the natural map with
    * the elastic blend: the stress is an unknown that obeys the law at the end
@@ -78,8 +61,7 @@ namespace geocone
      */
     SolverReport
     solve(IncrementalProblem  &problem,
-          SparseMatrix        &matrix,
-          LinearSolver        &linear_solver,
+          LinearSystem        &system,
           dealii::TimerOutput &timer,
           Vector              &v,
           Vector              &residual,
@@ -102,57 +84,55 @@ namespace geocone
     }
 
   private:
-    enum class Globalisation
+    enum class Formulation
     {
+      automatic,
+      return_map,
+      natural_map,
+      reduced,
+      reduced_with_multipliers,
+      gauss_seidel
+    };
+    Choice<Formulation> formulation = {
+      {{"automatic", Formulation::automatic},
+       {"return map", Formulation::return_map},
+       {"natural map", Formulation::natural_map},
+       {"reduced", Formulation::reduced},
+       {"reduced with multipliers", Formulation::reduced_with_multipliers},
+       {"Gauss-Seidel", Formulation::gauss_seidel}}};
+
+    enum class Method
+    {
+      automatic,
       line_search,
       elastic_blend,
       merit_search,
+      lag_continuation,
       none
     };
+    Choice<Method> globalisation = {
+      {{"automatic", Method::automatic},
+       {"line search", Method::line_search},
+       {"elastic blend", Method::elastic_blend},
+       {"merit search", Method::merit_search},
+       {"lag continuation", Method::lag_continuation},
+       {"none", Method::none}}};
 
-    /** A Newton iteration with one globalisation at one lag. */
-    struct Attempt
+    enum class FirstIterate
     {
-      Globalisation globalisation = Globalisation::line_search;
-      double        tolerance     = 0.; ///< relative
-      double        friction_lag  = 0.;
-      unsigned int  allowed       = 0; ///< iterations, more where it converges
-      bool          elastic_first = false;
-      bool          moves         = false; ///< solves once at least
-
-      /** Start of s for the natural map (Pa), or null: the return map. */
-      const std::vector<Mandel> *natural_map_start = nullptr;
+      none,
+      fixed_point,
+      gauss_seidel
     };
-
-    /** Whether the stresses alone are the unknowns. */
-    bool
-    is_reduced() const;
-
-    /** Runs an attempt from v; what it spends is added to the report. */
-    void
-    run(const Attempt &attempt, const StepWorkspace &work) const;
-
-    /** Follows the solutions from `lag` down to 0, or as far as it gets. */
-    void
-    continue_to_exact_law(const double         lag,
-                          const unsigned int   allowed,
-                          const Hints         &hints,
-                          const StepWorkspace &work) const;
-
-    /** Solves the law with one lag, from friction that is explicit if need be. */
-    void
-    solve_delayed(const double         lag,
-                  const double         tolerance,
-                  const Hints         &hints,
-                  const StepWorkspace &work) const;
+    Choice<FirstIterate> first_iterate = {
+      {{"none", FirstIterate::none},
+       {"fixed point", FirstIterate::fixed_point},
+       {"Gauss-Seidel", FirstIterate::gauss_seidel}}};
 
     double       relative_tolerance   = 1e-10;
     double       absolute_tolerance   = 1e-12;
     unsigned int max_iterations       = 0;
-    std::string  globalisation        = "automatic";
-    std::string  formulation          = "automatic";
     double       rho                  = 0.03;
-    std::string  first_iterate        = "none";
     unsigned int first_iterate_sweeps = 10;
 
     /** Has a section of its own. */
@@ -167,10 +147,43 @@ namespace geocone
     struct Friction : dealii::ParameterAcceptor
     {
       Friction();
-      std::string kind = "automatic";
-      double      lag  = 0.5;
+      enum class Kind
+      {
+        automatic,
+        exact,
+        delayed
+      };
+      Choice<Kind> kind = {{{"automatic", Kind::automatic},
+                            {"exact", Kind::exact},
+                            {"delayed", Kind::delayed}}};
+      double       lag  = 0.5;
     };
     Friction friction;
+
+    /** Whether the stresses alone are the unknowns. */
+    bool
+    is_reduced() const;
+
+    /** The iterations that are allowed, unless the file says so. */
+    unsigned int
+    allowed(const unsigned int automatic) const
+    {
+      return max_iterations > 0 ? max_iterations : automatic;
+    }
+
+    /** Solves for the stresses alone. */
+    void
+    solve_for_stresses(const StepWorkspace &work) const;
+
+    /** A try at the exact law from the iterate, by one globalisation.
+     *  @param natural_map_start start of s for the natural map (Pa), or null: the
+     *  return map */
+    void
+    attempt(const Method               method,
+            const std::vector<Mandel> *natural_map_start,
+            const unsigned int         automatic,
+            const bool                 elastic_first,
+            const StepWorkspace       &work) const;
   };
 } // namespace geocone
 

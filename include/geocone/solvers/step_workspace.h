@@ -5,7 +5,7 @@
 #define geocone_solvers_step_workspace_h
 
 #include <geocone/mechanics/incremental_problem.h>
-#include <geocone/solvers/linear_solver.h>
+#include <geocone/solvers/linear_system.h>
 #include <geocone/solvers/solver_report.h>
 
 #include <deal.II/base/timer.h>
@@ -16,8 +16,7 @@ namespace geocone
   struct StepWorkspace
   {
     IncrementalProblem  &problem;
-    SparseMatrix        &matrix;
-    LinearSolver        &linear_solver;
+    LinearSystem        &system;
     dealii::TimerOutput &timer;
     Vector              &v;        ///< the iterate
     Vector              &residual; ///< R(v)
@@ -25,7 +24,7 @@ namespace geocone
 
     /** R(v) at the iterate. */
     ResidualReport
-    evaluate() const;
+    evaluate(const LocalLaw &law = {}) const;
 
     /**
      * A line of the table for a state.
@@ -73,7 +72,7 @@ namespace geocone
 
     /**
      * Solves [K -H'; H 0] (dv, dlambda) = (-R - K jump, defect) with the last
-     * factorisation, by the Schur complement H K^-1 H'.
+     * factorisation.
      * @param prescribed the jump of the prescribed velocities, or null for none
      * @param[out] direction dv in all rows
      */

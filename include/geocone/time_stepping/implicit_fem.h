@@ -62,13 +62,13 @@ namespace geocone
     std::string
     linear_solver_name() const override
     {
-      return linear_solver->name();
+      return system->solver_name();
     }
 
     std::size_t
     n_nonzeros() const override
     {
-      return matrix.column.size();
+      return system->n_nonzeros();
     }
 
   private:
@@ -82,8 +82,7 @@ namespace geocone
     std::unique_ptr<Constraints>        constraints;
     std::unique_ptr<Loads>              loads;
     std::unique_ptr<IncrementalProblem> problem;
-    std::unique_ptr<LinearSolver>       linear_solver;
-    SparseMatrix                        matrix;
+    std::unique_ptr<LinearSystem>       system;
     Vector                              lumped_mass;
     Vector                              weight_per_g;
     Vector                              force;

@@ -75,13 +75,13 @@ namespace geocone
     std::string
     linear_solver_name() const override
     {
-      return linear_solver->name();
+      return system->solver_name();
     }
 
     std::size_t
     n_nonzeros() const override
     {
-      return matrix.column.size();
+      return system->n_nonzeros();
     }
 
     unsigned int
@@ -177,8 +177,7 @@ namespace geocone
     std::unique_ptr<MovingConditions>   moving;
     std::unique_ptr<Constraints>        constraints;
     std::unique_ptr<IncrementalProblem> problem;
-    std::unique_ptr<LinearSolver>       linear_solver;
-    SparseMatrix                        matrix;
+    std::unique_ptr<LinearSystem>       system;
     bool                                begun = false;
     Vector                              lumped_mass;
     Vector                              velocity_L;

@@ -1,0 +1,86 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_base_choice_h
+#define geocone_base_choice_h
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * A parameter that is one of some words, each for a value of an enumeration.
+   * The list of the words begins its documentation, and another word is refused.
+   */
+  template <typename Enum>
+  class Choice
+  {
+  public:
+    using Words = std::vector<std::pair<const char *, Enum>>;
+
+    /** @param words the first one is the default */
+    Choice(const Words &words)
+      : words(words)
+      , value(words.front().second)
+    {}
+
+    operator Enum() const
+    {
+      return value;
+    }
+
+    Choice &
+    operator=(const Enum other)
+    {
+      value = other;
+      return *this;
+    }
+
+    /** What the file calls it. */
+    std::string
+    word() const
+    {
+      for (const auto &[word, meant] : words)
+        if (meant == value)
+          return word;
+      return "";
+    }
+
+    /** Declares it in the section of an acceptor. */
+    void
+    declare(dealii::ParameterAcceptor &acceptor,
+            const std::string         &entry,
+            const std::string         &documentation)
+    {
+      std::string selection, list;
+      for (const auto &[word, meant] : words)
+        {
+          (void)meant;
+          selection += (selection.empty() ? "" : "|") + std::string(word);
+          list += (list.empty() ? "" : " | ") + std::string(word);
+        }
+      dealii::ParameterHandler &prm = dealii::ParameterAcceptor::prm;
+      acceptor.enter_my_subsection(prm);
+      prm.declare_entry(entry,
+                        word(),
+                        dealii::Patterns::Selection(selection),
+                        list + documentation);
+      prm.add_action(entry, [this](const std::string &given) {
+        for (const auto &[word, meant] : words)
+          if (given == word)
+            value = meant;
+      });
+      acceptor.leave_my_subsection(prm);
+    }
+
+  private:
+    Words words;
+    Enum  value;
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,85 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_solvers_linear_system_h
+#define geocone_solvers_linear_system_h
+
+#include <geocone/mechanics/incremental_problem.h>
+#include <geocone/solvers/linear_solver.h>
+
+#include <deal.II/base/timer.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * The linear systems of Newton's method,
+   *   [K -H'; H 0] (dv, dlambda) = (r, q),   K = dR/dv on the free dofs:
+   * their matrix, its factors, and the solver that makes them. With rows H they
+   * are solved by the Schur complement H K^-1 H', which takes as many more
+   * right-hand sides as there are rows.
+   */
+  class LinearSystem
+  {
+  public:
+    /** @param solver_name as make_linear_solver() takes it */
+    LinearSystem(const std::string &solver_name,
+                 const MPI_Comm     comm,
+                 const bool         symmetric);
+
+    /** Takes the pattern of a problem's Jacobian, and orders the unknowns anew if
+     *  it is another one than before. Collective. */
+    void
+    set_pattern(IncrementalProblem &problem, dealii::TimerOutput &timer);
+
+    /**
+     * Assembles and factorises dR/dv at the last residual(), with an elastic
+     * blend.
+     * @return whether it is regular; the same on all ranks
+     */
+    [[nodiscard]] bool
+    factorise(const IncrementalProblem &problem,
+              const double              elastic_blend,
+              dealii::TimerOutput      &timer);
+
+    /**
+     * Solves with the last factors.
+     * @param defect q
+     * @param[in,out] x owned free rows: r in, dv out
+     */
+    void
+    solve(const Unknowns        &unknowns,
+          const Eigen::VectorXd &defect,
+          std::vector<double>   &x);
+
+    int
+    n_owned_rows() const
+    {
+      return matrix.n_owned;
+    }
+
+    /** Entries that are stored on this rank. */
+    std::size_t
+    n_nonzeros() const
+    {
+      return matrix.column.size();
+    }
+
+    std::string
+    solver_name() const
+    {
+      return solver->name();
+    }
+
+  private:
+    std::unique_ptr<LinearSolver> solver;
+    MPI_Comm                      comm;
+    SparseMatrix                  matrix;
+    bool                          has_pattern = false;
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,49 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_solvers_newton_loop_h
+#define geocone_solvers_newton_loop_h
+
+#include <geocone/solvers/globalisation.h>
+
+namespace geocone
+{
+  /**
+   * The semismooth Newton iteration for R(v) = 0 by one local law, with the
+   * generalised Jacobian of that law. The change of the prescribed velocities and
+   * the defect of the constraints H v = q enter the first linear system, whose
+   * step is full. Convergence: |R_free| <= max(tolerance x greatest norm of a part
+   * of R, absolute), or StepWorkspace::is_balanced() up to rounding.
+   */
+  struct NewtonLoop
+  {
+    /**
+     * Relative residual at which an iterate is near enough to a solution to go on
+     * from: with another law, or beyond the iterations that were allowed.
+     */
+    static constexpr double near = 1e-3;
+
+    LocalLaw     law;
+    double       tolerance          = 1e-10; ///< relative
+    double       absolute_tolerance = 1e-12; ///< (N/m)
+    unsigned int allowed            = 60;    ///< iterations; twice if near
+    bool         elastic_first      = false; ///< takes D as the first tangent
+    bool         moves              = false; ///< solves once at least
+
+    /** Runs from the iterate; what it spends is added to the report. */
+    void
+    run(Globalisation &globalisation, const StepWorkspace &work) const;
+
+  private:
+    /** Factorises with a blend, or with as little more as makes it regular.
+     *  @return the blend, or nothing if it stays singular */
+    static std::optional<double>
+    factorise(const double wanted, const StepWorkspace &work);
+
+    /** Says in the report why no more iterations are made. */
+    static void
+    give_up(const ResidualReport &state, SolverReport &report);
+  };
+} // namespace geocone
+
+#endif
