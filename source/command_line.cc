@@ -136,6 +136,67 @@ namespace geocone
     return options;
   }
 
+  namespace
+  {
+    /** What the exception that is being handled says. */
+    std::string
+    text_of_present_error()
+    {
+      try
+        {
+          throw;
+        }
+      catch (const std::bad_alloc &)
+        {
+          return "out of memory\n  remedy:  'geocone --dry-run FILE.prm' tells "
+                 "how large a run is and by which parameter";
+        }
+      catch (const std::exception &error)
+        {
+          return error.what();
+        }
+      catch (...)
+        {
+          return "of a kind that is not known\n  remedy:  tell the authors, "
+                 "with the parameter file";
+        }
+    }
+
+    /** Whether all ranks have found it together. */
+    bool
+    present_error_is_of_all_ranks()
+    {
+      try
+        {
+          throw;
+        }
+      catch (const InputError &)
+        {
+          return true;
+        }
+      catch (const StepFailure &)
+        {
+          return true;
+        }
+      catch (const Stopped &)
+        {
+          return true;
+        }
+      catch (...)
+        {
+          return false;
+        }
+    }
+  } // namespace
+
+  void
+  end_if_alone()
+  {
+    if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1 &&
+        !present_error_is_of_all_ranks())
+      end_all_ranks(text_of_present_error());
+  }
+
   int
   run_program(int argc, char **argv, const std::function<int(Drawing &)> &run)
   {
@@ -145,33 +206,11 @@ namespace geocone
     {
       dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
       watch_for_signals();
-      const bool several =
-        dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1;
       const bool first =
         dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-      const auto say = [](const std::string &what) {
-        std::cerr << "error: " << what << std::endl;
-      };
-      // All ranks find the first three together, and end without waiting for
-      // each other; of the others each is one rank's own.
-      const auto end_alone = [&](const std::string &what) {
-        say(what);
-        if (several)
-          MPI_Abort(MPI_COMM_WORLD, 1);
-      };
       try
         {
           status = run(drawing);
-        }
-      catch (const InputError &error)
-        {
-          if (first)
-            say(error.what());
-        }
-      catch (const StepFailure &error)
-        {
-          if (first)
-            say(error.what());
         }
       catch (const Stopped &stopped)
         {
@@ -179,19 +218,11 @@ namespace geocone
             std::cerr << stopped.what() << std::endl;
           status = 128 + stopped.signal;
         }
-      catch (const std::bad_alloc &)
-        {
-          end_alone("out of memory\n  remedy:  'geocone --dry-run FILE.prm' "
-                    "tells how large a run is and by which parameter");
-        }
-      catch (const std::exception &error)
-        {
-          end_alone(error.what());
-        }
       catch (...)
         {
-          end_alone("of a kind that is not known\n  remedy:  tell the authors, "
-                    "with the parameter file");
+          end_if_alone();
+          if (first)
+            say_error(text_of_present_error());
         }
     }
     if (!drawing.folder.empty())

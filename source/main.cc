@@ -200,8 +200,17 @@ namespace
         !unused.empty() && !resumes)
       log.warn(unused);
     Simulation &simulation = methods.chosen();
-    const bool  ok         = simulation.run(options);
-    OutputBase &output     = simulation.output();
+    bool        ok         = false;
+    try
+      {
+        ok = simulation.run(options);
+      }
+    catch (...)
+      {
+        end_if_alone();
+        throw;
+      }
+    OutputBase &output = simulation.output();
     if (first && !call.dry_run && output.wants_pictures())
       drawing = {output.folder(), call.quiet};
     return ok ? 0 : 1;

@@ -32,11 +32,8 @@ namespace geocone
         : dealii::ParameterAcceptor("/Output")
         , path(path)
       {
-        add_choice(*this,
-                   "If folder exists",
-                   if_exists,
-                   if_exists_choices,
-                   "What to do if it is not empty.");
+        if_exists.declare(
+          *this, "If folder exists", ". What to do if it is not empty.");
       }
 
       /** Makes it, if there is to be one. @throws InputError */
@@ -44,14 +41,13 @@ namespace geocone
       make()
       {
         if (!path.empty())
-          path =
-            make_run_folder(MPI_COMM_SELF, path, if_exists_of(if_exists, true));
+          path = make_run_folder(MPI_COMM_SELF, path, true, if_exists);
       }
 
       std::string path; ///< empty: nowhere
 
     private:
-      std::string if_exists = "automatic";
+      Choice<IfExists> if_exists = if_exists_choice();
     };
 
     /** Also what the file lacks is said with a remedy. */
@@ -108,7 +104,7 @@ namespace geocone
       const SolverReport report =
         newton.solve(problem, system, timer, v, residual, {});
       const double  cpu     = clock.cpu_time();
-      const Quality quality = problem.quality();
+      const Quality quality = problem.internal_forces().quality();
 
       Outcome outcome;
       outcome.summary = {
@@ -126,7 +122,7 @@ namespace geocone
         {"cone_excess_Pa", quality.cone_excess},
         {"reason", report.reason},
         {"cpu_s", cpu}};
-      outcome.stress = problem.trial_stress();
+      outcome.stress = problem.internal_forces().trial_stress();
       return outcome;
     }
 

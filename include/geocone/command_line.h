@@ -62,6 +62,13 @@ namespace geocone
    */
   int
   run_program(int argc, char **argv, const std::function<int(Drawing &)> &run);
+
+  /**
+   * Ends all ranks if the exception that is being handled is this rank's own. To
+   * be called before what is distributed is destroyed, which waits for all ranks.
+   */
+  void
+  end_if_alone();
 } // namespace geocone
 
 #endif

@@ -136,26 +136,6 @@ namespace geocone
     return names;
   }
 
-  void
-  add_choice(ParameterAcceptor              &acceptor,
-             const std::string              &entry,
-             std::string                    &value,
-             const std::vector<std::string> &choices,
-             const std::string              &documentation)
-  {
-    std::string selection, list;
-    for (const std::string &choice : choices)
-      {
-        selection += (selection.empty() ? "" : "|") + choice;
-        list += (list.empty() ? "" : " | ") + choice;
-      }
-    acceptor.add_parameter(entry,
-                           value,
-                           list + ". " + documentation,
-                           ParameterAcceptor::prm,
-                           dealii::Patterns::Selection(selection));
-  }
-
   std::string
   ParameterFile::Line::place() const
   {

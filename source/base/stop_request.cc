@@ -4,6 +4,8 @@
 #include <geocone/base/stop_request.h>
 
 #include <csignal>
+#include <cstdlib>
+#include <iostream>
 #include <string>
 
 namespace geocone
@@ -68,5 +70,19 @@ namespace geocone
   {
     if (const int signal = stop_request(comm))
       throw Stopped(signal);
+  }
+
+  void
+  say_error(const std::string &what)
+  {
+    std::cerr << "error: " << what << std::endl;
+  }
+
+  void
+  end_all_ranks(const std::string &what)
+  {
+    say_error(what);
+    MPI_Abort(MPI_COMM_WORLD, 1);
+    std::abort(); // not reached
   }
 } // namespace geocone

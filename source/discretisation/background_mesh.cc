@@ -47,10 +47,10 @@ namespace geocone
     : ParameterAcceptor("/Mesh")
     , comm(comm)
   {
-    add_parameter("Triangulation",
-                  kind,
-                  "automatic | distributed (p4est, quadrilaterals only) | "
-                  "shared (every rank stores the whole mesh).");
+    storage.declare(*this,
+                    "Triangulation",
+                    ". Distributed: p4est, quadrilaterals only. Shared: every "
+                    "rank stores the whole mesh.");
   }
 
   std::array<std::vector<double>, dim>
@@ -58,7 +58,8 @@ namespace geocone
   {
     parameters.prepare(scene.geometry, method);
     if (scene.geometry.shape == Geometry::Shape::file ||
-        parameters.type != "uniform" || parameters.cells != "quadrilaterals")
+        parameters.type != MeshParameters::Type::uniform ||
+        parameters.cells != MeshParameters::Cells::quadrilaterals)
       return {};
     return grid_lines(parameters);
   }
@@ -77,15 +78,18 @@ namespace geocone
         const double n = error ? 1. : std::max(1., size / 80.);
         return {n, {{n, 1.}}, 1., !method.is_mpm(), false, "Geometry/File"};
       }
-    const bool is_box      = parameters.type != "unstructured";
-    expected.is_simplicial = parameters.cells == "triangles";
-    expected.is_grid       = is_box && !expected.is_simplicial;
+    const bool is_box = parameters.type != MeshParameters::Type::unstructured;
+    expected.is_simplicial =
+      parameters.cells == MeshParameters::Cells::triangles;
+    expected.is_grid = is_box && !expected.is_simplicial;
     if (is_box)
       {
         expected.intervals = grid_size(parameters);
         expected.n_cells   = expected.intervals[0] * expected.intervals[1];
         if (expected.is_simplicial)
-          expected.n_cells *= parameters.diagonals == "crossed" ? 4. : 2.;
+          expected.n_cells *=
+            parameters.diagonals == MeshParameters::Diagonals::crossed ? 4.
+                                                                       : 2.;
       }
     else
       {
@@ -102,8 +106,9 @@ namespace geocone
       }
     expected.area = std::abs(expected.area);
     expected.parameter =
-      parameters.type == "graded" || (parameters.type == "unstructured" &&
-                                      !parameters.grading_points.empty())
+      parameters.type == MeshParameters::Type::graded ||
+          (parameters.type == MeshParameters::Type::unstructured &&
+           !parameters.grading_points.empty())
         ? "Mesh/Smallest size"
         : "Mesh/Cell size";
     return expected;
@@ -120,7 +125,7 @@ namespace geocone
       mesh = mesh_of_file(geometry, scene.regions, comm);
     else
       {
-        mesh = parameters.type == "unstructured"
+        mesh = parameters.type == MeshParameters::Type::unstructured
                  ? unstructured_mesh(parameters, scene.regions, comm)
                  : structured_mesh(parameters);
         for (auto &cell : mesh.cells)
@@ -159,27 +164,22 @@ namespace geocone
       throw InputError("there are more ranks (" + std::to_string(n_ranks) +
                        ") than cells (" + std::to_string(mesh.cells.size()) +
                        ")\n  remedy:  call mpirun with fewer ranks");
-    if (kind == "automatic")
-      kind = simplicial ? "shared" : "distributed";
-    if (kind == "distributed" && simplicial)
+    if (storage == Storage::automatic)
+      storage = simplicial ? Storage::shared : Storage::distributed;
+    if (storage == Storage::distributed && simplicial)
       throw InputError("Mesh/Triangulation",
-                       kind,
+                       storage.word(),
                        "automatic | shared for triangles: p4est knows only "
                        "quadrilaterals, on 1 rank or more",
                        "set Mesh/Triangulation = automatic");
-    if (kind == "distributed")
+    if (storage == Storage::distributed)
       tria = std::make_unique<parallel::distributed::Triangulation<dim>>(comm);
-    else if (kind == "shared")
+    else
       tria = std::make_unique<parallel::shared::Triangulation<dim>>(
         comm,
         Triangulation<dim>::none,
         true,
         parallel::shared::Triangulation<dim>::Settings::partition_metis);
-    else
-      throw InputError("Mesh/Triangulation",
-                       kind,
-                       "automatic | distributed | shared",
-                       "choose one of them");
     tria->create_triangulation(mesh.points, mesh.cells, mesh.boundary);
 
     if (simplicial)

@@ -64,24 +64,24 @@ namespace geocone
   MeshParameters::MeshParameters()
     : dealii::ParameterAcceptor("/Mesh")
   {
-    add_parameter("Type",
-                  type,
-                  "uniform | graded (both for boxes) | unstructured (by gmsh). "
-                  "Not used where the domain is a .msh file.");
+    type.declare(*this,
+                 "Type",
+                 ". The first two are for boxes, the last one is made by gmsh. "
+                 "Not used where the domain is a .msh file.");
     add_parameter("Box",
                   box,
                   "MPM: lower left and upper right corner x, y; x, y (m) of "
                   "the background mesh; empty: the smallest box around the "
                   "body. Leave room for what moves out of it.");
-    add_parameter("Cells",
-                  cells,
-                  "triangles | quadrilaterals | automatic: triangles for FEM, "
-                  "quadrilaterals for MPM.");
-    add_parameter("Diagonals",
-                  diagonals,
-                  "How the rectangles of a uniform or graded mesh are cut into "
-                  "triangles: alternating | parallel (two triangles) | crossed "
-                  "(four).");
+    cells.declare(*this,
+                  "Cells",
+                  ". Automatic: triangles for FEM, quadrilaterals for MPM.");
+    diagonals.declare(
+      *this,
+      "Diagonals",
+      ": how the rectangles of a uniform or graded mesh are cut into "
+      "triangles, two by alternating or parallel diagonals, four by crossed "
+      "ones.");
     add_parameter("Cell size",
                   cell_size,
                   "Side of the squares of a uniform mesh (m); it is rounded to "
@@ -143,12 +143,8 @@ namespace geocone
       if (!(value > 0.))
         throw InputError("Mesh/" + entry, value, "> 0", "give it in m");
     };
-    check_choice("Mesh/Type", type, {"uniform", "graded", "unstructured"});
-    if (cells == "automatic")
-      cells = method.is_mpm() ? "quadrilaterals" : "triangles";
-    check_choice("Mesh/Cells", cells, {"triangles", "quadrilaterals"});
-    check_choice(
-      "Mesh/Diagonals", diagonals, {"alternating", "parallel", "crossed"});
+    if (cells == Cells::automatic)
+      cells = method.is_mpm() ? Cells::quadrilaterals : Cells::triangles;
     positive("Cell size", cell_size);
     positive("Smallest size", smallest);
     positive("Largest size", largest);
@@ -158,7 +154,7 @@ namespace geocone
                        largest,
                        ">= the smallest size",
                        "exchange the two");
-    if (type == "graded" && !(growth > 1.))
+    if (type == Type::graded && !(growth > 1.))
       throw InputError("Mesh/Growth factor",
                        growth,
                        "> 1",
@@ -170,22 +166,22 @@ namespace geocone
                        "set Discretisation/Method = MPM, or mesh the discs "
                        "with gmsh");
     if (method.is_mpm() &&
-        (type == "unstructured" || cells != "quadrilaterals") &&
+        (type == Type::unstructured || cells != Cells::quadrilaterals) &&
         geometry.shape != Geometry::Shape::file)
-      throw InputError(type == "unstructured" ? "Mesh/Type" : "Mesh/Cells",
-                       type == "unstructured" ? type : cells,
+      throw InputError(type == Type::unstructured ? "Mesh/Type" : "Mesh/Cells",
+                       type == Type::unstructured ? type.word() : cells.word(),
                        "uniform | graded quadrilaterals with MPM",
                        "particles move through a box of quadrilaterals: set "
                        "Mesh/Type = uniform, Mesh/Cells = automatic");
     if (geometry.shape != Geometry::Shape::file)
       choose_outline(geometry, method);
-    if (type != "unstructured" && !method.is_mpm() &&
+    if (type != Type::unstructured && !method.is_mpm() &&
         geometry.shape == Geometry::Shape::polygon)
       throw InputError("Mesh/Type",
-                       type,
+                       type.word(),
                        "unstructured, where the domain is a polygon",
                        "set Mesh/Type = unstructured");
-    if (type == "graded" && grading_points.empty())
+    if (type == Type::graded && grading_points.empty())
       throw InputError("Mesh/Grading points",
                        "",
                        "one or more points for a graded mesh",
@@ -212,9 +208,9 @@ namespace geocone
   void
   MeshParameters::check_sizes() const
   {
-    const double      resolved   = resolved_length(outline);
-    const bool        by_grading = type == "graded" || !grading_points.empty();
-    const bool        uniform    = type == "uniform" || !by_grading;
+    const double resolved   = resolved_length(outline);
+    const bool   by_grading = type == Type::graded || !grading_points.empty();
+    const bool   uniform    = type == Type::uniform || !by_grading;
     const std::string entry = uniform ? "Mesh/Cell size" : "Mesh/Smallest size";
     const double      size  = uniform ? cell_size : smallest;
     if (size < resolved)
@@ -225,15 +221,15 @@ namespace geocone
         "take larger cells, or put the origin nearer to the "
         "body: double precision resolves no smaller cells there");
     double n_cells;
-    if (type == "unstructured")
+    if (type == Type::unstructured)
       n_cells = unstructured_size(*this);
     else
       {
         const std::array<double, dim> n = grid_size(*this);
         n_cells                         = n[0] * n[1] *
-                  (cells == "quadrilaterals" ? 1.
-                   : diagonals == "crossed"  ? 4.
-                                             : 2.);
+                  (cells == Cells::quadrilaterals    ? 1.
+                   : diagonals == Diagonals::crossed ? 4.
+                                                     : 2.);
       }
     if (!(n_cells <= most_cells))
       throw InputError(entry,
@@ -244,7 +240,7 @@ namespace geocone
                               n_cells),
                        uniform ? std::string("take larger cells")
                                : "raise it, or 'Mesh/Largest size', or " +
-                                   std::string(type == "graded"
+                                   std::string(type == Type::graded
                                                  ? "'Mesh/Growth factor'"
                                                  : "'Mesh/Size ratio'"));
   }
@@ -380,7 +376,7 @@ namespace geocone
                      upper = parameters.outline[2];
     std::array<double, dim> n;
     for (unsigned int c = 0; c < dim; ++c)
-      if (parameters.type == "graded")
+      if (parameters.type == MeshParameters::Type::graded)
         {
           n[c] = 0.;
           for (const Piece &piece :
@@ -459,7 +455,9 @@ namespace geocone
       sum += integral.over({{outline[0], outline[i], outline[i + 1]}});
     const double n_triangles =
       std::max(4. / std::sqrt(3.) * std::abs(sum), outline.size() - 2.);
-    return (parameters.cells == "quadrilaterals" ? 2. : 1.) * n_triangles;
+    return (parameters.cells == MeshParameters::Cells::quadrilaterals ? 2.
+                                                                      : 1.) *
+           n_triangles;
   }
 
   std::array<std::vector<double>, dim>
@@ -469,7 +467,7 @@ namespace geocone
                      upper = parameters.outline[2];
     std::array<std::vector<double>, dim> x;
     for (unsigned int c = 0; c < dim; ++c)
-      if (parameters.type == "graded")
+      if (parameters.type == MeshParameters::Type::graded)
         x[c] = graded_coordinates(lower[c],
                                   upper[c],
                                   coordinates_of_grading_points(parameters, c),
@@ -509,13 +507,14 @@ namespace geocone
       cell.vertices = vertices;
       mesh.cells.push_back(cell);
     };
-    const bool crossed = parameters.diagonals == "crossed";
+    const bool crossed =
+      parameters.diagonals == MeshParameters::Diagonals::crossed;
     for (unsigned int j = 0; j < ny; ++j)
       for (unsigned int i = 0; i < nx; ++i)
         {
           const unsigned int a = j * (nx + 1) + i, b = a + 1;
           const unsigned int c = a + nx + 1, d = c + 1;
-          if (parameters.cells == "quadrilaterals")
+          if (parameters.cells == MeshParameters::Cells::quadrilaterals)
             add_cell({a, b, c, d});
           else if (crossed)
             {
@@ -527,7 +526,9 @@ namespace geocone
               add_cell({d, c, m});
               add_cell({c, a, m});
             }
-          else if (parameters.diagonals == "parallel" || (i + j) % 2 == 0)
+          else if (parameters.diagonals ==
+                     MeshParameters::Diagonals::parallel ||
+                   (i + j) % 2 == 0)
             {
               add_cell({a, b, d});
               add_cell({a, d, c});
@@ -538,7 +539,7 @@ namespace geocone
               add_cell({b, d, c});
             }
         }
-    if (parameters.cells == "quadrilaterals")
+    if (parameters.cells == MeshParameters::Cells::quadrilaterals)
       mesh.grid = x;
     return mesh;
   }

@@ -346,7 +346,7 @@ namespace geocone
       gmsh::option::setNumber("Mesh.MeshSizeFromPoints", 0);
       gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
       gmsh::option::setNumber("Mesh.Algorithm", parameters.algorithm);
-      if (parameters.cells == "quadrilaterals")
+      if (parameters.cells == MeshParameters::Cells::quadrilaterals)
         {
           gmsh::option::setNumber("Mesh.RecombineAll", 1);
           // Recombined triangles, then each cell cut in four (or three): only

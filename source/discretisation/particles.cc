@@ -45,7 +45,6 @@ namespace geocone
                      const BackgroundMesh &mesh,
                      const Space          &space)
   {
-    outflow.prepare();
     comm = mesh.triangulation().get_communicator();
     seeding.prepare(scene);
     const std::vector<Seed> seeds = seeding.make(scene, mesh);

@@ -115,10 +115,10 @@ namespace geocone
 
     /** The places in an interval (0, 1) of layouts that follow the cells. */
     Quadrature<1>
-    places_in_interval(const std::string &layout, const unsigned int k)
+    places_in_interval(const bool are_gauss_points, const unsigned int k)
     {
-      return layout == "Gauss" ? Quadrature<1>(QGauss<1>(k))
-                               : Quadrature<1>(QIterated<1>(QMidpoint<1>(), k));
+      return are_gauss_points ? Quadrature<1>(QGauss<1>(k))
+                              : Quadrature<1>(QIterated<1>(QMidpoint<1>(), k));
     }
   } // namespace
 
@@ -126,11 +126,10 @@ namespace geocone
     : ParameterAcceptor("/Particles")
     , folder_of_parameters(parameter_file.folder())
   {
-    add_parameter("Layout",
-                  layout,
-                  "Gauss (points of each cell) | sub-cells (their centres) | "
-                  "lattice (squares, independent of the mesh) | random | "
-                  "file.");
+    layout.declare(*this,
+                   "Layout",
+                   ". Gauss: points of each cell. Sub-cells: their centres. "
+                   "Lattice: squares, independent of the mesh.");
     add_parameter("Points per direction",
                   k,
                   "Gauss and sub-cells: k for k x k points in each cell.");
@@ -150,7 +149,7 @@ namespace geocone
   void
   Seeding::prepare(const Scene &scene)
   {
-    if (layout == "Gauss" || layout == "sub-cells")
+    if (layout == Layout::gauss || layout == Layout::sub_cells)
       {
         if (k == 0 || k > most_per_direction)
           throw InputError("Particles/Points per direction",
@@ -158,38 +157,33 @@ namespace geocone
                            "1 to " + std::to_string(most_per_direction),
                            "2 or 3 are usual");
       }
-    else if (layout == "lattice" || layout == "random")
+    else if (layout == Layout::lattice || layout == Layout::random)
       {
         if (scene.geometry.shape == Geometry::Shape::file)
           throw InputError("Particles/Layout",
-                           layout,
+                           layout.word(),
                            "Gauss | sub-cells | file, where the domain comes "
                            "from a .msh file",
                            "choose one of them");
-        if (layout == "lattice" && !(spacing > 0.))
+        if (layout == Layout::lattice && !(spacing > 0.))
           throw InputError(
             "Particles/Spacing", spacing, "> 0", "half a cell size is usual");
-        if (layout == "random" && number == 0)
+        if (layout == Layout::random && number == 0)
           throw InputError("Particles/Number",
                            number,
                            ">= 1",
                            "four or more per cell are usual");
         check_effort(scene.geometry);
       }
-    else if (layout == "file")
+    else
       file = existing_file(file,
                            folder_of_parameters,
                            "Particles/File",
                            "an existing .csv or .h5 file of points");
-    else
-      throw InputError("Particles/Layout",
-                       layout,
-                       "Gauss | sub-cells | lattice | random | file",
-                       "choose one of them");
     if (scene.regions.have_numbers())
       throw InputError(
         "Particles/Layout",
-        layout,
+        layout.word(),
         "particles whose materials are found by region polygons, "
         "not by region numbers",
         "give a 'Region polygon' to each material");
@@ -198,21 +192,21 @@ namespace geocone
   unsigned int
   Seeding::points_per_direction() const
   {
-    return layout == "Gauss" || layout == "sub-cells" ? k : 0;
+    return layout == Layout::gauss || layout == Layout::sub_cells ? k : 0;
   }
 
   void
   Seeding::check_effort(const Geometry &geometry) const
   {
     const auto [lower, upper] = geometry.bounding_box();
-    const double tries =
-      (upper[0] - lower[0]) * (upper[1] - lower[1]) /
-      (layout == "lattice" ? spacing * spacing : geometry.area() / number);
+    const double tries        = (upper[0] - lower[0]) * (upper[1] - lower[1]) /
+                         (layout == Layout::lattice ? spacing * spacing
+                                                    : geometry.area() / number);
     const std::string allowed = format(
       "at most %g points in the box around the body, which are tried one by "
       "one",
       10. * most_points);
-    if (tries > 10. * most_points && layout == "lattice")
+    if (tries > 10. * most_points && layout == Layout::lattice)
       throw InputError(
         "Particles/Spacing", spacing, allowed, "half a cell size is usual");
     if (tries > 10. * most_points)
@@ -228,14 +222,14 @@ namespace geocone
                            const std::array<double, dim> &n_cells,
                            const double                   area_of_mesh) const
   {
-    if (layout == "file")
+    if (layout == Layout::file)
       return ParticleFile::expected_number(file);
-    if (layout == "random")
+    if (layout == Layout::random)
       return number;
     // The cells of a file are the body, whatever their area.
     const bool   is_file = scene.geometry.shape == Geometry::Shape::file;
     const double area    = is_file ? area_of_mesh : scene.geometry.area();
-    if (layout == "lattice")
+    if (layout == Layout::lattice)
       return area / (spacing * spacing);
     return double(k) * k * n_cells[0] * n_cells[1] *
            std::min(1., area / area_of_mesh);
@@ -244,11 +238,11 @@ namespace geocone
   std::string
   Seeding::size_parameter() const
   {
-    return layout == "lattice"  ? "Particles/Spacing"
-           : layout == "random" ? "Particles/Number"
-           : layout == "file"   ? "Particles/File"
-           : k > 4              ? "Particles/Points per direction"
-                                : "";
+    return layout == Layout::lattice  ? "Particles/Spacing"
+           : layout == Layout::random ? "Particles/Number"
+           : layout == Layout::file   ? "Particles/File"
+           : k > 4                    ? "Particles/Points per direction"
+                                      : "";
   }
 
   void
@@ -354,7 +348,7 @@ namespace geocone
         });
         return;
       }
-    const Quadrature<1> line  = places_in_interval(layout, k);
+    const Quadrature<1> line  = places_in_interval(layout == Layout::gauss, k);
     const auto          place = [&](const unsigned int d,
                            const unsigned int interval,
                            const unsigned int q) {
@@ -398,7 +392,8 @@ namespace geocone
         });
         return;
       }
-    const Quadrature<dim> quadrature(places_in_interval(layout, k));
+    const Quadrature<dim> quadrature(
+      places_in_interval(layout == Layout::gauss, k));
     const FE_Nothing<dim> nothing;
     FEValues<dim>         values(mesh.mapping(),
                          nothing,
@@ -441,7 +436,7 @@ namespace geocone
   Seeding::visit_all(const Scene &scene, const TakeBlock &take) const
   {
     Given given = {};
-    if (layout == "file")
+    if (layout == Layout::file)
       {
         ParticleFile in(file, scene.materials);
         for (unsigned int c = 0; c < ParticleFile::n_columns; ++c)
@@ -463,7 +458,7 @@ namespace geocone
       take(block, given);
       block.clear();
     };
-    if (layout == "lattice")
+    if (layout == Layout::lattice)
       {
         seed.volume = spacing * spacing;
         // By index: a sum of spacings would gather rounding errors.

@@ -36,16 +36,17 @@ namespace geocone
   Space::Space()
     : ParameterAcceptor("/Discretisation")
   {
-    add_parameter("Element",
-                  name,
-                  "P1, P2, P3 on triangles; Q1, Q2, Q3 on quadrilaterals; "
-                  "B-spline 2, B-spline 3 on uniform and graded grids of them; "
-                  "automatic: P3 or Q3 for FEM, B-spline 3 for MPM, B-spline 2 "
-                  "for explicit MPM (Q1 where the mesh comes from a file).");
-    add_parameter("Basis",
-                  basis,
-                  "Of Q2 and Q3: Lagrange | Bernstein | automatic: Lagrange's "
-                  "for FEM, Bernstein's, which are not negative, for MPM.");
+    kind.declare(
+      *this,
+      "Element",
+      ". P1 to P3 on triangles, Q1 to Q3 on quadrilaterals, B-splines on "
+      "uniform and graded grids of them. Automatic: P3 or Q3 for FEM, B-spline "
+      "3 for MPM, B-spline 2 for explicit MPM (Q1 where the mesh comes from a "
+      "file).");
+    basis.declare(*this,
+                  "Basis",
+                  ", of Q2 and Q3. Automatic: Lagrange's for FEM, Bernstein's, "
+                  "which are not negative, for MPM.");
     add_parameter("B-bar",
                   b_bar,
                   "For Q1: the volumetric strain of a cell is its mean over "
@@ -57,31 +58,25 @@ namespace geocone
                         const bool    has_grid,
                         const Method &method)
   {
-    if (name == "automatic")
-      name = simplicial             ? "P3"
-             : !method.is_mpm()     ? "Q3"
-             : !has_grid            ? "Q1"
-             : method.is_explicit() ? "B-spline 2"
-                                    : "B-spline 3";
-    std::vector<std::string> allowed = {"P1", "P2", "P3"};
-    if (!simplicial)
-      allowed = {"Q1", "Q2", "Q3"};
-    if (has_grid)
-      allowed.insert(allowed.end(), {"B-spline 2", "B-spline 3"});
-    if (std::find(allowed.begin(), allowed.end(), name) == allowed.end())
-      {
-        std::string text = "automatic";
-        for (const std::string &element : allowed)
-          text += " | " + element;
-        throw InputError("Discretisation/Element",
-                         name,
-                         text + " on this mesh",
-                         "choose one of them, or change the cells of the mesh");
-      }
-    p = name.back() - '0';
-    if (method.is_explicit() && (name == "Q2" || name == "Q3"))
+    if (kind == Element::automatic)
+      kind = simplicial             ? Element::p3
+             : !method.is_mpm()     ? Element::q3
+             : !has_grid            ? Element::q1
+             : method.is_explicit() ? Element::spline_2
+                                    : Element::spline_3;
+    const bool on_triangles = kind <= Element::p3;
+    if (on_triangles != simplicial || (kind >= Element::spline_2 && !has_grid))
       throw InputError("Discretisation/Element",
-                       name,
+                       element(),
+                       std::string("automatic | ") +
+                         (simplicial ? "P1 | P2 | P3" : "Q1 | Q2 | Q3") +
+                         (has_grid ? " | B-spline 2 | B-spline 3" : "") +
+                         " on this mesh",
+                       "choose one of them, or change the cells of the mesh");
+    p = element().back() - '0';
+    if (method.is_explicit() && (kind == Element::q2 || kind == Element::q3))
+      throw InputError("Discretisation/Element",
+                       element(),
                        "Q1 | B-spline 2 | B-spline 3 with explicit MPM",
                        "the stable step of elements of higher degree is very "
                        "small: take splines, or Q1 on an unstructured mesh");
@@ -90,14 +85,9 @@ namespace geocone
                        "true",
                        "false with explicit MPM",
                        "take B-spline 2 or 3, which hardly lock");
-    if (basis == "automatic")
-      basis = method.is_mpm() ? "Bernstein" : "Lagrange";
-    if (basis != "Lagrange" && basis != "Bernstein")
-      throw InputError("Discretisation/Basis",
-                       basis,
-                       "automatic | Lagrange | Bernstein",
-                       "choose one of them");
-    if (b_bar && name != "Q1")
+    if (basis == Basis::automatic)
+      basis = method.is_mpm() ? Basis::bernstein : Basis::lagrange;
+    if (b_bar && kind != Element::q1)
       throw InputError("Discretisation/B-bar",
                        "true",
                        "true for Q1 only",
@@ -113,8 +103,9 @@ namespace geocone
     choose_element(simplicial, !mesh->grid()[0].empty(), method);
 
     n_nodes_per_cell = simplicial ? (p + 1) * (p + 2) / 2 : (p + 1) * (p + 1);
-    const IndexSet owned =
-      name[0] == 'B' ? prepare_splines(*mesh) : prepare_finite_element(*mesh);
+    const IndexSet owned = kind >= Element::spline_2
+                             ? prepare_splines(*mesh)
+                             : prepare_finite_element(*mesh);
 
     // Only the nodes of own cells are needed, not those of all ghost cells.
     IndexSet                             active(owned.size());
@@ -146,7 +137,7 @@ namespace geocone
                 else
                   x = mesh->mapping().transform_unit_to_real_cell(
                     cell,
-                    basis == "Bernstein" && !simplicial
+                    basis == Basis::bernstein && !simplicial
                       ? Point<dim>(1. * lattice[i][0] / p,
                                    1. * lattice[i][1] / p)
                       : fe->unit_support_point(i));
@@ -159,7 +150,7 @@ namespace geocone
   {
     if (!mesh.is_simplicial())
       {
-        if (basis == "Bernstein")
+        if (basis == Basis::bernstein)
           fe = std::make_unique<FE_Bernstein<dim>>(p);
         else
           fe = std::make_unique<FE_Q<dim>>(p);
@@ -262,7 +253,7 @@ namespace geocone
                   double           *N,
                   Tensor<1, dim>   *gradient) const
   {
-    if (!is_spline() && (basis == "Lagrange" || lattice.empty()))
+    if (!is_spline() && (basis == Basis::lagrange || lattice.empty()))
       {
         for (unsigned int i = 0; i < n_nodes_per_cell; ++i)
           {

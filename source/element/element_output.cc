@@ -121,9 +121,9 @@ namespace geocone
   void
   ElementOutput::report() const
   {
-    if (report_for_tests == "none")
+    if (report_for_tests == Report::none)
       return;
-    if (report_for_tests == "expectations")
+    if (report_for_tests == Report::expectations)
       return write_file("output", [](std::ostream &) {});
     std::string report;
     for (const auto &[stage, values] : stages.items())

@@ -12,13 +12,6 @@ namespace geocone
 {
   namespace
   {
-    const std::array<const char *, 6> kinds = {{"components",
-                                                "isotropic",
-                                                "oedometric",
-                                                "drained",
-                                                "undrained",
-                                                "simple shear"}};
-
     double
     number(const std::string &text, const std::string &parameter)
     {
@@ -71,18 +64,16 @@ namespace geocone
     : dealii::ParameterAcceptor("/Path/" + name)
     , name(name)
   {
-    add_parameter(
+    kind.declare(
+      *this,
       "Kind",
-      kind,
-      "components (each by its own strain or stress below) | "
-      "isotropic (equal strains, Amount: volumetric strain) | "
-      "oedometric (Amount: strain of the axis, no other) | drained "
-      "(Amount: strain of the axis, other normal stresses constant) "
-      "| undrained (Amount: strain of the axis, others equal, no "
-      "volume change) | simple shear (Amount: shear angle gamma = 2 "
-      "eps_xy, no other strain). Tension is positive: -0.1 is 10 % "
-      "in compression.");
-    add_parameter("Axis", axis, "xx | yy | zz: the axis of these kinds.");
+      ". Components: each by its own strain or stress below. Isotropic: equal "
+      "strains, Amount: volumetric strain. Oedometric: Amount: strain of the "
+      "axis, no other. Drained: Amount: strain of the axis, other normal "
+      "stresses constant. Undrained: Amount: strain of the axis, others equal, "
+      "no volume change. Simple shear: Amount: shear angle gamma = 2 eps_xy, "
+      "no other strain. Tension is positive: -0.1 is 10 % in compression.");
+    axis.declare(*this, "Axis", ": the axis of these kinds.");
     add_parameter("Amount", amount, "See Kind (-).");
     add_parameter("Increments",
                   n_increments,
@@ -91,10 +82,11 @@ namespace geocone
                   n_cycles,
                   "Number of cycles; 0: once to the end. The amount, strains "
                   "and stress targets are then amplitudes around the start.");
-    add_parameter("Cycle form",
-                  cycle_form,
-                  "two-way (to the amplitude, to its opposite, back) | one-way "
-                  "(to the amplitude and back).");
+    cycle_form.declare(
+      *this,
+      "Cycle form",
+      ". Two-way: to the amplitude, to its opposite, back. One-way: to the "
+      "amplitude and back.");
     add_parameter(
       "Stop when",
       stop_text,
@@ -122,8 +114,7 @@ namespace geocone
   unsigned int
   ElementStage::axis_index() const
   {
-    return std::find(component_names.begin(), component_names.end(), axis) -
-           component_names.begin();
+    return static_cast<unsigned int>(Axis(axis));
   }
 
   void
@@ -135,12 +126,12 @@ namespace geocone
         const std::string component = component_names[i];
         const bool given = !strain_texts[i].empty() || !stress_texts[i].empty();
         any              = any || given;
-        if (given && kind != "components")
+        if (given && kind != Kind::components)
           throw InputError(parameter(!strain_texts[i].empty()
                                        ? "Strain " + component
                                        : "Stress " + component),
                            strain_texts[i] + stress_texts[i],
-                           "nothing where Kind = " + kind,
+                           "nothing where Kind = " + kind.word(),
                            "set 'Kind = components' and give all components");
         if (!strain_texts[i].empty() && !stress_texts[i].empty())
           throw InputError(parameter("Stress " + component),
@@ -160,7 +151,7 @@ namespace geocone
         if (!stress_texts[i].empty() && stress_texts[i] != "constant")
           number(stress_texts[i], parameter("Stress " + component));
       }
-    if (kind == "components" && !any)
+    if (kind == Kind::components && !any)
       throw InputError(parameter("Strain yy"),
                        "",
                        "a strain or stress of at least one component",
@@ -171,14 +162,12 @@ namespace geocone
   ElementStage::prepare(const ElementPoint             &point,
                         const std::vector<std::string> &columns)
   {
-    check_choice(parameter("Kind"), kind, {kinds.begin(), kinds.end()});
-    if (axis_index() > 2 || !point.has(axis_index()))
+    if (!point.has(axis_index()))
       throw InputError(parameter("Axis"),
-                       axis,
-                       point.has(2) ? "xx | yy | zz"
-                                    : "xx | yy in plane strain",
+                       axis.word(),
+                       "xx | yy in plane strain",
                        "choose one of them");
-    if (kind != "components" && !(amount != 0. && std::isfinite(amount)))
+    if (kind != Kind::components && !(amount != 0. && std::isfinite(amount)))
       throw InputError(parameter("Amount"),
                        amount,
                        "a strain, not 0",
@@ -192,7 +181,6 @@ namespace geocone
                        std::max(n_cycles, n_increments),
                        "at most 2.5e7 increments, of all cycles",
                        "take fewer increments or cycles, or more stages");
-    check_choice(parameter("Cycle form"), cycle_form, {"two-way", "one-way"});
     check_components(point);
     if (!stop_text.empty())
       stop = {stop_condition(stop_text, parameter("Stop when"), columns)};
@@ -205,7 +193,7 @@ namespace geocone
     const Tensor6      start = point.stress();
     const unsigned int a     = axis_index();
     control.stress           = start;
-    if (kind == "components")
+    if (kind == Kind::components)
       for (unsigned int i = 0; i < 6; ++i)
         {
           control.by_stress[i] = !stress_texts[i].empty();
@@ -214,20 +202,20 @@ namespace geocone
           if (control.by_stress[i] && stress_texts[i] != "constant")
             control.stress[i] = std::stod(stress_texts[i]);
         }
-    else if (kind == "simple shear")
+    else if (kind == Kind::simple_shear)
       control.strain[3] = amount / 2.;
     else
       for (unsigned int i = 0; i < 3; ++i)
         if (point.has(i))
           {
             const double n = point.has(2) ? 3. : 2.;
-            if (kind == "isotropic")
+            if (kind == Kind::isotropic)
               control.strain[i] = amount / n;
             else if (i == a)
               control.strain[i] = amount;
-            else if (kind == "undrained")
+            else if (kind == Kind::undrained)
               control.strain[i] = -amount / (n - 1.);
-            else if (kind == "drained")
+            else if (kind == Kind::drained)
               control.by_stress[i] = true;
           }
     return control;
@@ -242,7 +230,7 @@ namespace geocone
     for (unsigned int i = 0; i < n_cycles; ++i)
       {
         corners.push_back(1.);
-        if (cycle_form == "two-way")
+        if (cycle_form == CycleForm::two_way)
           corners.push_back(-1.);
         corners.push_back(0.);
       }

@@ -425,19 +425,17 @@ namespace geocone
 
   std::unique_ptr<ElementPoint>
   make_element_point(const ConstitutiveLaw &law,
-                     const std::string     &components,
+                     const PointComponents  components,
                      const Tensor6         &stress,
                      std::string           &changed)
   {
     const auto *subloading = dynamic_cast<const Subloading *>(&law);
-    check_choice(
-      "Element/Components", components, {"automatic", "plane strain", "3D"});
-    if (components == "3D" && subloading == nullptr)
+    if (components == PointComponents::all && subloading == nullptr)
       throw InputError("Element/Components",
-                       components,
+                       "3D",
                        "automatic | plane strain for this material",
                        "its law knows the stresses of the plane only");
-    if (components == "plane strain" || subloading == nullptr)
+    if (components == PointComponents::plane_strain || subloading == nullptr)
       {
         if (stress[4] != 0. || stress[5] != 0.)
           throw InputError("Element/Initial stress",

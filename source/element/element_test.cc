@@ -21,10 +21,10 @@ namespace geocone
     , path(file)
     , element_output(comm, log)
   {
-    add_parameter("Components",
-                  components,
-                  "automatic (3D if the law has it) | plane strain (as in "
-                  "scenes: xx, yy, xy) | 3D.");
+    components.declare(*this,
+                       "Components",
+                       ". Automatic: 3D if the law has it. Plane strain: as in "
+                       "scenes, xx, yy, xy.");
     add_parameter("Initial stress",
                   initial_stress,
                   "xx, yy, zz, xy, yz, zx (Pa), tension positive. Laws of the "

@@ -50,6 +50,16 @@ namespace geocone
     return history[0] + poisson_ratio * (in_plane[0] + in_plane[1]);
   }
 
+  Mandel
+  Material::nearest_admissible(const Mandel &stress,
+                               const double *history) const
+  {
+    const auto cone = flow_cone(history);
+    return cone ? from_cone_axes(
+                    project(cone->a, cone->k, Mandel(to_cone_axes(stress))))
+                : stress;
+  }
+
   std::optional<FlowCone>
   Material::initial_cone() const
   {

@@ -127,11 +127,10 @@ namespace geocone
                   c.delta,
                   "delta (-), 0 < delta < 1, much less than 1: how near the "
                   "similarity centre comes to the yield surface.");
-    add_parameter(
-      "Pressure of rotation",
-      reading,
-      "p | ph: the reading of the report's equation (24), sh = s - p "
-      "beta or s - ph beta with ph = p + xi pcb.");
+    rotation.declare(*this,
+                     "Pressure of rotation",
+                     ": the reading of the report's equation (24), sh = s - p "
+                     "beta or s - ph beta with ph = p + xi pcb.");
     add_parameter(
       "Error tolerance",
       c.tolerance,
@@ -173,10 +172,10 @@ namespace geocone
       "anisotropy (-).");
     add_parameter(
       "Initial structure ratio", initial_Rb, "Rb at the start (-), >= Rbf.");
-    add_parameter("Stress outside",
-                  if_outside,
-                  "refuse | raise size: what to do with an initial stress "
-                  "outside the yield surface.");
+    if_outside.declare(*this,
+                       "Stress outside",
+                       ": what to do with an initial stress outside the yield "
+                       "surface.");
   }
 
   void
@@ -288,7 +287,6 @@ namespace geocone
             c.lowest_pressure,
             "> 0 Pa",
             "1 Pa is usual: without pressure there is no stiffness");
-    check_choice(parameter("Pressure of rotation"), reading, {"p", "ph"});
   }
 
   void
@@ -337,8 +335,6 @@ namespace geocone
                        initial_Rb,
                        ">= Rbf = " + format("%g", c.Rbf),
                        "take Rbf for a soil that has lost its structure");
-    check_choice(
-      parameter("Stress outside"), if_outside, {"refuse", "raise size"});
   }
 
   void
@@ -347,7 +343,7 @@ namespace geocone
     ConstitutiveLaw::prepare();
     check_constants();
     check_initial();
-    c.rotates_with_ph = reading == "ph";
+    c.rotates_with_ph = rotation == Rotation::ph;
     in_plane          = SubloadingModel<4>(c);
     in_space          = SubloadingModel<6>(c);
   }
@@ -400,7 +396,7 @@ namespace geocone
       {
         const std::string where =
           given_size > 0. ? "Initial size pcb" : "Overconsolidation ratio";
-        if (if_outside == "refuse")
+        if (if_outside == Outside::refuse)
           throw InputError(parameter(where),
                            given_size > 0. ? given_size : ocr,
                            "an initial stress within the yield surface; R = " +

@@ -109,7 +109,7 @@ namespace geocone
     const MPI_Comm comm = layout->get_mpi_communicator();
     FrozenProblem  frozen;
     frozen.h               = h;
-    frozen.consistent_part = consistent_part;
+    frozen.consistent_part = inertia ? inertia->consistent_part() : 0.;
 
     MaterialPoints &p = frozen.points;
     p.n_nodes         = points.n_nodes;
@@ -139,9 +139,9 @@ namespace geocone
     for (unsigned int dof = 0; dof < layout->locally_owned_size(); ++dof)
       frozen.kind.push_back(std::min(0, unknowns.free_row[dof]));
     frozen.kind = gather(frozen.kind, comm);
-    if (mass != nullptr)
-      frozen.mass = gather(owned(*mass), comm);
-    if (force != nullptr)
+    if (inertia)
+      frozen.mass = gather(owned(inertia->lumped_mass()), comm);
+    if (const Vector *force = external.vector())
       frozen.force = gather(owned(*force), comm);
     frozen.velocity_L = gather(owned(velocity_L), comm);
     frozen.prescribed = gather(owned(prescribed), comm);

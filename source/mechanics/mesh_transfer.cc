@@ -3,7 +3,6 @@
 
 #include <geocone/mechanics/constraints.h>
 #include <geocone/mechanics/mesh_transfer.h>
-#include <geocone/mechanics/particle_transfer.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -254,75 +253,46 @@ namespace geocone
       }
   }
 
-  template <bool with_gradients>
-  void
-  MeshTransfer::gather_any(const BlockPoints &points,
-                           BlockScratch      &scratch) const
+  PointFunctions
+  MeshTransfer::functions_at(const BlockPoints &points,
+                             const unsigned int k) const
   {
-    const Functions &at = functions[points.group];
-    for (unsigned int k = 0; k < points.n; ++k)
-      {
-        double           *out = scratch.gathered + 12 * k;
-        const std::size_t first =
-          n * static_cast<std::size_t>(points.first + k);
-        std::fill_n(out, with_gradients ? 12 : 4, 0.);
-        for (unsigned int i = 0; i < n; ++i)
-          {
-            const double *v = &read[4 * at.nodes[first + i]];
-            for (unsigned int c = 0; c < 4; ++c)
-              {
-                out[c] += at.N[first + i] * v[c];
-                if (with_gradients)
-                  {
-                    out[4 + c] += at.dN_dx[first + i] * v[c];
-                    out[8 + c] += at.dN_dy[first + i] * v[c];
-                  }
-              }
-          }
-      }
+    const Functions  &at    = functions[points.group];
+    const std::size_t first = n * static_cast<std::size_t>(points.first + k);
+    return {
+      n, &at.nodes[first], &at.N[first], &at.dN_dx[first], &at.dN_dy[first]};
   }
 
   void
   MeshTransfer::gather(const BlockPoints &points, BlockScratch &scratch)
   {
-    gather_any<true>(points, scratch);
+    for (unsigned int k = 0; k < points.n; ++k)
+      functions_at(points, k).gather<4, true>(read.data(),
+                                              scratch.gathered + 12 * k);
   }
 
   void
   MeshTransfer::gather_values(const BlockPoints &points, BlockScratch &scratch)
   {
-    gather_any<false>(points, scratch);
+    for (unsigned int k = 0; k < points.n; ++k)
+      functions_at(points, k).gather<4, false>(read.data(),
+                                               scratch.gathered + 12 * k);
   }
 
   void
   MeshTransfer::gather_affine(const BlockPoints &points, BlockScratch &)
   {
-    const Functions &at = functions[points.group];
     for (unsigned int k = 0; k < points.n; ++k)
       {
-        const std::size_t first =
-          n * static_cast<std::size_t>(points.first + k);
-        const Point<dim> x(points.x[k], points.y[k]);
-        Tensor<2, dim>   B, D, gradient;
-        for (unsigned int i = 0; i < n; ++i)
-          {
-            const unsigned int   node       = at.nodes[first + i];
-            const Tensor<1, dim> r          = space.node_positions()[node] - x;
-            const double         slope[dim] = {at.dN_dx[first + i],
-                                               at.dN_dy[first + i]};
-            for (unsigned int d = 0; d < dim; ++d)
-              for (unsigned int e = 0; e < dim; ++e)
-                {
-                  B[d][e] += at.N[first + i] * read[4 * node + d] * r[e];
-                  D[d][e] += at.N[first + i] * r[d] * r[e];
-                  gradient[d][e] += slope[e] * read[4 * node + d];
-                }
-          }
-        const Tensor<2, dim> C = affine_velocity(B, D, gradient, smallest_cell);
-        points.c_xx[k]         = C[0][0];
-        points.c_xy[k]         = C[0][1];
-        points.c_yx[k]         = C[1][0];
-        points.c_yy[k]         = C[1][1];
+        const Tensor<2, dim> C = functions_at(points, k).gather_affine<4>(
+          read.data(),
+          Point<dim>(points.x[k], points.y[k]),
+          space.node_positions(),
+          smallest_cell);
+        points.c_xx[k] = C[0][0];
+        points.c_xy[k] = C[0][1];
+        points.c_yx[k] = C[1][0];
+        points.c_yy[k] = C[1][1];
       }
   }
 
@@ -332,26 +302,12 @@ namespace geocone
                             const BlockScratch &scratch,
                             const bool          with_mass)
   {
-    const Functions &at = functions[points.group];
     for (unsigned int k = 0; k < points.n; ++k)
       {
-        const double     *in = scratch.given + 12 * k;
-        const std::size_t first =
-          n * static_cast<std::size_t>(points.first + k);
-        for (unsigned int i = 0; i < n; ++i)
-          {
-            const unsigned int node = at.nodes[first + i];
-            const double       N    = at.N[first + i];
-            for (unsigned int c = 0; c < 4; ++c)
-              {
-                write[4 * node + c] += N * in[c];
-                if (with_gradients)
-                  write[4 * node + c] += at.dN_dx[first + i] * in[4 + c] +
-                                         at.dN_dy[first + i] * in[8 + c];
-              }
-            if (with_mass)
-              mass[node] += N * points.mass[k];
-          }
+        const PointFunctions at = functions_at(points, k);
+        at.scatter<4, with_gradients>(scratch.given + 12 * k, write.data());
+        if (with_mass)
+          at.scatter<1, false>(&points.mass[k], mass.data());
       }
   }
 
@@ -374,22 +330,14 @@ namespace geocone
   void
   MeshTransfer::scatter_affine(const BlockPoints &points, BlockScratch &)
   {
-    const Functions &at = functions[points.group];
     for (unsigned int k = 0; k < points.n; ++k)
-      {
-        const std::size_t first =
-          n * static_cast<std::size_t>(points.first + k);
-        for (unsigned int i = 0; i < n; ++i)
-          {
-            const unsigned int node = at.nodes[first + i];
-            const double       mN   = points.mass[k] * at.N[first + i];
-            const double rx = space.node_positions()[node][0] - points.x[k];
-            const double ry = space.node_positions()[node][1] - points.y[k];
-            write[4 * node] += mN * (points.c_xx[k] * rx + points.c_xy[k] * ry);
-            write[4 * node + 1] +=
-              mN * (points.c_yx[k] * rx + points.c_yy[k] * ry);
-          }
-      }
+      functions_at(points, k).scatter_affine<4>(
+        points.mass[k],
+        Tensor<2, dim>(
+          {{points.c_xx[k], points.c_xy[k]}, {points.c_yx[k], points.c_yy[k]}}),
+        Point<dim>(points.x[k], points.y[k]),
+        space.node_positions(),
+        write.data());
   }
 
   void

@@ -16,13 +16,11 @@ namespace geocone
   ParticleTransfer::ParticleTransfer()
     : ParameterAcceptor("/Material point method")
   {
-    add_parameter("Transfer",
-                  name,
-                  "FLIP: particles take the change of the nodes' velocities. "
-                  "APIC: they take the velocity and its affine part, which "
-                  "keeps angular momentum and damps vibrations.",
-                  prm,
-                  Patterns::Selection("FLIP|APIC"));
+    kind.declare(*this,
+                 "Transfer",
+                 ". FLIP: particles take the change of the nodes' velocities. "
+                 "APIC: they take the velocity and its affine part, which "
+                 "keeps angular momentum and damps vibrations.");
     add_parameter("FLIP part",
                   part,
                   "For FLIP: the part of the new velocity that FLIP gives, the "

@@ -27,11 +27,11 @@ namespace geocone
     if (dealii::Utilities::MPI::n_mpi_processes(comm) > 1)
       refuse("another one on several ranks",
              "run it on one rank, or take automatic");
-    if (problem.mass == nullptr)
+    if (!problem.inertia)
       refuse("another one without inertia",
              "the stresses alone determine the velocities by the mass: set "
              "Time stepping/Inertia = true, or take automatic");
-    if (problem.consistent_part > 0.)
+    if (problem.inertia->consistent_part() > 0.)
       refuse("another one with a consistent mass",
              "set Material point method/Consistent mass part = 0, or take "
              "automatic");
@@ -69,17 +69,17 @@ namespace geocone
     for (unsigned int i = 0; i < velocity.locally_owned_size(); ++i)
       if (unknowns.is_free(i))
         {
-          const double inverse           = h / problem.mass->local_element(i);
+          const double inverse =
+            h / problem.inertia->lumped_mass().local_element(i);
           mobility[unknowns.free_row[i]] = inverse;
-          if (problem.force != nullptr)
-            velocity.local_element(i) +=
-              inverse * problem.force->local_element(i);
+          if (const Vector *force = problem.external.vector())
+            velocity.local_element(i) += inverse * force->local_element(i);
         }
 
     // V B in cone axes, S the diagonal V S, and V B v*.
     std::vector<Eigen::Triplet<double>> entries;
     VectorXd                            strain_rate = VectorXd::Zero(3 * n);
-    problem.for_each_strain_column(
+    problem.internal.for_each_strain_column(
       [&](const unsigned int p, const unsigned int dof, const Mandel &column) {
         const Mandel x = points.weight[p] * to_cone_axes(column);
         strain_rate.segment<3>(3 * p) += velocity.local_element(dof) * x;

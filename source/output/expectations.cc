@@ -5,6 +5,7 @@
 #include <geocone/base/log.h>
 #include <geocone/output/expectations.h>
 
+#include <limits>
 #include <sstream>
 
 namespace geocone
@@ -14,16 +15,25 @@ namespace geocone
     : text(text)
   {
     std::istringstream in(text);
-    std::string        topic, relation, rest;
-    if (!(in >> topic >> relation >> bound) || in >> rest ||
-        (relation != "<=" && relation != ">=") ||
-        topic.find('/') == std::string::npos)
+    std::string        topic, relation, sign, rest;
+    double             number = 0., width = 0.;
+    bool               is_one = bool(in >> topic >> relation >> number) &&
+                  topic.find('/') != std::string::npos;
+    constexpr double beyond = std::numeric_limits<double>::infinity();
+    if (relation == "=")
+      is_one =
+        is_one && bool(in >> sign >> width) && sign == "+-" && width >= 0.;
+    else
+      is_one = is_one && (relation == "<=" || relation == ">=");
+    if (!is_one || in >> rest)
       throw InputError(parameter,
                        text,
-                       "TOPIC/NAME <= NUMBER or TOPIC/NAME >= NUMBER",
+                       "TOPIC/NAME <= NUMBER, TOPIC/NAME >= NUMBER or "
+                       "TOPIC/NAME = NUMBER +- NUMBER",
                        "e.g. newton/iterations_mean <= 7");
-    place   = Json::json_pointer("/" + topic);
-    at_most = relation == "<=";
+    place = Json::json_pointer("/" + topic);
+    least = relation == "<=" ? -beyond : number - width;
+    most  = relation == ">=" ? beyond : number + width;
   }
 
   bool
@@ -32,7 +42,7 @@ namespace geocone
     if (!summary.contains(place) || !summary[place].is_number())
       return false;
     const double value = summary[place].get<double>();
-    return at_most ? value <= bound : value >= bound;
+    return least <= value && value <= most;
   }
 
   std::string

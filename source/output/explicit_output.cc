@@ -381,9 +381,9 @@ namespace geocone
                summary["law"]["most_substeps"].get<unsigned int>(),
                summary["law"]["forced_substeps"].get<unsigned long long>(),
                summary["law"]["limited_stresses"].get<unsigned long long>()));
-    if (report_for_tests == "expectations")
+    if (report_for_tests == Report::expectations)
       write_file("output", [](std::ostream &) {});
-    else if (report_for_tests != "none")
+    else if (report_for_tests != Report::none)
       write_file("output", [&](std::ostream &out) {
         out << "time  kinetic  stress work  gravity work  x  y  plastic\n";
         for (const ExplicitRecord &record : records)

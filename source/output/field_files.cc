@@ -261,7 +261,7 @@ namespace geocone
     }
   } // namespace
 
-  FieldFiles::FieldFiles(const std::string &base, const std::string &format)
+  FieldFiles::FieldFiles(const std::string &base, const FieldsFormat format)
     : base(base)
     , format(format)
   {}
@@ -274,39 +274,59 @@ namespace geocone
   {
     // A rank that fails alone would leave the others waiting for it.
     std::string problem;
-    if (format != "hdf5")
-      attempt(problem, [&]() { write_as_vtu(table, folder, time, comm); });
-    if (format != "vtu")
+    const auto  end_together = [&]() {
+      problem = text_of_any_rank(comm, problem);
+      if (!problem.empty())
+        throw StepFailure(problem);
+    };
+    if (format != FieldsFormat::hdf5)
+      {
+        attempt(problem, [&]() { write_as_vtu(table, folder, time, comm); });
+        // A record names only pieces that are there.
+        end_together();
+        attempt(problem, [&]() { record_vtu(table, folder, time, comm); });
+      }
+    if (format != FieldsFormat::vtu)
       write_as_hdf5(table, folder, time, comm, problem);
-    problem = text_of_any_rank(comm, problem);
-    if (!problem.empty())
-      throw StepFailure(problem);
+    end_together();
     ++number;
+  }
+
+  std::string
+  FieldFiles::piece(const unsigned int rank, const unsigned int n_ranks) const
+  {
+    return base + geocone::format("-%04u", number) +
+           (n_ranks == 1 ? ".vtu" : geocone::format(".%03u.vtu", rank));
   }
 
   void
   FieldFiles::write_as_vtu(const FieldTable  &table,
                            const std::string &folder,
                            const double       time,
-                           const MPI_Comm     comm)
+                           const MPI_Comm     comm) const
   {
-    const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
-    const unsigned int rank    = dealii::Utilities::MPI::this_mpi_process(comm);
-    const std::string  stem    = base + geocone::format("-%04u", number);
-    const auto         piece   = [&](const unsigned int r) {
-      return stem + (n_ranks == 1 ? ".vtu" : geocone::format(".%03u.vtu", r));
-    };
-    write_file(folder + "/" + piece(rank),
+    write_file(folder + "/" +
+                 piece(dealii::Utilities::MPI::this_mpi_process(comm),
+                       dealii::Utilities::MPI::n_mpi_processes(comm)),
                [&](std::ostream &out) { write_vtu(out, table, time, number); });
-    if (rank != 0)
+  }
+
+  void
+  FieldFiles::record_vtu(const FieldTable  &table,
+                         const std::string &folder,
+                         const double       time,
+                         const MPI_Comm     comm)
+  {
+    if (dealii::Utilities::MPI::this_mpi_process(comm) != 0)
       return;
-    std::string whole = piece(0);
+    const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
+    std::string        whole   = piece(0, n_ranks);
     if (n_ranks > 1)
       {
         std::vector<std::string> pieces;
         for (unsigned int r = 0; r < n_ranks; ++r)
-          pieces.push_back(piece(r));
-        whole = stem + ".pvtu";
+          pieces.push_back(piece(r, n_ranks));
+        whole = base + geocone::format("-%04u.pvtu", number);
         write_file(folder + "/" + whole,
                    [&](std::ostream &out) { write_pvtu(out, table, pieces); });
       }

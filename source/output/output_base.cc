@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
-#include <geocone/base/parameter_file.h>
 #include <geocone/base/stop_request.h>
 #include <geocone/output/output_base.h>
-#include <geocone/output/run_folder.h>
 #include <geocone/output/run_status.h>
 #include <geocone/output/statistics_table.h>
 
@@ -49,24 +47,21 @@ namespace geocone
                   path,
                   "Folder of the run; empty: results/NAME for NAME.prm. The "
                   "option --output goes before it.");
-    add_choice(*this,
-               "If folder exists",
-               if_exists,
-               if_exists_choices,
-               "What to do if it is not empty. Number: take NAME-2, NAME-3, "
-               "... Overwrite: delete the files that the files.txt of the run "
-               "before names. Automatic: refuse a folder that was named, "
-               "number results/NAME.");
+    if_exists.declare(
+      *this,
+      "If folder exists",
+      ". What to do if it is not empty. Number: take NAME-2, NAME-3, ... "
+      "Overwrite: delete the files that the files.txt of the run before names. "
+      "Automatic: refuse a folder that was named, number results/NAME.");
     add_parameter("Fields",
                   with_fields,
                   "Whether fields are written (see Loading/.../Output "
                   "every).");
-    add_choice(*this,
-               "Fields format",
-               fields_format,
-               {"vtu", "hdf5", "both"},
-               "VTU files are for ParaView and the pictures, HDF5 files "
-               "come with XDMF records.");
+    fields_format.declare(*this,
+                          "Fields format",
+                          ". VTU files are for ParaView and the pictures, HDF5 "
+                          "files come with XDMF "
+                          "records.");
     add_parameter("Pictures",
                   pictures,
                   "Whether the pictures are drawn at the end, by "
@@ -81,14 +76,14 @@ namespace geocone
                   expectation_texts,
                   "Comma-separated statements about summary.json that must "
                   "hold at the end, else the exit code is 1: TOPIC/NAME <= "
-                  "NUMBER or >= NUMBER, e.g. newton/iterations_mean <= 7.");
-    add_choice(*this,
-               "Report for tests",
-               report_for_tests,
-               {"none", "results", "loads", "states", "expectations"},
-               "Writes a file 'output' with results and expectations, or the "
-               "latter only, into the folder of the call. Loads and states are "
-               "other names of results.");
+                  "NUMBER, >= NUMBER or = NUMBER +- NUMBER, e.g. "
+                  "newton/iterations_mean <= 7.");
+    report_for_tests.declare(
+      *this,
+      "Report for tests",
+      ". Writes a file 'output' with results and expectations, or the latter "
+      "only, into the folder of the call. Loads and states are other names of "
+      "results.");
   }
 
   void
@@ -99,6 +94,7 @@ namespace geocone
     parameter_file = options.parameter_file;
     for (const std::string &text : expectation_texts)
       expectations.emplace_back(text, "Output/Expectations");
+    reference_case.prepare();
     if (!options.folder.empty())
       path = options.folder;
     const bool was_named = !path.empty();
@@ -107,7 +103,7 @@ namespace geocone
     if (resumes)
       enter_run_folder(comm, path);
     else
-      path = make_run_folder(comm, path, if_exists_of(if_exists, was_named));
+      path = make_run_folder(comm, path, was_named, if_exists);
     if (writes)
       {
         Watcher::watch(path);
@@ -133,12 +129,13 @@ namespace geocone
     return dealii::Utilities::MPI::broadcast(comm, old);
   }
 
-  void
+  bool
   OutputBase::end_with(
     const std::exception                           &error,
     const std::function<void(const std::string &)> &write_all) const noexcept
   {
     std::string status;
+    bool        together = true;
     try
       {
         const bool is_stopped =
@@ -155,9 +152,14 @@ namespace geocone
         if (is_stopped || is_step)
           write_all(status);
       }
-    catch (...)
+    catch (const StepFailure &)
       {}
+    catch (...)
+      {
+        together = dealii::Utilities::MPI::n_mpi_processes(comm) == 1;
+      }
     end_status(path, status); // unless that has been done
+    return together;
   }
 
   void
@@ -167,6 +169,8 @@ namespace geocone
     summary["run"]                   = run_topic();
     summary["run"]["parameter_file"] = parameter_file;
     summary["warnings"]              = log.warnings();
+    if (reference_case.is_given())
+      summary["reference"] = reference_case.topic(summary);
     std::string what;
     if (summary["status"] == "finished")
       {
@@ -194,6 +198,8 @@ namespace geocone
   OutputBase::expectations_hold() const
   {
     bool hold = true;
+    if (writes && reference_case.is_asked())
+      log.print(reference_case.text(summary));
     if (writes)
       for (const Expectation &expectation : expectations)
         {
@@ -207,7 +213,7 @@ namespace geocone
             log.print(line);
           else
             log.warn(line);
-          if (report_for_tests != "none")
+          if (report_for_tests != Report::none)
             std::ofstream("output", std::ios::app) << answer << "\n";
         }
     return dealii::Utilities::MPI::broadcast(comm, hold);

@@ -136,21 +136,19 @@ namespace geocone
     }
   } // namespace
 
-  const std::vector<std::string> if_exists_choices = {
-    "automatic", "number", "refuse", "overwrite"};
-
-  IfExists
-  if_exists_of(const std::string &choice, const bool was_named)
+  Choice<IfExists>
+  if_exists_choice()
   {
-    return choice == "overwrite" ? IfExists::overwrite
-           : choice == "number" || (choice == "automatic" && !was_named)
-             ? IfExists::number
-             : IfExists::refuse;
+    return {{{"automatic", IfExists::automatic},
+             {"number", IfExists::number},
+             {"refuse", IfExists::refuse},
+             {"overwrite", IfExists::overwrite}}};
   }
 
   std::string
   make_run_folder(const MPI_Comm     comm,
                   const std::string &wanted,
+                  const bool         was_named,
                   const IfExists     if_exists)
   {
     for (const char c : wanted)
@@ -159,10 +157,13 @@ namespace geocone
                          printable(wanted),
                          "a name without control characters",
                          "name another one with --output");
+    IfExists chosen = if_exists;
+    if (chosen == IfExists::automatic)
+      chosen = was_named ? IfExists::refuse : IfExists::number;
     // Rank 0 makes the folder; all learn its name, or why there is none.
     std::string path = wanted, refusal;
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
-      refusal = make_folder(path, if_exists);
+      refusal = make_folder(path, chosen);
     path    = dealii::Utilities::MPI::broadcast(comm, path);
     refusal = dealii::Utilities::MPI::broadcast(comm, refusal);
     if (!refusal.empty())

@@ -20,6 +20,8 @@ namespace geocone
   {
     scene = &scene_;
     make_folder(options);
+    if (const auto &load = scene->observation.reference)
+      reference_case.set_default("limit_load/value", *load);
     fields = std::make_unique<Fields>(fields_format);
 
     using Record = StepRecord;
@@ -453,9 +455,9 @@ namespace geocone
       log.print(format("relative L2 errors: displacement %.3e, stress %.3e",
                        field_errors->displacement,
                        field_errors->stress));
-    if (report_for_tests == "expectations")
+    if (report_for_tests == Report::expectations)
       write_file("output", [](std::ostream &) {});
-    else if (report_for_tests != "none")
+    else if (report_for_tests != Report::none)
       write_file("output", [&](std::ostream &out) {
         out << "time [s]  displacement [mm]  load [N/m]\n";
         for (const StepRecord &record : records)

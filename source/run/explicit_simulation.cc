@@ -48,7 +48,7 @@ namespace geocone
     return format("%s: explicit MPM (%s), %s, %lu nodes, %lu points, %s, %u "
                   "rank%s",
                   name.c_str(),
-                  stepper.order().c_str(),
+                  stepper.order_name().c_str(),
                   stepper.element().c_str(),
                   stepper.grid().n_all_nodes(),
                   state.n_points,
@@ -144,7 +144,7 @@ namespace geocone
   Json
   ExplicitSimulation::size() const
   {
-    return {{"method", method.name},
+    return {{"method", method.name()},
             {"element", stepper.element()},
             {"cells", stepper.grid().n_cells()},
             {"nodes", stepper.grid().n_all_nodes()},

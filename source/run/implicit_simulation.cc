@@ -87,7 +87,7 @@ namespace geocone
   std::vector<std::string>
   ImplicitSimulation::prepare_method(const RunOptions &options)
   {
-    scene.materials.check_closed_form(method.name);
+    scene.materials.check_closed_form(method.name());
     for (const auto &stage : scene.loading.stages)
       stage->check_implicit();
     newton.prepare();
@@ -137,7 +137,7 @@ namespace geocone
     return format("%s: %s, %s, %u unknowns, %u points, %s, %u rank%s, solver "
                   "%s",
                   name.c_str(),
-                  method.name.c_str(),
+                  method.name().c_str(),
                   space.element().c_str(),
                   stepper->n_unknowns(),
                   Utilities::MPI::sum(points.n_points(), comm),
@@ -396,7 +396,7 @@ namespace geocone
   Json
   ImplicitSimulation::size() const
   {
-    return {{"method", method.name},
+    return {{"method", method.name()},
             {"element", space.element()},
             {"cells", mesh.triangulation().n_global_active_cells()},
             {"dofs", stepper->n_unknowns()},

@@ -90,12 +90,6 @@ namespace geocone
   {
     RunEstimate       e;
     const std::string element = ParameterFile::value("Discretisation/Element");
-    if (element.size() < 2)
-      throw InputError("Discretisation/Element",
-                       element,
-                       "automatic | P1 | P2 | P3 | Q1 | Q2 | Q3 | B-spline 2 | "
-                       "B-spline 3",
-                       "take automatic");
     if (seeding != nullptr)
       seeding->prepare(scene);
     const BackgroundMesh::Expected expected = mesh.expect(scene, method);

@@ -16,7 +16,6 @@ namespace geocone
   SceneSimulation::prepare(const RunOptions &options)
   {
     scene.prepare();
-    method.prepare();
     return prepare_method(options);
   }
 

@@ -44,20 +44,23 @@ namespace geocone
     catch (const std::exception &error)
       {
         const bool is_stopped = dynamic_cast<const Stopped *>(&error);
-        output().end_with(error, [&](const std::string &status) {
-          if (is_stopped)
-            try
-              {
-                save_checkpoint();
-                log.print("to go on: geocone --resume " + output().folder());
-              }
-            catch (const RunError &failure)
-              {
-                log.warn(std::string("no checkpoint: ") + failure.what());
-              }
-          write_summary(status);
-          write_fields(place.time);
-        });
+        const bool together =
+          output().end_with(error, [&](const std::string &status) {
+            if (is_stopped)
+              try
+                {
+                  save_checkpoint();
+                  log.print("to go on: geocone --resume " + output().folder());
+                }
+              catch (const RunError &failure)
+                {
+                  log.warn(std::string("no checkpoint: ") + failure.what());
+                }
+            write_summary(status);
+            write_fields(place.time);
+          });
+        if (!together)
+          end_all_ranks(error.what());
         throw;
       }
     return output().expectations_hold();

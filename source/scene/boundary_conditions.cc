@@ -46,14 +46,13 @@ namespace geocone
         "Traction (Pa) along the sides, with the body to the left.");
     if (quantity == "Velocity")
       {
-        add_parameter("Imposed on",
-                      imposed_on,
-                      "nodes | points | cell averages | segments. FEM knows "
-                      "nodes only. MPM: nodes of sides of the background mesh "
-                      "(bottom, right, top, left), or, of sides of the body, "
-                      "its first row of particles one by one or averaged per "
-                      "cell, or the averages over parts (segments) of the "
-                      "side, which moves as prescribed.");
+        imposition.declare(
+          *this,
+          "Imposed on",
+          ". FEM knows nodes only. MPM: nodes of sides of the background mesh "
+          "(bottom, right, top, left), or, of sides of the body, its first row "
+          "of particles one by one or averaged per cell, or the averages over "
+          "parts (segments) of the side, which moves as prescribed.");
         add_parameter("Segments",
                       n_segments,
                       "Number of equal parts of the side for 'segments'; 2 "
@@ -100,15 +99,6 @@ namespace geocone
                        dealii::Patterns::Tools::to_string(box),
                        "empty, or lower left; upper right corner",
                        "e.g. -0.1, -1; 0.1, 1");
-    const std::array<const char *, 4> names = {
-      {"nodes", "points", "cell averages", "segments"}};
-    const auto chosen = std::find(names.begin(), names.end(), imposed_on);
-    if (chosen == names.end())
-      throw InputError(parameter("Imposed on"),
-                       imposed_on,
-                       "nodes | points | cell averages | segments",
-                       "choose one of them");
-    imposition = static_cast<Imposition>(chosen - names.begin());
     if (n_segments == 0)
       throw InputError(parameter("Segments"), n_segments, ">= 1", "2 is usual");
     if (!(shortening >= 0.))

@@ -190,8 +190,7 @@ namespace geocone
     : dealii::ParameterAcceptor("/Geometry")
     , folder_of_parameters(parameter_file.folder())
   {
-    add_parameter(
-      "Shape", shape_name, "box | polygon | discs (MPM only) | file.");
+    shape.declare(*this, "Shape", ". Discs are for MPM only.");
     add_parameter("Box",
                   box,
                   "Lower left and upper right corner x, y; x, y (m). Its sides "
@@ -227,9 +226,8 @@ namespace geocone
   {
     outline.clear();
     sides.clear();
-    if (shape_name == "box")
+    if (shape == Shape::box)
       {
-        shape = Shape::box;
         if (box.size() != 2 || !(box[0][0] < box[1][0]) ||
             !(box[0][1] < box[1][1]))
           throw InputError("Geometry/Box",
@@ -241,32 +239,20 @@ namespace geocone
           box[0], {box[1][0], box[0][1]}, box[1], {box[0][0], box[1][1]}};
         sides = {{"bottom", 0}, {"right", 1}, {"top", 2}, {"left", 3}};
       }
-    else if (shape_name == "polygon")
+    else if (shape == Shape::polygon)
       {
-        shape   = Shape::polygon;
         outline = polygon;
         check_polygon(outline, "Geometry/Polygon");
         for (unsigned int i = 0; i < outline.size(); ++i)
           sides[std::to_string(i)] = i;
       }
-    else if (shape_name == "discs")
-      {
-        shape = Shape::discs;
-        check_discs();
-      }
-    else if (shape_name == "file")
-      {
-        shape = Shape::file;
-        file  = existing_file(file,
-                             folder_of_parameters,
-                             "Geometry/File",
-                             "an existing gmsh .msh file");
-      }
+    else if (shape == Shape::discs)
+      check_discs();
     else
-      throw InputError("Geometry/Shape",
-                       shape_name,
-                       "box | polygon | discs | file",
-                       "choose one of them");
+      file = existing_file(file,
+                           folder_of_parameters,
+                           "Geometry/File",
+                           "an existing gmsh .msh file");
   }
 
   void

@@ -301,7 +301,7 @@ namespace geocone
   InitialStress::InitialStress()
     : dealii::ParameterAcceptor("/Initial stress")
   {
-    add_parameter("Type", type, "zero | given | geostatic.");
+    type.declare(*this, "Type", ": the stress before the first step.");
     add_parameter("Stress xx",
                   texts[0],
                   "For 'given': formula in x, y (Pa, tension positive).");
@@ -328,7 +328,7 @@ namespace geocone
                          const Geometry &geometry,
                          const Regions  &regions)
   {
-    if (type == "given")
+    if (type == Type::given)
       {
         const char *names[] = {"Stress xx", "Stress yy", "Stress xy"};
         for (unsigned int i = 0; i < 3; ++i)
@@ -337,7 +337,7 @@ namespace geocone
         if (!text_zz.empty())
           component_zz.prepare(text_zz, "Initial stress/Stress zz");
       }
-    else if (type == "geostatic")
+    else if (type == Type::geostatic)
       {
         // The final value: a geostatic state is one under full gravity.
         const dealii::Tensor<1, dim> full = gravity.at(1e300);
@@ -351,15 +351,13 @@ namespace geocone
         g = -full[1];
         if (regions.have_numbers())
           throw InputError("Initial stress/Type",
-                           type,
+                           type.word(),
                            "zero | given, where materials are found by their "
                            "region numbers",
                            "give the stress by formulas, or the materials by "
                            "region polygons");
         check_level_ground(geometry);
       }
-    else
-      check_choice("Initial stress/Type", type, {"zero", "given", "geostatic"});
   }
 
   void
@@ -404,7 +402,7 @@ namespace geocone
       }
     if (left_top > left + 1e-9 || right_top < right - 1e-9)
       throw InputError("Initial stress/Type",
-                       type,
+                       type.word(),
                        "zero | given, where the ground is not level",
                        "let gravity build up the stress of a slope in a stage "
                        "of its own");
@@ -422,11 +420,11 @@ namespace geocone
                     const Materials          &materials,
                     const Regions            &regions) const
   {
-    if (type == "given")
+    if (type == Type::given)
       return {components[0].value(x, 0.),
               components[1].value(x, 0.),
               sqrt2 * components[2].value(x, 0.)};
-    if (type == "zero")
+    if (type == Type::zero)
       return Mandel::Zero();
 
     // Weight of the column above x, by a midpoint sum that is exact
@@ -450,7 +448,7 @@ namespace geocone
   InitialStress::zz_at(const dealii::Point<dim> &x,
                        const Mandel             &in_plane) const
   {
-    return type == "given" && !text_zz.empty() ? component_zz.value(x, 0.)
-                                               : in_plane[0];
+    return type == Type::given && !text_zz.empty() ? component_zz.value(x, 0.)
+                                                   : in_plane[0];
   }
 } // namespace geocone

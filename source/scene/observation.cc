@@ -35,7 +35,8 @@ namespace geocone
                   names,
                   "Boundary conditions whose reactions are reported; the first "
                   "one gives the load-displacement curve.");
-    add_parameter("Component", component_name, "x | y.");
+    observed.declare(
+      *this, "Component", ": that of the reaction which is the load.");
     add_parameter("Factor",
                   factor,
                   "Load = factor x reaction of the support on the body: -1 "
@@ -90,8 +91,7 @@ namespace geocone
                            "names of the list 'Boundary conditions/Names'",
                            "check the spelling");
       }
-    check_choice("Observation/Component", component_name, {"x", "y"});
-    component = component_name == "x" ? 0 : 1;
+    component = observed == Component::x ? 0 : 1;
     if (!std::isfinite(factor) || factor == 0. || std::abs(factor) > 1e6)
       throw InputError("Observation/Factor",
                        factor,

@@ -15,7 +15,7 @@ namespace geocone
     Vector              direction = work.problem.make_vector();
     work.record(work.evaluate(), 0., 0., 0.);
     if (!work.factorise(1.))
-      return work.problem.trial_stress();
+      return work.problem.internal_forces().trial_stress();
     for (unsigned int i = 0; i < n_iterations; ++i)
       {
         work.solve(i == 0 ? &jump.prescribed : nullptr, jump.defect, direction);
@@ -24,7 +24,7 @@ namespace geocone
         jump.defect = work.problem.free_dofs().multipliers.defect(work.v);
         work.record(work.evaluate(), 1., 1., 0.);
       }
-    return work.problem.trial_stress();
+    return work.problem.internal_forces().trial_stress();
   }
 
   std::vector<Mandel>

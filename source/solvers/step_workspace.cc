@@ -65,14 +65,15 @@ namespace geocone
     if (!(state.norm <= largest_floor * state.force_norm))
       return false;
     report.at_rounding_floor =
-      state.norm <= floor_factor * problem.rounding_floor(v);
+      state.norm <= floor_factor * problem.internal_forces().rounding_floor(v);
     return report.at_rounding_floor;
   }
 
   void
   StepWorkspace::report_not_a_number() const
   {
-    report.reason = "the residual is not a number" + problem.not_a_number();
+    report.reason =
+      "the residual is not a number" + problem.internal_forces().not_a_number();
     report.remedy =
       "values of the scene overflow or are not numbers: check formulas, the "
       "initial stress, stiffnesses, loads and velocities there, and 'Newton/"

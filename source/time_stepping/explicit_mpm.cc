@@ -50,14 +50,12 @@ namespace geocone
     , mesh(comm)
     , seeding(file)
   {
-    add_parameter("Order",
-                  order_name,
-                  "MUSL (velocities of points first, stress from their mean; "
-                  "tolerates small nodal masses) | USL (stress last, one pass "
-                  "over the points: the fastest; for splines) | USF (stress "
-                  "first).",
-                  prm,
-                  Patterns::Selection("MUSL|USL|USF"));
+    order.declare(
+      *this,
+      "Order",
+      ". MUSL: velocities of points first, stress from their mean; tolerates "
+      "small nodal masses. USL: stress last, one pass over the points: the "
+      "fastest; for splines. USF: stress first.");
     add_parameter("Courant number",
                   courant,
                   "C of the step C h/(c + v), with the cell size h, the "
@@ -107,7 +105,7 @@ namespace geocone
                                  "Discretisation/Method = FEM");
         if (condition->moves())
           throw InputError(condition->parameter("Imposed on"),
-                           condition->imposed_on,
+                           condition->imposition.word(),
                            "nodes with explicit MPM",
                            "prescribe velocities on sides of the background "
                            "mesh, or set Discretisation/Method = MPM");
@@ -124,12 +122,8 @@ namespace geocone
   ExplicitMPM::prepare(const Scene &scene_, const Method &method)
   {
     scene  = &scene_;
-    kind   = order_name == "MUSL"  ? Order::musl
-             : order_name == "USL" ? Order::usl
-                                   : Order::usf;
     affine = rule.is_affine();
     check_parameters();
-    outflow.prepare();
     seeding.prepare(*scene);
     kernels = &transfer_kernels();
 
@@ -160,7 +154,7 @@ namespace geocone
 
     if (affine && space.degree() == 1)
       throw InputError(ParticleTransfer::parameter,
-                       rule.name,
+                       "APIC",
                        "FLIP where the element is Q1",
                        "take splines for APIC: with Q1 the noise of nodes with "
                        "little mass grows from step to step");
@@ -374,7 +368,7 @@ namespace geocone
   void
   ExplicitMPM::start_nodes()
   {
-    const bool stress_first = kind == Order::usf;
+    const bool stress_first = order == Order::usf;
     pass({false,
           false,
           {false, false, false},
@@ -450,12 +444,12 @@ namespace geocone
     const auto gives      = [&](const Gives what) {
       return gives_next ? what : Gives::nothing;
     };
-    if (kind == Order::usl)
+    if (order == Order::usl)
       {
         accelerate(false, true);
         pass({true, true, {true, true, true}, gives(Gives::all), true}, dt);
       }
-    else if (kind == Order::musl)
+    else if (order == Order::musl)
       {
         accelerate(false, false);
         pass({true, false, {false, true, false}, Gives::momentum, false}, dt);

@@ -35,7 +35,7 @@ namespace geocone
     for (const auto &condition : scene->dirichlet.list)
       if (condition->moves())
         throw InputError(condition->parameter("Imposed on"),
-                         condition->imposed_on,
+                         condition->imposition.word(),
                          "nodes with FEM",
                          "impose it on nodes, or set Discretisation/Method = "
                          "MPM");
@@ -148,8 +148,9 @@ namespace geocone
       return report;
 
     TimerOutput::Scope scope(timer, "commit");
-    report.unknowns = constraints->n_rows;
-    report.quality  = problem->quality();
+    report.unknowns              = constraints->n_rows;
+    const InternalForces &forces = problem->internal_forces();
+    report.quality               = forces.quality();
 
     std::array<double, 2> sums = {}; // external work, dissipation
     for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
@@ -160,8 +161,8 @@ namespace geocone
           sums[0] += h * residual.local_element(i) * v.local_element(i);
       }
     for (unsigned int p = 0; p < points.n_points(); ++p)
-      sums[1] += points.weight[p] * problem->trial_stress()[p].dot(
-                                      problem->plastic_strain_increment(p));
+      sums[1] += points.weight[p] * forces.trial_stress()[p].dot(
+                                      forces.plastic_strain_increment(p));
     dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums.data(), 2),
                                 v.get_mpi_communicator(),
                                 dealii::ArrayView<double>(sums.data(), 2));
@@ -170,13 +171,13 @@ namespace geocone
 
     for (unsigned int p = 0; p < points.n_points(); ++p)
       {
-        const Mandel plastic = problem->plastic_strain_increment(p);
+        const Mandel plastic = forces.plastic_strain_increment(p);
         points.plastic_strain[p] += plastic;
         points.cumulative_plastic_strain[p] += plastic.norm();
         points.plastic_strain_rate[p] = plastic.norm() / h;
       }
-    points.history = problem->trial_history();
-    points.stress  = problem->trial_stress();
+    points.history = forces.trial_history();
+    points.stress  = forces.trial_stress();
     constraints->turn_back(v);
     kinematics.velocity = v;
     kinematics.displacement.add(h, v);

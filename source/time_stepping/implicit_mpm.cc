@@ -29,20 +29,38 @@ namespace geocone
       return {mean + h, mean - h, sqrt2 * (s * half + c * shear)};
     }
 
+    /** Calls f(p, c, its functions) for each point p of each cell c. */
+    template <typename F>
+    void
+    for_each_point(const MaterialPoints &points, const F &f)
+    {
+      const unsigned int n = points.n_nodes;
+      for (unsigned int c = 0; c < points.n_cells(); ++c)
+        for (unsigned int p = points.first_point[c];
+             p < points.first_point[c + 1];
+             ++p)
+          {
+            const double *slopes = &points.gradients[2 * n * p];
+            f(p,
+              c,
+              PointFunctions{n,
+                             &points.nodes[n * c],
+                             &points.values[n * p],
+                             slopes,
+                             slopes + n});
+          }
+    }
   } // namespace
 
   ImplicitMPM::ImplicitMPM(const ParameterFile &file)
     : ParameterAcceptor("/Material point method")
     , particles(file)
   {
-    add_parameter("Advection",
-                  advection,
-                  "grid velocity | particle velocity | none: what moves the "
-                  "particles. The second lets loads drift with FLIP. None: "
-                  "they stay, as do supports, for limit loads by small "
-                  "strains.",
-                  prm,
-                  Patterns::Selection("grid velocity|particle velocity|none"));
+    advection.declare(
+      *this,
+      "Advection",
+      ": what moves the particles. The second lets loads drift with FLIP. "
+      "None: they stay, as do supports, for limit loads by small strains.");
     add_parameter("Consistent mass part",
                   consistent_mass,
                   "M = (1 - c) lumped + c consistent; 0 to 1. Up to 0.999 is "
@@ -50,20 +68,13 @@ namespace geocone
                   "functions.",
                   prm,
                   Patterns::Double(0., 1.));
-    add_parameter("Integration",
-                  integration,
-                  "backward Euler | midpoint, which loses less energy.",
-                  prm,
-                  Patterns::Selection("backward Euler|midpoint"));
-    add_parameter(
+    integration.declare(*this, "Integration", ", which loses less energy.");
+    start_asked.declare(
+      *this,
       "Start",
-      start_name,
-      "Where Newton's method starts: grid velocity (of the last "
-      "step; best for slow loading) | particle velocity (vL, with "
-      "the elastic tangent first) | automatic: the former, and "
-      "the latter if it fails.",
-      prm,
-      Patterns::Selection("grid velocity|particle velocity|automatic"));
+      ": where Newton's method starts. Grid velocity: that of the last step; "
+      "best for slow loading. Particle velocity: vL, with the elastic tangent "
+      "first. Automatic: the former, and the latter if it fails.");
     add_parameter("Largest move",
                   largest_move,
                   "A step in which a particle would move farther than so many "
@@ -84,10 +95,9 @@ namespace geocone
     if (!(largest_move > 0.))
       throw InputError(
         section + "Largest move", largest_move, "> 0 cells", "3 is usual");
-    midpoint = integration == "midpoint";
-    if (start_name != "particle velocity")
+    if (start_asked != Start::particles)
       starts.push_back(Start::nodes);
-    if (start_name != "grid velocity")
+    if (start_asked != Start::nodes)
       starts.push_back(Start::particles);
     if (!space->is_non_negative() && consistent_mass < 1.)
       throw InputError("Discretisation/Basis",
@@ -120,7 +130,8 @@ namespace geocone
     moving = std::make_unique<MovingConditions>(*scene, *mesh, *space);
 
     std::string warning = particles.prepare(*scene, *mesh, *space);
-    if (midpoint && advection == "particle velocity")
+    if (integration == Integration::midpoint &&
+        advection == Advection::particle_velocity)
       warning += std::string(warning.empty() ? "" : "; ") +
                  "the midpoint rule with Advection = particle velocity lets "
                  "the total energy grow where particles and nodes move "
@@ -163,17 +174,17 @@ namespace geocone
         e.potential -= points.mass[p] * (g * (points.position[p] - datum));
       }
     if (rule.is_affine())
-      for (unsigned int c = 0; c < points.n_cells(); ++c)
-        for (unsigned int p = points.first_point[c];
-             p < points.first_point[c + 1];
-             ++p)
-          {
-            const Tensor<2, dim> &C = points.affine[p];
-            e.kinetic +=
-              points.mass[p] / 2. *
-              scalar_product(
-                C, C * moment(points, p, &points.nodes[c * points.n_nodes]));
-          }
+      for_each_point(points,
+                     [&](const unsigned int p,
+                         const unsigned int /* cell */,
+                         const PointFunctions &at) {
+                       const Tensor<2, dim> &C = points.affine[p];
+                       e.kinetic +=
+                         points.mass[p] / 2. *
+                         scalar_product(C,
+                                        C * at.moment(points.position[p],
+                                                      space->node_positions()));
+                     });
     const MPI_Comm comm = force.get_mpi_communicator();
     e.kinetic           = Utilities::MPI::sum(e.kinetic, comm);
     e.potential         = Utilities::MPI::sum(e.potential, comm);
@@ -193,27 +204,23 @@ namespace geocone
       TimerOutput::Scope scope(timer, "transfer");
       lumped_mass.reinit(space->partitioner());
       velocity_L.reinit(space->partitioner());
-      const unsigned int n = points.n_nodes;
-      for (unsigned int c = 0; c < points.n_cells(); ++c)
-        {
-          const unsigned int *nodes = &points.nodes[c * n];
-          for (unsigned int p = points.first_point[c];
-               p < points.first_point[c + 1];
-               ++p)
-            for (unsigned int i = 0; i < n; ++i)
-              {
-                const double   m = points.mass[p] * points.values[p * n + i];
-                Tensor<1, dim> v = points.velocity[p];
-                if (rule.is_affine())
-                  v += points.affine[p] *
-                       (space->node_positions()[nodes[i]] - points.position[p]);
-                for (unsigned int d = 0; d < dim; ++d)
-                  {
-                    lumped_mass.local_element(dim * nodes[i] + d) += m;
-                    velocity_L.local_element(dim * nodes[i] + d) += m * v[d];
-                  }
-              }
-        }
+      for_each_point(points,
+                     [&](const unsigned int p,
+                         const unsigned int /* cell */,
+                         const PointFunctions &at) {
+                       const double m             = points.mass[p];
+                       const double masses[dim]   = {m, m};
+                       const double momentum[dim] = {m * points.velocity[p][0],
+                                                     m * points.velocity[p][1]};
+                       at.scatter<dim, false>(masses, lumped_mass.begin());
+                       at.scatter<dim, false>(momentum, velocity_L.begin());
+                       if (rule.is_affine())
+                         at.scatter_affine<dim>(m,
+                                                points.affine[p],
+                                                points.position[p],
+                                                space->node_positions(),
+                                                velocity_L.begin());
+                     });
       lumped_mass.compress(VectorOperation::add);
       velocity_L.compress(VectorOperation::add);
       lumped_mass.update_ghost_values();
@@ -252,7 +259,7 @@ namespace geocone
       vmult(Vector &dst, const Vector &src) const
       {
         src.update_ghost_values();
-        problem.apply_mass(dst, src);
+        problem.inertia_term().apply_mass(dst, src);
         src.zero_out_ghost_values();
       }
     };
@@ -309,6 +316,152 @@ namespace geocone
           : 0.;
   }
 
+  SolverReport
+  ImplicitMPM::solve(const Step            &step,
+                     const Kinematics      &kinematics,
+                     const NonsmoothNewton &newton,
+                     Freezer               &freezer,
+                     TimerOutput           &timer,
+                     Vector                &v,
+                     Vector                &residual)
+  {
+    SolverReport report;
+    for (const Start start : starts)
+      {
+        v = velocity_L;
+        if (start == Start::nodes)
+          for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
+            if (had_mass.empty() || had_mass[i])
+              v.local_element(i) = constraints->has_mass(i)
+                                     ? kinematics.velocity.local_element(i)
+                                     : 0.;
+        constraints->set_values(v, step.solved_at);
+        const Vector v_start = v;
+        SolverReport tried   = newton.solve(
+          *problem, *system, timer, v, residual, {start == Start::particles});
+        tried.add_earlier(report);
+        report = std::move(tried);
+        freezer.take(*problem, v_start, true, report.converged);
+        if (report.converged)
+          break;
+      }
+    return report;
+  }
+
+  ImplicitMPM::Works
+  ImplicitMPM::works(const Step   &step,
+                     const Vector &v,
+                     const Vector &residual) const
+  {
+    std::array<double, 2> sums = {}; // of the weight, and the other forces
+    const Tensor<1, dim>  g    = scene->gravity.at(step.solved_at);
+    for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
+      {
+        const double weight = constraints->has_mass(i)
+                                ? g[i % dim] * lumped_mass.local_element(i)
+                                : 0.;
+        sums[0] += step.h * weight * v.local_element(i);
+        sums[1] +=
+          step.h * (force.local_element(i) - weight) * v.local_element(i);
+        if (constraints->is_prescribed(i))
+          sums[1] += step.h * residual.local_element(i) * v.local_element(i);
+      }
+    Utilities::MPI::sum(ArrayView<const double>(sums.data(), 2),
+                        v.get_mpi_communicator(),
+                        ArrayView<double>(sums.data(), 2));
+    const Multipliers &rows = constraints->multipliers;
+    if (rows.n_rows() > 0)
+      sums[1] += step.h * problem->multipliers().dot(rows.multiply(v));
+    return {sums[0], sums[1]};
+  }
+
+  double
+  ImplicitMPM::work_of_changing_gravity(const Step           &step,
+                                        const MaterialPoints &points) const
+  {
+    const Tensor<1, dim> change =
+      scene->gravity.at(step.t + step.h) - scene->gravity.at(step.t);
+    double work = 0.;
+    if (change.norm() > 0.)
+      for (unsigned int p = 0; p < points.n_points(); ++p)
+        work -= points.mass[p] * (change * (points.position[p] - datum));
+    return Utilities::MPI::sum(work, force.get_mpi_communicator());
+  }
+
+  double
+  ImplicitMPM::update_points(const Step               &step,
+                             const std::vector<Moved> &moved,
+                             MaterialPoints           &points) const
+  {
+    const InternalForces &internal    = problem->internal_forces();
+    const bool            midpoint    = integration == Integration::midpoint;
+    double                dissipation = 0.;
+    std::vector<double>   history     = internal.trial_history();
+    if (midpoint) // extrapolated to the end, as the stress
+      for (std::size_t i = 0; i < history.size(); ++i)
+        history[i] = 2. * history[i] - points.history[i];
+    points.history = std::move(history);
+    for (unsigned int p = 0; p < points.n_points(); ++p)
+      {
+        Mandel       stress  = internal.trial_stress()[p];
+        Mandel       plastic = internal.plastic_strain_increment(p);
+        const double volume  = points.weight[p];
+        dissipation += (step.h / step.solved_h) * volume * stress.dot(plastic);
+        if (midpoint)
+          {
+            // Extrapolated to the end, and back into what the soil can bear.
+            const Material &material = scene->materials[points.material[p]];
+            const Mandel    beyond   = 2. * stress - points.stress[p];
+            stress = material.nearest_admissible(beyond, points.history_of(p));
+            const Mandel back =
+              material.elasticity().strain(Mandel(beyond - stress));
+            dissipation += volume * stress.dot(back);
+            plastic = 2. * plastic + back;
+          }
+        points.stress[p] = turn(stress, moved[p].spin);
+        points.plastic_strain[p] =
+          turn(points.plastic_strain[p] + plastic, moved[p].spin);
+        points.cumulative_plastic_strain[p] += plastic.norm();
+        points.plastic_strain_rate[p] = plastic.norm() / step.h;
+        points.weight[p]              = moved[p].volume;
+        points.displacement[p] += moved[p].displacement;
+        points.position[p] = moved[p].position;
+        points.velocity[p] = moved[p].velocity;
+        points.affine[p]   = moved[p].affine;
+        if (const BoundaryCondition *holder = holder_of(points, p))
+          for (unsigned int d = 0; d < dim; ++d)
+            if (holder->components[d])
+              points.velocity[p][d] = holder->components[d]->value(
+                points.position[p], step.t + step.h);
+      }
+    return Utilities::MPI::sum(dissipation, force.get_mpi_communicator());
+  }
+
+  void
+  ImplicitMPM::update_supports(const Step            &step,
+                               const Vector          &v,
+                               Kinematics            &kinematics,
+                               std::vector<Reaction> &reactions) const
+  {
+    const Eigen::VectorXd &lambda = problem->multipliers();
+    const Multipliers     &rows   = constraints->multipliers;
+    for (unsigned int c = 0; c < kinematics.supports.size(); ++c)
+      {
+        const bool moves = scene->dirichlet.list[c]->moves();
+        if (moves)
+          reactions[c].moment =
+            rows.moment(lambda, c, constraints->centre(c), *space);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            kinematics.supports[c][d] +=
+              step.h *
+              (moves ? rows.mean_target(c, d) : constraints->mean(v, c, d));
+            if (moves)
+              reactions[c].force[d] = rows.resultant(lambda, c, d);
+          }
+      }
+  }
+
   StepReport
   ImplicitMPM::advance(Kinematics            &kinematics,
                        MaterialPoints        &points,
@@ -321,40 +474,24 @@ namespace geocone
     if (!begun)
       begin(points, timer);
     // The midpoint rule is backward Euler over half of the step, doubled.
+    const bool   midpoint = integration == Integration::midpoint;
     const double solved_h = midpoint ? h / 2. : h;
-    const double end      = t + solved_h;
+    const Step   step     = {t, h, solved_h, t + solved_h};
     StepReport   report;
     Vector       v = problem->make_vector(), residual = problem->make_vector();
     {
       TimerOutput::Scope scope(timer, "transfer");
-      constraints->set_values(v, end);
-      moving->make_rows(points, v, end, *constraints);
-      evaluate_force(end);
+      constraints->set_values(v, step.solved_at);
+      moving->make_rows(points, v, step.solved_at, *constraints);
+      evaluate_force(step.solved_at);
     }
     report.unknowns    = constraints->n_rows;
     report.multipliers = constraints->multipliers.n_rows();
     report.rows        = constraints->multipliers.n_given();
 
     problem->begin_step(solved_h, &force, velocity_L, v);
-    for (const Start start : starts)
-      {
-        v = velocity_L;
-        if (start == Start::nodes)
-          for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
-            if (had_mass.empty() || had_mass[i])
-              v.local_element(i) = constraints->has_mass(i)
-                                     ? kinematics.velocity.local_element(i)
-                                     : 0.;
-        constraints->set_values(v, end);
-        const Vector v_start = v;
-        SolverReport tried   = newton.solve(
-          *problem, *system, timer, v, residual, {start == Start::particles});
-        tried.add_earlier(report.newton);
-        report.newton = std::move(tried);
-        freezer.take(*problem, v_start, true, report.newton.converged);
-        if (report.newton.converged)
-          break;
-      }
+    report.newton =
+      solve(step, kinematics, newton, freezer, timer, v, residual);
     if (!report.newton.converged)
       return report;
 
@@ -362,8 +499,6 @@ namespace geocone
     Vector             v_end = v;
     if (midpoint)
       v_end.sadd(2., -1., velocity_L);
-    v.update_ghost_values();
-    v_end.update_ghost_values();
     std::vector<Moved> moved;
     report.newton.reason = transfer(points, v_end, v, h, moved);
     if (!report.newton.reason.empty())
@@ -371,116 +506,28 @@ namespace geocone
     report.converged = true;
 
     // From here on the step is accepted.
-    report.reactions =
-      constraints->reactions(residual, points, problem->trial_stress(), end);
-    report.quality                = problem->quality();
-    const MPI_Comm         comm   = v.get_mpi_communicator();
-    const Eigen::VectorXd &lambda = problem->multipliers();
-    const Multipliers     &rows   = constraints->multipliers;
-    std::array<double, 2>  sums   = {}; // works of weight, other external
-    const Tensor<1, dim>   g      = scene->gravity.at(end);
-    for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
-      {
-        const double weight = constraints->has_mass(i)
-                                ? g[i % dim] * lumped_mass.local_element(i)
-                                : 0.;
-        sums[0] += h * weight * v.local_element(i);
-        sums[1] += h * (force.local_element(i) - weight) * v.local_element(i);
-        if (constraints->is_prescribed(i))
-          sums[1] += h * residual.local_element(i) * v.local_element(i);
-      }
-    Utilities::MPI::sum(ArrayView<const double>(sums.data(), 2),
-                        comm,
-                        ArrayView<double>(sums.data(), 2));
-    if (rows.n_rows() > 0)
-      sums[1] += h * lambda.dot(rows.multiply(v));
+    const InternalForces &internal = problem->internal_forces();
+    const Works           work     = works(step, v, residual);
+    report.quality                 = internal.quality();
+    report.reactions               = constraints->reactions(
+      residual, points, internal.trial_stress(), step.solved_at);
     report.identity_error =
       energy_identity_error(*problem,
                             points,
                             scene->materials,
                             velocity_L,
                             v,
-                            (sums[0] + sums[1]) * (solved_h / h));
-
+                            (work.of_weight + work.of_others) * (solved_h / h));
     // Particles that stay keep their potential energy, whatever moves the nodes:
-    // as with FEM, the work of the weight is that of an external force.
-    const double work_of_weight = advection == "none" ? sums[0] : 0.;
-
-    // Gravity that changes works on points at rest.
-    const Tensor<1, dim> change =
-      scene->gravity.at(t + h) - scene->gravity.at(t);
-    double work_of_change = 0.;
-    if (change.norm() > 0.)
-      for (unsigned int p = 0; p < points.n_points(); ++p)
-        work_of_change -=
-          points.mass[p] * (change * (points.position[p] - datum));
-    double              dissipation = 0.;
-    std::vector<double> history     = problem->trial_history();
-    if (midpoint) // extrapolated to the end, as the stress
-      for (std::size_t i = 0; i < history.size(); ++i)
-        history[i] = 2. * history[i] - points.history[i];
-    points.history = std::move(history);
-    for (unsigned int p = 0; p < points.n_points(); ++p)
-      {
-        Mandel       stress  = problem->trial_stress()[p];
-        Mandel       plastic = problem->plastic_strain_increment(p);
-        const double volume  = points.weight[p];
-        dissipation += (h / solved_h) * volume * stress.dot(plastic);
-        if (midpoint)
-          {
-            // Extrapolated to the end, and back onto the cone.
-            plastic *= 2.;
-            stress                   = 2. * stress - points.stress[p];
-            const Material &material = scene->materials[points.material[p]];
-            if (const auto cone = material.flow_cone(points.history_of(p)))
-              {
-                const Mandel on_cone = from_cone_axes(
-                  project(cone->a, cone->k, Mandel(to_cone_axes(stress))));
-                const Mandel strain =
-                  material.elasticity().strain(Mandel(stress - on_cone));
-                dissipation += volume * on_cone.dot(strain);
-                plastic += strain;
-                stress = on_cone;
-              }
-          }
-        points.stress[p] = turn(stress, moved[p].spin);
-        points.plastic_strain[p] =
-          turn(points.plastic_strain[p] + plastic, moved[p].spin);
-        points.cumulative_plastic_strain[p] += plastic.norm();
-        points.plastic_strain_rate[p] = plastic.norm() / h;
-        points.weight[p]              = moved[p].volume;
-        points.displacement[p] += moved[p].displacement;
-        points.position[p] = moved[p].position;
-        points.velocity[p] = moved[p].velocity;
-        points.affine[p]   = moved[p].affine;
-        if (points.held_by[p] > 0)
-          {
-            const BoundaryCondition &condition =
-              *scene->dirichlet.list[points.held_by[p] - 1];
-            if (condition.imposition == Imposition::points)
-              for (unsigned int d = 0; d < dim; ++d)
-                if (condition.components[d])
-                  points.velocity[p][d] =
-                    condition.components[d]->value(points.position[p], t + h);
-          }
-      }
-
-    for (unsigned int c = 0; c < kinematics.supports.size(); ++c)
-      {
-        const bool moves = scene->dirichlet.list[c]->moves();
-        if (moves)
-          report.reactions[c].moment =
-            rows.moment(lambda, c, constraints->centre(c), *space);
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            kinematics.supports[c][d] +=
-              h * (moves ? rows.mean_target(c, d) : constraints->mean(v, c, d));
-            if (moves)
-              report.reactions[c].force[d] = rows.resultant(lambda, c, d);
-          }
-      }
-    if (advection != "none")
-      moving->move(v, h, end);
+    // as with FEM, the work of the weight is that of an external force. Gravity
+    // that changes works on points at rest.
+    const double external_work =
+      work.of_others + (advection == Advection::none ? work.of_weight : 0.) +
+      work_of_changing_gravity(step, points);
+    const double dissipation = update_points(step, moved, points);
+    update_supports(step, v, kinematics, report.reactions);
+    if (advection != Advection::none)
+      moving->move(v, h, step.solved_at);
 
     had_mass.resize(v.locally_owned_size());
     for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
@@ -490,27 +537,23 @@ namespace geocone
     points = particles.collect(*mesh, *space);
     begun  = false;
 
-    report.energies               = state_energies(kinematics, points, t + h);
-    report.largest_plastic_strain = largest_plastic_strain(points, comm);
-    report.energies.external_work =
-      sums[1] + work_of_weight + Utilities::MPI::sum(work_of_change, comm);
-    report.energies.dissipation = Utilities::MPI::sum(dissipation, comm);
+    report.energies = state_energies(kinematics, points, t + h);
+    report.largest_plastic_strain =
+      largest_plastic_strain(points, v.get_mpi_communicator());
+    report.energies.external_work = external_work;
+    report.energies.dissipation   = dissipation;
     return report;
   }
 
-  Tensor<2, dim>
-  ImplicitMPM::moment(const MaterialPoints &points,
-                      const unsigned int    p,
-                      const unsigned int   *nodes) const
+  const BoundaryCondition *
+  ImplicitMPM::holder_of(const MaterialPoints &points,
+                         const unsigned int    p) const
   {
-    Tensor<2, dim> D;
-    for (unsigned int i = 0; i < points.n_nodes; ++i)
-      {
-        const Tensor<1, dim> r =
-          space->node_positions()[nodes[i]] - points.position[p];
-        D += points.values[p * points.n_nodes + i] * outer_product(r, r);
-      }
-    return D;
+    if (points.held_by[p] == 0)
+      return nullptr;
+    const BoundaryCondition &condition =
+      *scene->dirichlet.list[points.held_by[p] - 1];
+    return condition.imposition == Imposition::points ? &condition : nullptr;
   }
 
   std::string
@@ -521,116 +564,81 @@ namespace geocone
                         std::vector<Moved>   &moved) const
   {
     moved.resize(points.n_points());
-    const unsigned int n         = points.n_nodes;
-    const double       flip_part = rule.flip_part();
-    std::string        obstacle;
-    for (unsigned int c = 0; c < points.n_cells(); ++c)
-      {
-        const unsigned int *nodes = &points.nodes[c * n];
-        const double extent[dim]  = {points.cells[c]->extent_in_direction(0),
-                                     points.cells[c]->extent_in_direction(1)};
-        for (unsigned int p = points.first_point[c];
-             p < points.first_point[c + 1];
-             ++p)
+    const double flip_part = rule.flip_part();
+    Vector       change    = v;
+    change -= velocity_L;
+    for (const Vector *vector : {&v, &v_mean, &std::as_const(change)})
+      vector->update_ghost_values();
+    std::string obstacle;
+    for_each_point(
+      points,
+      [&](
+        const unsigned int p, const unsigned int c, const PointFunctions &at) {
+        const double extent[dim] = {points.cells[c]->extent_in_direction(0),
+                                    points.cells[c]->extent_in_direction(1)};
+        double       end[dim], gained[dim], mean[3 * dim];
+        at.gather<dim, false>(v.begin(), end);
+        at.gather<dim, false>(change.begin(), gained);
+        at.gather<dim, true>(v_mean.begin(), mean);
+        Tensor<2, dim> gradient; // d_d v_c of the mean velocity
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int d = 0; d < dim; ++d)
+            gradient[i][d] = mean[dim * (1 + d) + i];
+
+        Moved &next = moved[p];
+        if (rule.is_affine())
+          next.affine = at.gather_affine<dim>(v.begin(),
+                                              points.position[p],
+                                              space->node_positions(),
+                                              std::min(extent[0], extent[1]));
+        // Particles held one by one stay in their row: out of it, their rows would
+        // prescribe a gradient as well.
+        const BoundaryCondition *holder = holder_of(points, p);
+        Tensor<1, dim>           move;
+        for (unsigned int d = 0; d < dim; ++d)
           {
-            const double  *N  = &points.values[p * n];
-            const double  *gx = &points.gradients[2 * p * n], *gy = gx + n;
-            Tensor<1, dim> new_velocity, mean_velocity, change;
-            Tensor<2, dim> gradient; // d_d v_c of the mean velocity
-            for (unsigned int i = 0; i < n; ++i)
-              for (unsigned int d = 0; d < dim; ++d)
-                {
-                  const unsigned int dof = dim * nodes[i] + d;
-                  const double       vi  = v.local_element(dof);
-                  const double       mi  = v_mean.local_element(dof);
-                  new_velocity[d] += N[i] * vi;
-                  mean_velocity[d] += N[i] * mi;
-                  change[d] += N[i] * (vi - velocity_L.local_element(dof));
-                  gradient[d][0] += gx[i] * mi;
-                  gradient[d][1] += gy[i] * mi;
-                }
-            Moved &next   = moved[p];
-            next.velocity = flip_part * (points.velocity[p] + change) +
-                            (1. - flip_part) * new_velocity;
-            if (rule.is_affine())
-              next.affine = affine_part(
-                points, p, nodes, v, std::min(extent[0], extent[1]));
-            next.displacement = h * mean_velocity;
-            if (advection == "particle velocity")
-              {
-                // Particles held one by one stay in their row: out of it, their
-                // rows would prescribe a gradient as well.
-                const BoundaryCondition *holder =
-                  points.held_by[p] > 0
-                    ? scene->dirichlet.list[points.held_by[p] - 1].get()
-                    : nullptr;
-                for (unsigned int d = 0; d < dim; ++d)
-                  if (holder == nullptr ||
-                      holder->imposition != Imposition::points ||
-                      !holder->components[d])
-                    next.displacement[d] = h * next.velocity[d];
-              }
-            Tensor<1, dim> move = next.displacement;
-            if (advection == "none")
-              {
-                move     = 0.;
-                gradient = 0.;
-              }
-            next.position          = points.position[p] + move;
-            Tensor<2, dim> stretch = h * gradient;
-            for (unsigned int d = 0; d < dim; ++d)
-              stretch[d][d] += 1.;
-            const double ratio = determinant(stretch);
-            next.volume        = ratio * points.weight[p];
-            next.spin          = h * (gradient[1][0] - gradient[0][1]) / 2.;
-
-            if (!std::isfinite(next.position.square()) ||
-                !std::isfinite(next.velocity.norm_square()))
-              obstacle = format("the velocity of particle %u is not a number",
-                                points.id[p]);
-            else if (!(ratio > 0.05))
-              obstacle = format("the volume of particle %u at (%g, %g) would "
-                                "collapse to %.2g of itself",
-                                points.id[p],
-                                points.position[p][0],
-                                points.position[p][1],
-                                ratio);
-            for (unsigned int d = 0; d < dim; ++d)
-              if (std::abs(move[d]) > largest_move * extent[d])
-                obstacle =
-                  format("particle %u at (%g, %g) would cross %.1f cells, more "
-                         "than 'Material point method/Largest move'",
-                         points.id[p],
-                         points.position[p][0],
-                         points.position[p][1],
-                         std::abs(move[d]) / extent[d]);
+            next.velocity[d] = flip_part * (points.velocity[p][d] + gained[d]) +
+                               (1. - flip_part) * end[d];
+            const bool follows_grid =
+              advection != Advection::particle_velocity ||
+              (holder != nullptr && holder->components[d]);
+            next.displacement[d] =
+              h * (follows_grid ? mean[d] : next.velocity[d]);
           }
-      }
-    return text_of_any_rank(v.get_mpi_communicator(), obstacle);
-  }
+        if (advection == Advection::none)
+          gradient = 0.;
+        else
+          move = next.displacement;
+        next.position          = points.position[p] + move;
+        Tensor<2, dim> stretch = h * gradient;
+        for (unsigned int d = 0; d < dim; ++d)
+          stretch[d][d] += 1.;
+        const double ratio = determinant(stretch);
+        next.volume        = ratio * points.weight[p];
+        next.spin          = h * (gradient[1][0] - gradient[0][1]) / 2.;
 
-  Tensor<2, dim>
-  ImplicitMPM::affine_part(const MaterialPoints &points,
-                           const unsigned int    p,
-                           const unsigned int   *nodes,
-                           const Vector         &v,
-                           const double          size) const
-  {
-    const unsigned int n = points.n_nodes;
-    Tensor<2, dim>     B, gradient;
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          const double         vi = v.local_element(dim * nodes[i] + d);
-          const Tensor<1, dim> r =
-            space->node_positions()[nodes[i]] - points.position[p];
-          for (unsigned int e = 0; e < dim; ++e)
-            {
-              B[d][e] += points.values[p * n + i] * vi * r[e];
-              gradient[d][e] += points.gradients[(2 * p + e) * n + i] * vi;
-            }
-        }
-    return affine_velocity(B, moment(points, p, nodes), gradient, size);
+        if (!std::isfinite(next.position.square()) ||
+            !std::isfinite(next.velocity.norm_square()))
+          obstacle =
+            format("the velocity of particle %u is not a number", points.id[p]);
+        else if (!(ratio > 0.05))
+          obstacle = format("the volume of particle %u at (%g, %g) would "
+                            "collapse to %.2g of itself",
+                            points.id[p],
+                            points.position[p][0],
+                            points.position[p][1],
+                            ratio);
+        for (unsigned int d = 0; d < dim; ++d)
+          if (std::abs(move[d]) > largest_move * extent[d])
+            obstacle =
+              format("particle %u at (%g, %g) would cross %.1f cells, more "
+                     "than 'Material point method/Largest move'",
+                     points.id[p],
+                     points.position[p][0],
+                     points.position[p][1],
+                     std::abs(move[d]) / extent[d]);
+      });
+    return text_of_any_rank(v.get_mpi_communicator(), obstacle);
   }
 
   void

@@ -100,23 +100,24 @@ namespace geocone
       {
         Vector change = v, momentum = problem.make_vector();
         change.update_ghost_values();
-        problem.apply_mass(momentum, change);
+        problem.inertia_term().apply_mass(momentum, change);
         kinetic_energy = v * momentum / 2.;
         change -= velocity_L;
         change.update_ghost_values();
-        problem.apply_mass(momentum, change);
+        problem.inertia_term().apply_mass(momentum, change);
         kinetic = v * momentum;
       }
     // The elastic and the plastic term, and the elastic energy.
-    std::array<double, 3> sums = {};
+    const InternalForces &internal = problem.internal_forces();
+    std::array<double, 3> sums     = {};
     for (unsigned int p = 0; p < points.n_points(); ++p)
       {
-        const Mandel &s = problem.trial_stress()[p];
+        const Mandel &s = internal.trial_stress()[p];
         sums[0] += points.weight[p] *
                    s.dot(materials[points.material[p]].elasticity().strain(
                      Mandel(s - points.stress[p])));
         sums[1] +=
-          points.weight[p] * s.dot(problem.plastic_strain_increment(p));
+          points.weight[p] * s.dot(internal.plastic_strain_increment(p));
         sums[2] += points.weight[p] / 2. *
                    s.dot(materials[points.material[p]].elasticity().strain(s));
       }

@@ -27,7 +27,6 @@ struct Setup
     , scene(file)
   {
     file.parse();
-    method.prepare();
     scene.prepare();
     mesh.prepare(scene.geometry, method);
   }
@@ -48,7 +47,7 @@ check_grid(const std::string &name, const std::vector<std::string> &overrides)
   bool holds = true;
   for (unsigned int c = 0; c < dim; ++c)
     holds &= std::abs(expected[c] - (lines[c].size() - 1.)) <=
-             (setup.mesh.type == "graded" ? 2. : 0.);
+             (setup.mesh.type == MeshParameters::Type::graded ? 2. : 0.);
   std::printf("%s: %s\n", name.c_str(), holds ? "yes" : "NO");
 }
 

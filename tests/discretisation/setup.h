@@ -27,7 +27,6 @@ struct Setup
   prepare()
   {
     file.parse();
-    method.prepare();
     scene.prepare();
     mesh.prepare(scene, method);
     space.prepare(mesh, method);

@@ -116,7 +116,7 @@ check(const std::string &element,
         std::abs(total - of_points) < 1e-12 * of_points);
 
   const ResidualReport report = problem.residual(R, v);
-  const auto           modes  = problem.modes();
+  const auto           modes  = problem.internal_forces().modes();
   print("there are elastic and plastic points",
         report.n_cone > 20 &&
           report.n_cone + report.n_apex + 20 < points.n_points());
@@ -148,8 +148,8 @@ check(const std::string &element,
       mean /= volume;
       for (unsigned int q = 0; q < e.size(); ++q)
         {
-          const Mandel &got =
-            problem.strain_increment()[points.first_point[c] + q];
+          const Mandel &got = problem.internal_forces()
+                                .strain_increment()[points.first_point[c] + q];
           const double trace = e[q][0] + e[q][1];
           spread             = std::max(spread, std::abs(trace - mean));
           trace_error        = std::max(
@@ -170,10 +170,10 @@ check(const std::string &element,
   Vector       above(layout), below(layout), difference(layout), moved = v;
   moved.add(e, dv);
   problem.residual(above, moved);
-  bool same = problem.modes() == modes;
+  bool same = problem.internal_forces().modes() == modes;
   moved.add(-2. * e, dv);
   problem.residual(below, moved);
-  same &= problem.modes() == modes;
+  same &= problem.internal_forces().modes() == modes;
   print("no mode changes", same);
   difference.add(1. / (2. * e), above, -1. / (2. * e), below);
 

@@ -35,7 +35,6 @@ struct Run
     , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
   {
     file.parse();
-    method.prepare();
     scene.prepare();
     newton.prepare();
     mesh.prepare(scene, method);

@@ -71,7 +71,6 @@ run(const char                     *name,
   RunOutput       output(MPI_COMM_WORLD, log);
   file.parse();
   scene.prepare();
-  method.prepare();
   newton.prepare();
   mesh.prepare(scene, method);
   space.prepare(mesh, method);

@@ -41,7 +41,6 @@ seed(const std::string &name, const std::vector<std::string> &overrides)
   try
     {
       file.parse();
-      method.prepare();
       scene.prepare();
       seeding.prepare(scene);
       mesh.prepare(scene, method);

@@ -28,7 +28,6 @@ struct Parts
   prepare()
   {
     scene.prepare();
-    method.prepare();
     newton.prepare();
     mesh.prepare(scene, method);
     space.prepare(mesh, method);

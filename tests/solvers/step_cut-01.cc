@@ -27,7 +27,6 @@ struct Parts
   prepare()
   {
     scene.prepare();
-    method.prepare();
     newton.prepare();
     mesh.prepare(scene, method);
     space.prepare(mesh, method);

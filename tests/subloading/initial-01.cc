@@ -151,7 +151,6 @@ main()
                                       "Elastic ratio Rmin = 1",
                                       "Centre margin delta = 0",
                                       "Centre margin delta = 1",
-                                      "Pressure of rotation = q",
                                       "Error tolerance = 0",
                                       "Error tolerance = 0.2",
                                       "Smallest substep = 0",
@@ -162,8 +161,7 @@ main()
                                       "Initial centre ratio chi = 1",
                                       "Initial anisotropy = 0.1, 0, 0, 0",
                                       "Initial anisotropy = 0, 0, 0",
-                                      "Initial structure ratio = 0.5",
-                                      "Stress outside = ignore"})
+                                      "Initial structure ratio = 0.5"})
     try
       {
         law({parameter})->prepare();

@@ -4,11 +4,9 @@
 #ifndef geocone_base_exceptions_h
 #define geocone_base_exceptions_h
 
-#include <algorithm>
 #include <sstream>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 namespace geocone
 {
@@ -65,20 +63,6 @@ namespace geocone
       return out.str();
     }
   };
-
-  /** @throws InputError if the value is none of the choices. */
-  inline void
-  check_choice(const std::string              &parameter,
-               const std::string              &value,
-               const std::vector<std::string> &choices)
-  {
-    if (std::find(choices.begin(), choices.end(), value) != choices.end())
-      return;
-    std::string allowed;
-    for (const std::string &choice : choices)
-      allowed += (allowed.empty() ? "" : " | ") + choice;
-    throw InputError(parameter, value, allowed, "choose one of them");
-  }
 
   /**
    * A computation that cannot go on: steps that fail at the smallest step

@@ -180,17 +180,6 @@ namespace geocone
   };
 
   /**
-   * Declares a parameter that is one of some words; their list begins its
-   * documentation, and another word is refused by parse().
-   */
-  void
-  add_choice(dealii::ParameterAcceptor      &acceptor,
-             const std::string              &entry,
-             std::string                    &value,
-             const std::vector<std::string> &choices,
-             const std::string              &documentation);
-
-  /**
    * Splits "a, b, c" into its trimmed parts, without the empty ones.
    */
   std::vector<std::string>

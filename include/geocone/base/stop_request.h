@@ -39,6 +39,18 @@ namespace geocone
   /** @throws Stopped if any rank has been asked to stop. Collective. */
   void
   stop_if_asked(const MPI_Comm comm);
+
+  /** Prints an error. */
+  void
+  say_error(const std::string &what);
+
+  /**
+   * Prints an error that one of several ranks has found alone, and ends all of
+   * them: the others wait for it, and would do so for ever, as would this one in
+   * the destructors of what is distributed.
+   */
+  [[noreturn]] void
+  end_all_ranks(const std::string &what);
 } // namespace geocone
 
 #endif

@@ -4,6 +4,7 @@
 #ifndef geocone_discretisation_background_mesh_h
 #define geocone_discretisation_background_mesh_h
 
+#include <geocone/base/choice.h>
 #include <geocone/discretisation/coarse_mesh.h>
 #include <geocone/scene/scene.h>
 
@@ -133,9 +134,18 @@ namespace geocone
     connected_parts() const;
 
   private:
-    const MPI_Comm comm;
-    MeshParameters parameters;
-    std::string    kind = "automatic";
+    enum class Storage
+    {
+      automatic,
+      distributed,
+      shared
+    };
+
+    const MPI_Comm  comm;
+    MeshParameters  parameters;
+    Choice<Storage> storage = {{{"automatic", Storage::automatic},
+                                {"distributed", Storage::distributed},
+                                {"shared", Storage::shared}}};
 
     std::unique_ptr<dealii::parallel::TriangulationBase<dim>> tria;
     std::unique_ptr<dealii::Mapping<dim>>                     map;

@@ -4,6 +4,7 @@
 #ifndef geocone_discretisation_coarse_mesh_h
 #define geocone_discretisation_coarse_mesh_h
 
+#include <geocone/base/choice.h>
 #include <geocone/discretisation/method.h>
 #include <geocone/scene/geometry.h>
 
@@ -65,9 +66,36 @@ namespace geocone
     /** The domain to be meshed: the body, or the box around it. */
     Polygon outline;
 
-    std::string                     type      = "uniform";
-    std::string                     cells     = "automatic";
-    std::string                     diagonals = "alternating";
+    enum class Type
+    {
+      uniform,
+      graded,
+      unstructured
+    };
+    Choice<Type> type = {{{"uniform", Type::uniform},
+                          {"graded", Type::graded},
+                          {"unstructured", Type::unstructured}}};
+
+    enum class Cells
+    {
+      automatic, ///< not after prepare()
+      triangles,
+      quadrilaterals
+    };
+    Choice<Cells> cells = {{{"automatic", Cells::automatic},
+                            {"triangles", Cells::triangles},
+                            {"quadrilaterals", Cells::quadrilaterals}}};
+
+    enum class Diagonals
+    {
+      alternating,
+      parallel,
+      crossed
+    };
+    Choice<Diagonals> diagonals = {{{"alternating", Diagonals::alternating},
+                                    {"parallel", Diagonals::parallel},
+                                    {"crossed", Diagonals::crossed}}};
+
     double                          cell_size = 0.1;
     std::vector<dealii::Point<dim>> grading_points;
     double                          smallest   = 0.001;

@@ -4,6 +4,8 @@
 #ifndef geocone_discretisation_method_h
 #define geocone_discretisation_method_h
 
+#include <geocone/base/choice.h>
+
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <string>
@@ -20,24 +22,37 @@ namespace geocone
   public:
     Method();
 
-    /** @throws InputError for another name */
-    void
-    prepare();
-
     bool
     is_mpm() const
     {
-      return name != "FEM";
+      return kind != Kind::fem;
     }
 
     /** Whether time is stepped explicitly. */
     bool
     is_explicit() const
     {
-      return name == "explicit MPM";
+      return kind == Kind::explicit_mpm;
     }
 
-    std::string name = "FEM";
+    std::string
+    name() const
+    {
+      return kind.word();
+    }
+
+  private:
+    enum class Kind
+    {
+      fem,
+      mpm,
+      explicit_mpm,
+      point
+    };
+    Choice<Kind> kind = {{{"FEM", Kind::fem},
+                          {"MPM", Kind::mpm},
+                          {"explicit MPM", Kind::explicit_mpm},
+                          {"point", Kind::point}}};
   };
 } // namespace geocone
 

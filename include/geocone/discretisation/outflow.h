@@ -4,11 +4,9 @@
 #ifndef geocone_discretisation_outflow_h
 #define geocone_discretisation_outflow_h
 
-#include <geocone/base/exceptions.h>
+#include <geocone/base/choice.h>
 
 #include <deal.II/base/parameter_acceptor.h>
-
-#include <string>
 
 namespace geocone
 {
@@ -19,30 +17,26 @@ namespace geocone
     Outflow()
       : dealii::ParameterAcceptor("/Particles")
     {
-      add_parameter("Outflow",
-                    name,
-                    "What a particle does that leaves the background mesh: "
-                    "error (ends the run and names it) | count (it is removed "
-                    "and counted).");
-    }
-
-    /** @throws InputError for another name */
-    void
-    prepare() const
-    {
-      if (name != "error" && name != "count")
-        throw InputError(
-          "Particles/Outflow", name, "error | count", "choose one of them");
+      kind.declare(*this,
+                   "Outflow",
+                   ": what becomes of a particle that leaves the background "
+                   "mesh. Error: the run ends and names it. Count: it is "
+                   "removed and counted.");
     }
 
     bool
     is_error() const
     {
-      return name == "error";
+      return kind == Kind::error;
     }
 
   private:
-    std::string name = "error";
+    enum class Kind
+    {
+      error,
+      count
+    };
+    Choice<Kind> kind = {{{"error", Kind::error}, {"count", Kind::count}}};
   };
 } // namespace geocone
 

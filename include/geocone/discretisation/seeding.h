@@ -4,6 +4,7 @@
 #ifndef geocone_discretisation_seeding_h
 #define geocone_discretisation_seeding_h
 
+#include <geocone/base/choice.h>
 #include <geocone/discretisation/background_mesh.h>
 #include <geocone/discretisation/cartesian_grid.h>
 #include <geocone/discretisation/particle_file.h>
@@ -141,8 +142,22 @@ namespace geocone
              const Given &given,
              const Detail detail) const;
 
+    enum class Layout
+    {
+      gauss,
+      sub_cells,
+      lattice,
+      random,
+      file
+    };
+
+    Choice<Layout> layout = {{{"Gauss", Layout::gauss},
+                              {"sub-cells", Layout::sub_cells},
+                              {"lattice", Layout::lattice},
+                              {"random", Layout::random},
+                              {"file", Layout::file}}};
+
     const std::string folder_of_parameters;
-    std::string       layout      = "Gauss";
     unsigned int      k           = 2;
     double            spacing     = 0.05;
     unsigned int      number      = 1000;

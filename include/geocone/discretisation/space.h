@@ -4,6 +4,7 @@
 #ifndef geocone_discretisation_space_h
 #define geocone_discretisation_space_h
 
+#include <geocone/base/choice.h>
 #include <geocone/base/types.h>
 #include <geocone/discretisation/background_mesh.h>
 #include <geocone/discretisation/spline_basis.h>
@@ -63,10 +64,10 @@ namespace geocone
     using Cell = BackgroundMesh::Cell;
 
     /** Name of the element: P1 ... Q3, B-spline 2, B-spline 3. */
-    const std::string &
+    std::string
     element() const
     {
-      return name;
+      return kind.word();
     }
 
     unsigned int
@@ -85,7 +86,7 @@ namespace geocone
     bool
     is_non_negative() const
     {
-      return p == 1 || is_spline() || basis == "Bernstein";
+      return p == 1 || is_spline() || basis == Basis::bernstein;
     }
 
     /** Whether volumetric strains are averaged over each cell (B-bar). */
@@ -173,9 +174,40 @@ namespace geocone
     dealii::IndexSet
     prepare_splines(const BackgroundMesh &mesh);
 
-    std::string name  = "automatic";
-    std::string basis = "automatic";
-    bool        b_bar = false;
+    /** First those on triangles, last those on grids. */
+    enum class Element
+    {
+      automatic, ///< not after choose_element()
+      p1,
+      p2,
+      p3,
+      q1,
+      q2,
+      q3,
+      spline_2,
+      spline_3
+    };
+    Choice<Element> kind = {{{"automatic", Element::automatic},
+                             {"P1", Element::p1},
+                             {"P2", Element::p2},
+                             {"P3", Element::p3},
+                             {"Q1", Element::q1},
+                             {"Q2", Element::q2},
+                             {"Q3", Element::q3},
+                             {"B-spline 2", Element::spline_2},
+                             {"B-spline 3", Element::spline_3}}};
+
+    enum class Basis
+    {
+      automatic, ///< not after choose_element()
+      lagrange,
+      bernstein
+    };
+    Choice<Basis> basis = {{{"automatic", Basis::automatic},
+                            {"Lagrange", Basis::lagrange},
+                            {"Bernstein", Basis::bernstein}}};
+
+    bool b_bar = false;
 
     const BackgroundMesh *mesh             = nullptr;
     unsigned int          p                = 0;

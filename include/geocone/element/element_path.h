@@ -4,6 +4,7 @@
 #ifndef geocone_element_element_path_h
 #define geocone_element_element_path_h
 
+#include <geocone/base/choice.h>
 #include <geocone/base/parameter_file.h>
 #include <geocone/element/element_point.h>
 
@@ -71,12 +72,43 @@ namespace geocone
     unsigned int
     axis_index() const;
 
-    std::string                kind         = "components";
-    std::string                axis         = "yy";
+    enum class Kind
+    {
+      components,
+      isotropic,
+      oedometric,
+      drained,
+      undrained,
+      simple_shear
+    };
+    Choice<Kind> kind = {{{"components", Kind::components},
+                          {"isotropic", Kind::isotropic},
+                          {"oedometric", Kind::oedometric},
+                          {"drained", Kind::drained},
+                          {"undrained", Kind::undrained},
+                          {"simple shear", Kind::simple_shear}}};
+
+    /** In the order of the components. */
+    enum class Axis
+    {
+      xx,
+      yy,
+      zz
+    };
+    Choice<Axis> axis = {
+      {{"yy", Axis::yy}, {"xx", Axis::xx}, {"zz", Axis::zz}}};
+
+    enum class CycleForm
+    {
+      two_way,
+      one_way
+    };
+    Choice<CycleForm> cycle_form = {
+      {{"two-way", CycleForm::two_way}, {"one-way", CycleForm::one_way}}};
+
     double                     amount       = 0.;
     unsigned int               n_increments = 100;
     unsigned int               n_cycles     = 0;
-    std::string                cycle_form   = "two-way";
     std::string                stop_text;
     std::array<std::string, 6> strain_texts, stress_texts;
   };

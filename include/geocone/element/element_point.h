@@ -93,16 +93,23 @@ namespace geocone
     LawCounts trial_counts; ///< of the last trial
   };
 
+  /** Which components a point has. */
+  enum class PointComponents
+  {
+    automatic, ///< all if the law has them
+    plane_strain,
+    all
+  };
+
   /**
    * A point of the law.
-   * @param components "automatic" (3D if the law has it), "plane strain", "3D"
    * @param stress at the start (Pa)
    * @param[out] changed what initialisation had to change, or nothing
    * @throws InputError if the law has no such components or stress
    */
   std::unique_ptr<ElementPoint>
   make_element_point(const ConstitutiveLaw &law,
-                     const std::string     &components,
+                     const PointComponents  components,
                      const Tensor6         &stress,
                      std::string           &changed);
 } // namespace geocone

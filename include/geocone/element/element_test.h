@@ -4,6 +4,7 @@
 #ifndef geocone_element_element_test_h
 #define geocone_element_element_test_h
 
+#include <geocone/base/choice.h>
 #include <geocone/base/parameter_file.h>
 #include <geocone/element/element_output.h>
 #include <geocone/element/element_path.h>
@@ -101,7 +102,11 @@ namespace geocone
     MixedControl  mixed_control;
     ElementOutput element_output;
 
-    std::string         components     = "automatic";
+    Choice<PointComponents> components = {
+      {{"automatic", PointComponents::automatic},
+       {"plane strain", PointComponents::plane_strain},
+       {"3D", PointComponents::all}}};
+
     std::vector<double> initial_stress = {-100e3, -100e3, -100e3, 0., 0., 0.};
     double              initial_volume = 2.;
 

@@ -133,6 +133,11 @@ namespace geocone
     std::optional<FlowCone>
     initial_cone() const;
 
+    /** The stress of the cone that is nearest to a stress (Pa), which without a
+     *  cone is itself. @param history of the point */
+    Mandel
+    nearest_admissible(const Mandel &stress, const double *history) const;
+
     /**
      * (a - b)/a between 0 (associated) and 1 (no dilatancy), a and b those of the
      * cone before any hardening.

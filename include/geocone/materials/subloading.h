@@ -4,6 +4,7 @@
 #ifndef geocone_materials_subloading_h
 #define geocone_materials_subloading_h
 
+#include <geocone/base/choice.h>
 #include <geocone/materials/constitutive_law.h>
 #include <geocone/materials/subloading_model.h>
 
@@ -102,8 +103,21 @@ namespace geocone
     void
     check_initial() const;
 
+    /** The pressure that beta is multiplied with. */
+    enum class Rotation
+    {
+      p,
+      ph
+    };
+
+    enum class Outside
+    {
+      refuse,
+      raise_size
+    };
+
     SubloadingConstants c;
-    std::string         reading = "p";
+    Choice<Rotation>    rotation = {{{"p", Rotation::p}, {"ph", Rotation::ph}}};
 
     double              ocr        = 1.;
     double              given_size = 0.;
@@ -111,7 +125,9 @@ namespace geocone
     double              zeta       = 0.;
     std::vector<double> given_beta = {0., 0., 0., 0.};
     double              initial_Rb = 1.;
-    std::string         if_outside = "refuse";
+
+    Choice<Outside> if_outside = {
+      {{"refuse", Outside::refuse}, {"raise size", Outside::raise_size}}};
 
     SubloadingModel<4> in_plane;
     SubloadingModel<6> in_space;

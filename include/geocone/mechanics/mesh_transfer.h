@@ -6,6 +6,7 @@
 
 #include <geocone/discretisation/space.h>
 #include <geocone/mechanics/grid_transfer.h>
+#include <geocone/mechanics/point_functions.h>
 
 #include <deal.II/grid/grid_tools_cache.h>
 
@@ -143,9 +144,10 @@ namespace geocone
              const std::vector<Place> &places,
              Functions                &functions) const;
 
-    template <bool with_gradients>
-    void
-    gather_any(const BlockPoints &points, BlockScratch &scratch) const;
+    /** Those of a point of a block. */
+    PointFunctions
+    functions_at(const BlockPoints &points, const unsigned int k) const;
+
     template <bool with_gradients>
     void
     scatter_any(const BlockPoints  &points,

@@ -4,12 +4,11 @@
 #ifndef geocone_mechanics_particle_transfer_h
 #define geocone_mechanics_particle_transfer_h
 
+#include <geocone/base/choice.h>
 #include <geocone/base/types.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/tensor.h>
-
-#include <string>
 
 namespace geocone
 {
@@ -26,7 +25,7 @@ namespace geocone
     bool
     is_affine() const
     {
-      return name == "APIC";
+      return kind == Kind::apic;
     }
 
     /** Part of the change that a particle takes, v_p + dv; the rest is that of the
@@ -40,10 +39,14 @@ namespace geocone
     /** "Material point method/Transfer", for messages. */
     static const char *const parameter;
 
-    std::string name = "FLIP";
-
   private:
-    double part = 1.;
+    enum class Kind
+    {
+      flip,
+      apic
+    };
+    Choice<Kind> kind = {{{"FLIP", Kind::flip}, {"APIC", Kind::apic}}};
+    double       part = 1.;
   };
 
   /**

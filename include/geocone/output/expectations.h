@@ -14,8 +14,9 @@ namespace geocone
   using Json = nlohmann::ordered_json;
 
   /**
-   * A statement about a number of summary.json, "TOPIC/NAME <= NUMBER" or
-   * ">= NUMBER": so a parameter file carries its own acceptance.
+   * A statement about a number of summary.json, "TOPIC/NAME <= NUMBER",
+   * ">= NUMBER" or "= NUMBER +- NUMBER": so a parameter file carries its own
+   * acceptance.
    */
   class Expectation
   {
@@ -38,8 +39,7 @@ namespace geocone
 
   private:
     Json::json_pointer place;
-    bool               at_most;
-    double             bound;
+    double             least, most;
   };
 } // namespace geocone
 

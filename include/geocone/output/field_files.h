@@ -64,6 +64,14 @@ namespace geocone
     values(const Fill &fill, const unsigned int n_components) const;
   };
 
+  /** What fields are written as. */
+  enum class FieldsFormat
+  {
+    vtu,
+    hdf5,
+    both
+  };
+
   /**
    * The files of one kind of cells at all times, in the formats wanted:
    *  - vtu: base-NNNN.vtu, or a file per rank and base-NNNN.pvtu, and the series
@@ -76,8 +84,8 @@ namespace geocone
   class FieldFiles
   {
   public:
-    /** @param base e.g. "points" @param format vtu | hdf5 | both */
-    FieldFiles(const std::string &base, const std::string &format);
+    /** @param base e.g. "points" */
+    FieldFiles(const std::string &base, const FieldsFormat format);
 
     /** Writes base-NNNN and adds it to the series. Collective.
      *  @throws StepFailure, on all ranks, if one of them cannot write */
@@ -95,11 +103,23 @@ namespace geocone
     }
 
   private:
+    /** The .vtu file of a rank. */
+    std::string
+    piece(const unsigned int rank, const unsigned int n_ranks) const;
+
+    /** Writes the piece of this rank. */
     void
     write_as_vtu(const FieldTable  &table,
                  const std::string &folder,
                  const double       time,
-                 const MPI_Comm     comm);
+                 const MPI_Comm     comm) const;
+
+    /** Enters the pieces of all ranks, which have been written, in the record. */
+    void
+    record_vtu(const FieldTable  &table,
+               const std::string &folder,
+               const double       time,
+               const MPI_Comm     comm);
 
     /** @param problem what has gone wrong on this rank; then nothing is done */
     void
@@ -117,8 +137,9 @@ namespace geocone
                   const double       time,
                   const std::size_t  n_nodes);
 
-    const std::string base, format;
-    unsigned int      number = 0;
+    const std::string  base;
+    const FieldsFormat format;
+    unsigned int       number = 0;
 
     /** Of the first rank: times and files; grids of the XDMF record. */
     std::vector<std::pair<double, std::string>> vtu;

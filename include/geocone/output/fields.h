@@ -31,8 +31,7 @@ namespace geocone
   class Fields
   {
   public:
-    /** @param format of the files: vtu | hdf5 | both */
-    explicit Fields(const std::string &format)
+    explicit Fields(const FieldsFormat format)
       : cells("cells", format)
       , point_clouds("points", format)
     {}

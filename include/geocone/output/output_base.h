@@ -4,11 +4,15 @@
 #ifndef geocone_output_output_base_h
 #define geocone_output_output_base_h
 
+#include <geocone/base/choice.h>
 #include <geocone/base/files.h>
 #include <geocone/base/log.h>
 #include <geocone/base/run_options.h>
 #include <geocone/base/state_row.h>
 #include <geocone/output/expectations.h>
+#include <geocone/output/field_files.h>
+#include <geocone/output/reference_case.h>
+#include <geocone/output/run_folder.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
@@ -61,7 +65,7 @@ namespace geocone
     FieldsAsked
     fields_asked() const
     {
-      return {with_fields, fields_format == "both" ? 2U : 1U};
+      return {with_fields, fields_format == FieldsFormat::both ? 2U : 1U};
     }
 
     /** Whether a sign of life is due: a summary of a run that goes on. */
@@ -72,8 +76,10 @@ namespace geocone
      * Tells in the summary how a run ended by an exception.
      * @param write_all writes the summary, with the status that it is given, and
      * the last fields; it is called where all ranks have found the end together
+     * @return whether they are still together; otherwise this rank could not do
+     * its part, and others may wait for it
      */
-    void
+    [[nodiscard]] bool
     end_with(
       const std::exception                           &error,
       const std::function<void(const std::string &)> &write_all) const noexcept;
@@ -109,15 +115,34 @@ namespace geocone
     std::string name;
     std::string parameter_file;
     bool        resumes = false; ///< whether the folder is that of a run before
-    bool        with_fields      = true;
-    std::string fields_format    = "vtu";
-    std::string report_for_tests = "none";
+    bool        with_fields = true;
     CsvFile     statistics;
     Json        summary;
 
+    ReferenceCase reference_case;
+
+    Choice<FieldsFormat> fields_format = {{{"vtu", FieldsFormat::vtu},
+                                           {"hdf5", FieldsFormat::hdf5},
+                                           {"both", FieldsFormat::both}}};
+
+    /** What the file 'output' of tests has. */
+    enum class Report
+    {
+      none,
+      results,
+      expectations
+    };
+    Choice<Report> report_for_tests = {
+      {{"none", Report::none},
+       {"results", Report::results},
+       {"loads", Report::results},
+       {"states", Report::results},
+       {"expectations", Report::expectations}}};
+
   private:
-    std::string              if_exists = "automatic";
-    bool                     pictures  = true;
+    Choice<IfExists> if_exists = if_exists_choice();
+
+    bool                     pictures = true;
     std::vector<std::string> expectation_texts;
     std::vector<Expectation> expectations;
 

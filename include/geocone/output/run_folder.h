@@ -4,41 +4,41 @@
 #ifndef geocone_output_run_folder_h
 #define geocone_output_run_folder_h
 
+#include <geocone/base/choice.h>
 #include <geocone/base/parameter_file.h>
 
 #include <mpi.h>
 
 #include <string>
-#include <vector>
 
 namespace geocone
 {
   /** What to do if the folder of a run exists and is not empty. */
   enum class IfExists
   {
-    number,   ///< take NAME-2, NAME-3, ...
-    refuse,   ///< end
-    overwrite ///< delete the files that the list of the run before names
+    automatic, ///< refuse one that the user has named, number another one
+    number,    ///< take NAME-2, NAME-3, ...
+    refuse,    ///< end
+    overwrite  ///< delete the files that the list of the run before names
   };
 
-  /** The choices of "Output/If folder exists"; automatic refuses a folder that was
-   *  named by the user and numbers another one. */
-  extern const std::vector<std::string> if_exists_choices;
-
-  IfExists
-  if_exists_of(const std::string &choice, const bool was_named);
+  /** The parameter "Output/If folder exists", to be declared. */
+  Choice<IfExists>
+  if_exists_choice();
 
   /**
    * Makes the folder of a run, its list of files (files.h) and parameters.prm,
    * the parameters as used. Two runs that want the same folder at the same time
    * never both get it: the one that creates the list has it.
    * @param wanted its name
+   * @param was_named whether the user has given it
    * @return the name of the folder, the same on all ranks
    * @throws InputError if it may not be used or cannot be written
    */
   std::string
   make_run_folder(const MPI_Comm     comm,
                   const std::string &wanted,
+                  const bool         was_named,
                   const IfExists     if_exists);
 
   /**

@@ -4,6 +4,7 @@
 #ifndef geocone_scene_boundary_conditions_h
 #define geocone_scene_boundary_conditions_h
 
+#include <geocone/base/choice.h>
 #include <geocone/base/parameter_file.h>
 #include <geocone/scene/expression.h>
 
@@ -92,8 +93,11 @@ namespace geocone
       cell_averages,
       segments
     };
-    Imposition  imposition = Imposition::nodes;
-    std::string imposed_on = "nodes"; ///< its name
+    Choice<Imposition> imposition = {
+      {{"nodes", Imposition::nodes},
+       {"points", Imposition::points},
+       {"cell averages", Imposition::cell_averages},
+       {"segments", Imposition::segments}}};
 
     /** Number of parts for `segments`. */
     unsigned int n_segments = 2;

@@ -4,6 +4,7 @@
 #ifndef geocone_scene_geometry_h
 #define geocone_scene_geometry_h
 
+#include <geocone/base/choice.h>
 #include <geocone/base/types.h>
 #include <geocone/materials/material_library.h>
 
@@ -101,7 +102,10 @@ namespace geocone
     void
     prepare();
 
-    Shape shape = Shape::box;
+    Choice<Shape> shape = {{{"box", Shape::box},
+                            {"polygon", Shape::polygon},
+                            {"discs", Shape::discs},
+                            {"file", Shape::file}}};
 
     /** Vertices of the box or polygon, in order; empty for discs and files. */
     Polygon outline;
@@ -136,11 +140,10 @@ namespace geocone
     check_discs();
 
     const std::string               folder_of_parameters;
-    std::string                     shape_name = "box";
-    std::vector<dealii::Point<dim>> box        = {{-1., -2.}, {1., 0.}};
-    std::vector<dealii::Point<dim>> polygon    = {{0., 0.}, {1., 0.}, {1., 1.}};
-    std::vector<dealii::Point<dim>> centres    = {{0., 0.}};
-    std::vector<double>             radii      = {1.};
+    std::vector<dealii::Point<dim>> box     = {{-1., -2.}, {1., 0.}};
+    std::vector<dealii::Point<dim>> polygon = {{0., 0.}, {1., 0.}, {1., 1.}};
+    std::vector<dealii::Point<dim>> centres = {{0., 0.}};
+    std::vector<double>             radii   = {1.};
   };
 
   /**

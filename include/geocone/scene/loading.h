@@ -4,6 +4,7 @@
 #ifndef geocone_scene_loading_h
 #define geocone_scene_loading_h
 
+#include <geocone/base/choice.h>
 #include <geocone/base/parameter_file.h>
 #include <geocone/scene/expression.h>
 #include <geocone/scene/geometry.h>
@@ -184,7 +185,16 @@ namespace geocone
     void
     check_level_ground(const Geometry &geometry) const;
 
-    std::string                type  = "zero";
+    enum class Type
+    {
+      zero,
+      given,
+      geostatic
+    };
+    Choice<Type> type = {{{"zero", Type::zero},
+                          {"given", Type::given},
+                          {"geostatic", Type::geostatic}}};
+
     std::array<std::string, 3> texts = {{"0", "0", "0"}};
     std::array<Expression, 3>  components;
     std::string                text_zz;

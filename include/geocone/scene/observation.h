@@ -4,6 +4,7 @@
 #ifndef geocone_scene_observation_h
 #define geocone_scene_observation_h
 
+#include <geocone/base/choice.h>
 #include <geocone/materials/material_library.h>
 #include <geocone/scene/boundary_conditions.h>
 #include <geocone/scene/loading.h>
@@ -78,11 +79,18 @@ namespace geocone
     std::vector<dealii::Point<dim>> centre;
 
     std::vector<std::string> names;
-    std::string              component_name = "y";
-    std::string              value          = "none";
-    std::string              material;
-    double                   width     = 0.2;
-    double                   surcharge = 0.;
+
+    enum class Component
+    {
+      x,
+      y
+    };
+    Choice<Component> observed = {{{"y", Component::y}, {"x", Component::x}}};
+
+    std::string value = "none";
+    std::string material;
+    double      width     = 0.2;
+    double      surcharge = 0.;
   };
 } // namespace geocone
 

@@ -39,7 +39,7 @@ namespace geocone
 
     /**
      * Whether |R_free| <= max(tolerance x force norm, absolute, c N), with N the
-     * estimate IncrementalProblem::rounding_floor() of what rounding leaves. The
+     * estimate InternalForces::rounding_floor() of what rounding leaves. The
      * last counts only where it is small itself, and is told in the report.
      */
     bool

@@ -5,6 +5,7 @@
 #define geocone_time_stepping_explicit_mpm_h
 
 #include <geocone/base/archive.h>
+#include <geocone/base/choice.h>
 #include <geocone/discretisation/background_mesh.h>
 #include <geocone/discretisation/outflow.h>
 #include <geocone/discretisation/point_arrays.h>
@@ -163,16 +164,17 @@ namespace geocone
       return *transfer;
     }
 
-    const std::string &
+    std::string
     element() const
     {
       return space.element();
     }
 
-    const std::string &
-    order() const
+    /** Name of the order of operations. */
+    std::string
+    order_name() const
     {
-      return order_name;
+      return order.word();
     }
 
     /** @name The state, as part of a checkpoint. Collective. */
@@ -221,8 +223,8 @@ namespace geocone
     enum class Order
     {
       musl,
-      usf,
-      usl
+      usl,
+      usf
     };
 
     /** What a pass gives to the nodes. */
@@ -347,7 +349,9 @@ namespace geocone
 
     ParticleTransfer rule;
 
-    std::string  order_name     = "MUSL";
+    Choice<Order> order = {
+      {{"MUSL", Order::musl}, {"USL", Order::usl}, {"USF", Order::usf}}};
+
     double       courant        = 0.3;
     double       fixed_step     = 0.;
     bool         allow_unstable = false;
@@ -356,7 +360,6 @@ namespace geocone
     unsigned int sort_every     = 50;
 
     const Scene                  *scene   = nullptr;
-    Order                         kind    = Order::musl;
     bool                          affine  = false;
     const TransferKernels        *kernels = nullptr;
     std::unique_ptr<GridTransfer> transfer;

@@ -4,9 +4,10 @@
 #ifndef geocone_time_stepping_implicit_mpm_h
 #define geocone_time_stepping_implicit_mpm_h
 
+#include <geocone/base/choice.h>
 #include <geocone/discretisation/particles.h>
 #include <geocone/mechanics/moving_conditions.h>
-#include <geocone/mechanics/particle_transfer.h>
+#include <geocone/mechanics/point_functions.h>
 #include <geocone/time_stepping/time_stepper.h>
 
 namespace geocone
@@ -101,8 +102,23 @@ namespace geocone
     /** Where Newton's method may start. */
     enum class Start
     {
-      nodes,    ///< the velocities of the nodes after the last step
-      particles ///< vL, with the elastic tangent first
+      automatic, ///< both, one after the other
+      nodes,     ///< the velocities of the nodes after the last step
+      particles  ///< vL, with the elastic tangent first
+    };
+
+    /** What moves the particles. */
+    enum class Advection
+    {
+      grid_velocity,
+      particle_velocity,
+      none
+    };
+
+    enum class Integration
+    {
+      backward_euler,
+      midpoint
     };
 
     /** A particle after the step. */
@@ -114,6 +130,14 @@ namespace geocone
       dealii::Tensor<2, dim> affine;
       double                 volume;
       double                 spin; ///< angle of rotation (rad)
+    };
+
+    /** A step from t to t + h. */
+    struct Step
+    {
+      double t, h;
+      double solved_h;  ///< what is solved for: h, or h/2 by the midpoint rule
+      double solved_at; ///< t + solved_h
     };
 
     /** Mass, vL, unknowns and pattern: all that depends on t_n only. */
@@ -140,31 +164,68 @@ namespace geocone
              const double          h,
              std::vector<Moved>   &moved) const;
 
-    /** C_p of APIC (1/s). @param size of the cell (m) */
-    dealii::Tensor<2, dim>
-    affine_part(const MaterialPoints &points,
-                const unsigned int    p,
-                const unsigned int   *nodes,
-                const Vector         &v,
-                const double          size) const;
+    /** Solves the step from each start, until one of them leads to the end.
+     *  @param[out] v velocities @param[out] residual R(v) */
+    SolverReport
+    solve(const Step            &step,
+          const Kinematics      &kinematics,
+          const NonsmoothNewton &newton,
+          Freezer               &freezer,
+          dealii::TimerOutput   &timer,
+          Vector                &v,
+          Vector                &residual);
 
-    /** D_p = sum_i N_i (x_i - x_p)(x_i - x_p)' of APIC (m^2). */
-    dealii::Tensor<2, dim>
-    moment(const MaterialPoints &points,
-           const unsigned int    p,
-           const unsigned int   *nodes) const;
+    /** Works of a step on the nodes (J/m). */
+    struct Works
+    {
+      double of_weight;
+      double of_others; ///< tractions and supports
+    };
+    Works
+    works(const Step &step, const Vector &v, const Vector &residual) const;
+
+    /** What gravity that changes in the step does to points at rest (J/m). */
+    double
+    work_of_changing_gravity(const Step           &step,
+                             const MaterialPoints &points) const;
+
+    /** Gives the points their state at the end of the step.
+     *  @return the dissipation (J/m) */
+    double
+    update_points(const Step               &step,
+                  const std::vector<Moved> &moved,
+                  MaterialPoints           &points) const;
+
+    /** Displacements of what conditions hold, and reactions of those that are
+     *  imposed on the body. */
+    void
+    update_supports(const Step            &step,
+                    const Vector          &v,
+                    Kinematics            &kinematics,
+                    std::vector<Reaction> &reactions) const;
+
+    /** The condition that holds a particle by itself, or null. */
+    const BoundaryCondition *
+    holder_of(const MaterialPoints &points, const unsigned int p) const;
 
     void
     check_parameters();
 
     ParticleTransfer rule;
 
-    std::string advection       = "grid velocity";
-    double      consistent_mass = 0.;
-    bool        midpoint        = false;
-    std::string integration     = "backward Euler";
-    std::string start_name      = "automatic";
-    double      largest_move    = 3.;
+    Choice<Advection> advection = {
+      {{"grid velocity", Advection::grid_velocity},
+       {"particle velocity", Advection::particle_velocity},
+       {"none", Advection::none}}};
+    Choice<Integration> integration = {
+      {{"backward Euler", Integration::backward_euler},
+       {"midpoint", Integration::midpoint}}};
+    Choice<Start> start_asked = {{{"automatic", Start::automatic},
+                                  {"grid velocity", Start::nodes},
+                                  {"particle velocity", Start::particles}}};
+
+    double consistent_mass = 0.;
+    double largest_move    = 3.;
 
     Particles particles;
 

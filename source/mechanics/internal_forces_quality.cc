@@ -3,7 +3,7 @@
 
 // What is checked of a state that a solver has found, whichever it was.
 #include <geocone/base/log.h>
-#include <geocone/mechanics/incremental_problem.h>
+#include <geocone/mechanics/internal_forces.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -15,7 +15,7 @@ namespace geocone
   using namespace dealii;
 
   std::string
-  IncrementalProblem::not_a_number() const
+  InternalForces::not_a_number() const
   {
     std::string where;
     for (unsigned int p = 0; p < points.n_points() && where.empty(); ++p)
@@ -24,14 +24,13 @@ namespace geocone
                        points.id.empty() ? p : points.id[p],
                        points.position[p][0],
                        points.position[p][1]);
-    return text_of_any_rank(layout->get_mpi_communicator(), where);
+    return text_of_any_rank(comm, where);
   }
 
   Quality
-  IncrementalProblem::quality() const
+  InternalForces::quality() const
   {
     // Two passes: the scales of all ranks first.
-    const MPI_Comm comm     = layout->get_mpi_communicator();
     double     stress_scale = 0., k_scale = 0., y_scale = 0., compliance = 0.;
     const auto z_at = [&](const unsigned int p) {
       const Elasticity &elasticity = materials[points.material[p]].elasticity();

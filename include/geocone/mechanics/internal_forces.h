@@ -1,0 +1,208 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mechanics_internal_forces_h
+#define geocone_mechanics_internal_forces_h
+
+#include <geocone/base/state_row.h>
+#include <geocone/discretisation/material_points.h>
+#include <geocone/materials/material_library.h>
+#include <geocone/mechanics/term.h>
+#include <geocone/mechanics/turned_dofs.h>
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * How well a computed state satisfies the cone law, whatever solver made it:
+   * maxima over all points, with z = S (s - s_n) - h B v recomputed from the
+   * state, y = Psi(z), the stress scale max |s| + max k, and the strain scale
+   * max |y|, at least stress scale/2G (y is rounding where nothing flows).
+   */
+  struct Quality
+  {
+    double natural_map     = 0.; ///< |s - P_C(s - 2G y)| / stress scale
+    double cone_violation  = 0.; ///< max(0, |s_t| - a s_n - k) / stress scale
+    double dual_violation  = 0.; ///< max(0, a |y_t| - y_n) / strain scale
+    double complementarity = 0.; ///< |<y, s + (k/a) n>| / (both scales)
+
+    /** max(0, |s_t| - a s_n - k) of the exact cone (Pa): not zero where friction
+     *  is delayed, while the other numbers are those of the law that was solved. */
+    double cone_excess = 0.;
+
+    void
+    state(StateRow &row)
+    {
+      row(natural_map,
+          cone_violation,
+          dual_violation,
+          complementarity,
+          cone_excess);
+    }
+
+    void
+    take_worse(const Quality &other)
+    {
+      natural_map     = std::max(natural_map, other.natural_map);
+      cone_violation  = std::max(cone_violation, other.cone_violation);
+      dual_violation  = std::max(dual_violation, other.dual_violation);
+      complementarity = std::max(complementarity, other.complementarity);
+      cone_excess     = std::max(cone_excess, other.cone_excess);
+    }
+  };
+
+  /**
+   * The internal forces of a step,
+   *   sum_p V_p B_p' s_p(v),   s_p(v) = material(h B_p v, state at t_n).
+   * The state at t_n is const; the trial states, which are those of the last
+   * residual(), live here.
+   */
+  class InternalForces : public Term
+  {
+  public:
+    InternalForces(const MaterialPoints &points,
+                   const Materials      &materials,
+                   const Unknowns       &unknowns,
+                   const MPI_Comm        comm);
+
+    /** @param step h (s) */
+    void
+    begin_step(const double step);
+
+    void
+    residual(Vector &part, const Vector &v, const LocalLaw &law) override;
+
+    void
+    linearise(const JacobianPattern &pattern,
+              const double           elastic_blend,
+              SparseMatrix          &matrix) const override;
+
+    void
+    apply_tangent(Vector &dst, const Vector &dv) const override;
+
+    void
+    add_elastic_diagonal(Vector &dst) const override;
+
+    /** Adds how many points of this rank are on the smooth part of the cone, at
+     *  the apex, and in another mode than at the residual before. */
+    void
+    count_modes(double *counts) const;
+
+    /** Largest |R| of NaturalMap over the stress scale; 0 for the return map.
+     *  Collective. */
+    double
+    natural_map_error() const;
+
+    /**
+     * The size N of the rounding in the residual's norm at a velocity (N/m),
+     *   N^2 = eps^2 sum_p sum_i |grad N_i|^2 (V_p K_p h sum_j |grad N_j| |v_j|)^2
+     * with K_p = 2 (lambda + G): the terms of the strain e_p = h B_p v have the
+     * relative error eps, but their sum is smaller by the size of the cell over
+     * that of the body, and K_p is much larger than the stiffness to shear where
+     * volume hardly changes. Collective.
+     * @param v with its ghosts, as for residual()
+     */
+    double
+    rounding_floor(const Vector &v) const;
+
+    /** Checks of the trial states; the same on all ranks. */
+    Quality
+    quality() const;
+
+    /** Names a point whose trial state is not a number, or nothing. Collective. */
+    std::string
+    not_a_number() const;
+
+    /** @name Trial states, by point */
+    /** @{ */
+    const std::vector<Mandel> &
+    trial_stress() const
+    {
+      return stress;
+    }
+    const std::vector<Mandel> &
+    strain_increment() const
+    {
+      return strain;
+    }
+    const std::vector<Mode> &
+    modes() const
+    {
+      return mode;
+    }
+    /** History variables, laid out as those of the points at t_n. */
+    std::vector<double>
+    trial_history() const;
+
+    /** -z: the plastic part of the strain increment of a point. */
+    Mandel
+    plastic_strain_increment(const unsigned int point) const;
+    /** @} */
+
+    /** Calls f(p, dof, column of B_p for a local dof) for all that are not 0. */
+    void
+    for_each_strain_column(
+      const std::function<
+        void(const unsigned int, const unsigned int, const Mandel &)> &f) const;
+
+  private:
+    /** Points from begin to end share a material. */
+    struct Run
+    {
+      unsigned int begin, end, material;
+    };
+    std::vector<Run> runs;
+
+    /** What a run asks of its material at the last residual(). */
+    Increment
+    increment_of(const Run &run) const;
+
+    /** Asks the materials, run by run. */
+    void
+    update_materials(const bool with_tangent) const;
+
+    /** Makes the tangents of the last residual(), if it has not yet. */
+    void
+    update_tangents() const
+    {
+      if (law.natural_map == nullptr)
+        update_materials(true);
+    }
+
+    /** strain[p] = factor B_p v for the points of a cell. */
+    template <int n>
+    void
+    strains_of_cell(const unsigned int   c,
+                    const double        *cell_v,
+                    const double         factor,
+                    std::vector<Mandel> &strain) const;
+
+    /** cell_f += sum B_p' s_p, s_p the stress times the weight. */
+    template <int n, typename WeightedStress>
+    void
+    add_forces_of_cell(const unsigned int    c,
+                       const WeightedStress &weighted_stress,
+                       double               *cell_f) const;
+
+    const MaterialPoints &points;
+    const Materials      &materials;
+    const MPI_Comm        comm;
+    TurnedDofs            turned;
+
+    double            h = 0.;
+    LocalLaw          law; ///< of the last residual()
+    NaturalMap::Error map_error;
+
+    std::vector<Mandel>               strain;
+    mutable std::vector<Mandel>       stress;
+    mutable std::vector<Mode>         mode;
+    std::vector<Mode>                 previous_mode;
+    mutable std::vector<MandelMatrix> tangent;
+  };
+} // namespace geocone
+
+#endif

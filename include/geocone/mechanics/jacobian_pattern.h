@@ -1,0 +1,77 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mechanics_jacobian_pattern_h
+#define geocone_mechanics_jacobian_pattern_h
+
+#include <geocone/base/sparse_matrix.h>
+#include <geocone/discretisation/material_points.h>
+#include <geocone/mechanics/unknowns.h>
+
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * The Jacobian of the free dofs: nodes that share a cell with points meet in it.
+   * It knows where in the matrix the entries of a cell and the diagonal stand.
+   */
+  class JacobianPattern
+  {
+  public:
+    /** Of no cells. */
+    JacobianPattern() = default;
+
+    /**
+     * @param one_triangle whether the lower triangle of a symmetric matrix is
+     * enough
+     * @param[out] matrix with the pattern, and zero values
+     */
+    JacobianPattern(const MaterialPoints &points,
+                    const Unknowns       &unknowns,
+                    const MPI_Comm        comm,
+                    const bool            one_triangle,
+                    SparseMatrix         &matrix);
+
+    /** Whether only the entries i <= j of a cell's matrix are taken. */
+    bool
+    is_one_triangle() const
+    {
+      return one_triangle;
+    }
+
+    /** matrix += K of a cell, row-major (2n)^2, rows interleaved as v_x, v_y. */
+    template <int n>
+    void
+    add_cell(const unsigned int c, const double *K, SparseMatrix &matrix) const
+    {
+      const int *place = &places[c * places_of_cell];
+      for (int i = 0; i < 2 * n; ++i)
+        for (int j = one_triangle ? i : 0; j < 2 * n; ++j, ++place)
+          if (*place >= 0)
+            matrix.value[*place] += K[2 * n * i + j];
+    }
+
+    /** matrix += a value on the diagonal of a free row. */
+    void
+    add_diagonal(const int row, const double value, SparseMatrix &matrix) const
+    {
+      matrix.value[diagonal[row]] += value;
+    }
+
+  private:
+    bool one_triangle = false;
+
+    /**
+     * Per cell the places in the matrix of its (dim n_nodes)^2 entries, or of
+     * one of each symmetric pair if one triangle is stored; -1 for prescribed.
+     */
+    std::vector<int> places;
+    std::size_t      places_of_cell = 0;
+
+    /** Place of the diagonal entry of each free row. */
+    std::vector<int> diagonal;
+  };
+} // namespace geocone
+
+#endif

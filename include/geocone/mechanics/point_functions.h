@@ -1,0 +1,130 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mechanics_point_functions_h
+#define geocone_mechanics_point_functions_h
+
+#include <geocone/mechanics/particle_transfer.h>
+
+#include <deal.II/base/point.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * The functions that are not zero at a point of any mesh, and what goes over
+   * between the point and its nodes (P2G, G2P), in implicit and in explicit steps
+   * alike; TransferKernels does the same for many points of a Cartesian grid.
+   * Arrays at the nodes have m values per local node, one node after another.
+   */
+  struct PointFunctions
+  {
+    unsigned int        n;     ///< number of functions
+    const unsigned int *nodes; ///< local numbers of their nodes
+    const double       *N;
+    const double       *dN_dx; ///< (1/m)
+    const double       *dN_dy;
+
+    using Positions = std::vector<dealii::Point<dim>>; ///< of the local nodes
+
+    /** G2P. @param[out] at_point sum N_i f_i of the m values, then, with gradients,
+     *  sum f_i dN_i/dx and sum f_i dN_i/dy */
+    template <unsigned int m, bool with_gradients>
+    void
+    gather(const double *at_nodes, double *at_point) const
+    {
+      std::fill_n(at_point, with_gradients ? 3 * m : m, 0.);
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          const double *f = at_nodes + m * nodes[i];
+          for (unsigned int c = 0; c < m; ++c)
+            {
+              at_point[c] += N[i] * f[c];
+              if (with_gradients)
+                {
+                  at_point[m + c] += dN_dx[i] * f[c];
+                  at_point[2 * m + c] += dN_dy[i] * f[c];
+                }
+            }
+        }
+    }
+
+    /** P2G, its transpose: adds to the nodes. */
+    template <unsigned int m, bool with_gradients>
+    void
+    scatter(const double *at_point, double *at_nodes) const
+    {
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          double *f = at_nodes + m * nodes[i];
+          for (unsigned int c = 0; c < m; ++c)
+            {
+              f[c] += N[i] * at_point[c];
+              if (with_gradients)
+                f[c] +=
+                  dN_dx[i] * at_point[m + c] + dN_dy[i] * at_point[2 * m + c];
+            }
+        }
+    }
+
+    /** P2G of the affine momentum of APIC: adds mass N_i C (x_i - x) to the first
+     *  two of m values. */
+    template <unsigned int m>
+    void
+    scatter_affine(const double                  mass,
+                   const dealii::Tensor<2, dim> &C,
+                   const dealii::Point<dim>     &x,
+                   const Positions              &positions,
+                   double                       *at_nodes) const
+    {
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          const dealii::Tensor<1, dim> v = C * (positions[nodes[i]] - x);
+          for (unsigned int d = 0; d < dim; ++d)
+            at_nodes[m * nodes[i] + d] += mass * N[i] * v[d];
+        }
+    }
+
+    /** G2P of APIC: C of a point at x by the first two of m values, its velocities.
+     *  @param size of the cell (m), as in affine_velocity() */
+    template <unsigned int m>
+    dealii::Tensor<2, dim>
+    gather_affine(const double             *at_nodes,
+                  const dealii::Point<dim> &x,
+                  const Positions          &positions,
+                  const double              size) const
+    {
+      dealii::Tensor<2, dim> B, gradient;
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          const double                *v          = at_nodes + m * nodes[i];
+          const dealii::Tensor<1, dim> r          = positions[nodes[i]] - x;
+          const double                 slope[dim] = {dN_dx[i], dN_dy[i]};
+          for (unsigned int d = 0; d < dim; ++d)
+            for (unsigned int e = 0; e < dim; ++e)
+              {
+                B[d][e] += N[i] * v[d] * r[e];
+                gradient[d][e] += slope[e] * v[d];
+              }
+        }
+      return affine_velocity(B, moment(x, positions), gradient, size);
+    }
+
+    /** D = sum_i N_i (x_i - x)(x_i - x)' of APIC (m^2). */
+    dealii::Tensor<2, dim>
+    moment(const dealii::Point<dim> &x, const Positions &positions) const
+    {
+      dealii::Tensor<2, dim> D;
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          const dealii::Tensor<1, dim> r = positions[nodes[i]] - x;
+          D += N[i] * outer_product(r, r);
+        }
+      return D;
+    }
+  };
+} // namespace geocone
+
+#endif

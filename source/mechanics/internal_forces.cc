@@ -1,0 +1,383 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/mechanics/internal_forces.h>
+#include <geocone/mechanics/point_kernels.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace geocone
+{
+  using namespace dealii;
+  using namespace kernels;
+
+  InternalForces::InternalForces(const MaterialPoints &points,
+                                 const Materials      &materials,
+                                 const Unknowns       &unknowns,
+                                 const MPI_Comm        comm)
+    : points(points)
+    , materials(materials)
+    , comm(comm)
+    , turned(points, unknowns)
+    , strain(points.n_points(), Mandel::Zero())
+    , stress(points.n_points())
+    , mode(points.n_points(), Mode::elastic)
+    , previous_mode(points.n_points(), Mode::elastic)
+    , tangent(points.n_points())
+  {
+    for (unsigned int p = 0; p < points.n_points(); ++p)
+      if (runs.empty() || runs.back().material != points.material[p])
+        runs.push_back({p, p + 1, points.material[p]});
+      else
+        ++runs.back().end;
+  }
+
+  void
+  InternalForces::begin_step(const double step)
+  {
+    h   = step;
+    law = LocalLaw();
+  }
+
+  template <int n>
+  void
+  InternalForces::strains_of_cell(const unsigned int   c,
+                                  const double        *cell_v,
+                                  const double         factor,
+                                  std::vector<Mandel> &result) const
+  {
+    const unsigned int begin = points.first_point[c],
+                       end   = points.first_point[c + 1];
+    for (unsigned int p = begin; p < end; ++p)
+      result[p] =
+        factor * kernels::strain<n>(&points.gradients[2 * n * p], cell_v);
+    if (points.mean_gradients.empty())
+      return;
+    const Mandel mean =
+      factor * kernels::strain<n>(&points.mean_gradients[2 * n * c], cell_v);
+    for (unsigned int p = begin; p < end; ++p)
+      result[p].head<2>().array() +=
+        (mean[0] + mean[1] - result[p][0] - result[p][1]) / 2.;
+  }
+
+  template <int n, typename WeightedStress>
+  void
+  InternalForces::add_forces_of_cell(const unsigned int    c,
+                                     const WeightedStress &weighted_stress,
+                                     double               *cell_f) const
+  {
+    const unsigned int begin = points.first_point[c],
+                       end   = points.first_point[c + 1];
+    if (points.mean_gradients.empty())
+      {
+        for (unsigned int p = begin; p < end; ++p)
+          add_force<n>(
+            &points.gradients[2 * n * p], weighted_stress(p), cell_f);
+        return;
+      }
+    double volumetric = 0.;
+    for (unsigned int p = begin; p < end; ++p)
+      {
+        Mandel       s    = weighted_stress(p);
+        const double mean = (s[0] + s[1]) / 2.;
+        s.head<2>().array() -= mean;
+        volumetric += mean;
+        add_force<n>(&points.gradients[2 * n * p], s, cell_f);
+      }
+    add_force<n>(&points.mean_gradients[2 * n * c],
+                 Mandel(volumetric, volumetric, 0.),
+                 cell_f);
+  }
+
+  void
+  InternalForces::update_materials(const bool with_tangent) const
+  {
+    for (const Run &run : runs)
+      {
+        const unsigned int n = run.end - run.begin;
+        Response           response;
+        response.stress = ArrayView<Mandel>(&stress[run.begin], n);
+        response.mode   = ArrayView<Mode>(&mode[run.begin], n);
+        if (with_tangent)
+          response.tangent = ArrayView<MandelMatrix>(&tangent[run.begin], n);
+        materials[run.material].update(increment_of(run), response);
+      }
+  }
+
+  Increment
+  InternalForces::increment_of(const Run &run) const
+  {
+    const unsigned int n = run.end - run.begin;
+    Increment          increment;
+    increment.strain    = ArrayView<const Mandel>(&strain[run.begin], n);
+    increment.stress_n  = ArrayView<const Mandel>(&points.stress[run.begin], n);
+    increment.history_n = points.history_of(run.begin);
+    increment.n_history = points.n_history;
+    increment.friction_lag = law.friction_lag;
+    return increment;
+  }
+
+  std::vector<double>
+  InternalForces::trial_history() const
+  {
+    std::vector<double> history = points.history;
+    std::vector<Mandel> stresses;
+    std::vector<Mode>   modes;
+    for (const Run &run : runs)
+      if (materials[run.material].hardens())
+        {
+          const unsigned int n = run.end - run.begin;
+          stresses.resize(n);
+          modes.resize(n);
+          Response response;
+          response.stress  = ArrayView<Mandel>(stresses.data(), n);
+          response.mode    = ArrayView<Mode>(modes.data(), n);
+          response.history = history.data() + points.n_history * run.begin;
+          materials[run.material].update(increment_of(run), response);
+        }
+    return history;
+  }
+
+  void
+  InternalForces::residual(Vector         &part,
+                           const Vector   &v,
+                           const LocalLaw &local_law)
+  {
+    law = local_law;
+    with_n_nodes(points.n_nodes, [&](const auto n_constant) {
+      constexpr int n = n_constant;
+      for (unsigned int c = 0; c < points.n_cells(); ++c)
+        {
+          double cell_v[2 * n];
+          gather<n>(v.begin(), &points.nodes[c * n], cell_v);
+          turned.velocities_to_xy(c, cell_v);
+          strains_of_cell<n>(c, cell_v, h, strain);
+        }
+    });
+
+    previous_mode.swap(mode);
+    map_error = NaturalMap::Error();
+    if (law.natural_map != nullptr)
+      {
+        map_error = law.natural_map->update(strain, mode);
+        stress    = law.natural_map->stress();
+        tangent   = law.natural_map->tangent();
+      }
+    else
+      update_materials(false);
+
+    part = 0.;
+    with_n_nodes(points.n_nodes, [&](const auto n_constant) {
+      constexpr int n = n_constant;
+      for (unsigned int c = 0; c < points.n_cells(); ++c)
+        {
+          double cell_f[2 * n] = {};
+          add_forces_of_cell<n>(
+            c,
+            [&](const unsigned int p) -> Mandel {
+              return points.weight[p] * stress[p];
+            },
+            cell_f);
+          turned.forces_to_dofs(c, cell_f);
+          scatter_add<n>(cell_f, &points.nodes[c * n], part.begin());
+        }
+    });
+    part.compress(VectorOperation::add);
+  }
+
+  void
+  InternalForces::count_modes(double *counts) const
+  {
+    for (unsigned int p = 0; p < points.n_points(); ++p)
+      {
+        counts[0] += mode[p] == Mode::cone;
+        counts[1] += mode[p] == Mode::apex;
+        counts[2] += mode[p] != previous_mode[p];
+      }
+  }
+
+  double
+  InternalForces::natural_map_error() const
+  {
+    if (law.natural_map == nullptr)
+      return 0.;
+    const double scale = Utilities::MPI::max(map_error.stress_scale, comm);
+    return Utilities::MPI::max(map_error.largest_residual, comm) /
+           std::max(scale, std::numeric_limits<double>::min());
+  }
+
+  void
+  InternalForces::add_elastic_diagonal(Vector &dst) const
+  {
+    Vector part;
+    part.reinit(dst);
+    const unsigned int n = points.n_nodes;
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      for (unsigned int p = points.first_point[c];
+           p < points.first_point[c + 1];
+           ++p)
+        {
+          const Elasticity &e      = materials[points.material[p]].elasticity();
+          const double      direct = e.lambda + e.two_G, shear = e.two_G / 2.;
+          const double      factor = h * points.weight[p];
+          for (unsigned int i = 0; i < n; ++i)
+            {
+              double g[dim] = {points.gradients[2 * n * p + i],
+                               points.gradients[2 * n * p + n + i]};
+              if (const TurnedDofs::Turn *turn = turned.turn_of(c, i))
+                {
+                  const double gx = g[0], gy = g[1];
+                  g[0] = turn->n_x * gx + turn->n_y * gy;
+                  g[1] = turn->n_x * gy - turn->n_y * gx;
+                }
+              const unsigned int dof = dim * points.nodes[c * n + i];
+              part.local_element(dof) +=
+                factor * (direct * g[0] * g[0] + shear * g[1] * g[1]);
+              part.local_element(dof + 1) +=
+                factor * (direct * g[1] * g[1] + shear * g[0] * g[0]);
+            }
+        }
+    part.compress(VectorOperation::add);
+    dst += part;
+  }
+
+  double
+  InternalForces::rounding_floor(const Vector &v) const
+  {
+    double              sum = 0.;
+    const unsigned int  n   = points.n_nodes;
+    std::vector<double> speed(n);
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      {
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            const unsigned int dof = dim * points.nodes[c * n + i];
+            speed[i] =
+              std::hypot(v.local_element(dof), v.local_element(dof + 1));
+          }
+        for (unsigned int p = points.first_point[c];
+             p < points.first_point[c + 1];
+             ++p)
+          {
+            const double *gx = &points.gradients[2 * n * p], *gy = gx + n;
+            double        terms = 0., squares = 0.;
+            for (unsigned int i = 0; i < n; ++i)
+              {
+                const double square = gx[i] * gx[i] + gy[i] * gy[i];
+                squares += square;
+                terms += std::sqrt(square) * speed[i];
+              }
+            const double stress =
+              materials[points.material[p]].elasticity().normal_stiffness() *
+              h * terms;
+            sum += squares * std::pow(points.weight[p] * stress, 2);
+          }
+      }
+    return std::numeric_limits<double>::epsilon() *
+           std::sqrt(Utilities::MPI::sum(sum, comm));
+  }
+
+  void
+  InternalForces::linearise(const JacobianPattern &pattern,
+                            const double           blend,
+                            SparseMatrix          &matrix) const
+  {
+    update_tangents();
+    const bool one_triangle = pattern.is_one_triangle();
+    with_n_nodes(points.n_nodes, [&](const auto n_constant) {
+      constexpr int             n = n_constant;
+      std::vector<MandelMatrix> C;
+      std::vector<double>       scratch;
+      double                    K[4 * n * n];
+      for (unsigned int c = 0; c < points.n_cells(); ++c)
+        {
+          const unsigned int first = points.first_point[c];
+          const unsigned int n_q   = points.first_point[c + 1] - first;
+          C.resize(n_q);
+          scratch.resize(n_q * 6 * n);
+          for (unsigned int q = 0; q < n_q; ++q)
+            {
+              const unsigned int p = first + q;
+              C[q]                 = (h * points.weight[p]) * tangent[p];
+              if (blend > 0.)
+                C[q] = (1. - blend) * C[q] +
+                       (blend * h * points.weight[p]) *
+                         materials[points.material[p]].elasticity().stiffness();
+            }
+          const double *g = &points.gradients[2 * n * first];
+          if (!points.mean_gradients.empty())
+            stiffness_b_bar<n>(
+              g, &points.mean_gradients[2 * n * c], C.data(), n_q, K);
+          else if (one_triangle)
+            stiffness<n, true>(g, C.data(), n_q, scratch.data(), K);
+          else
+            stiffness<n, false>(g, C.data(), n_q, scratch.data(), K);
+          turned.matrix_to_dofs(c, 2 * n, one_triangle, K);
+          pattern.add_cell<n>(c, K, matrix);
+        }
+    });
+  }
+
+  void
+  InternalForces::apply_tangent(Vector &dst, const Vector &dv) const
+  {
+    update_tangents();
+    Vector part;
+    part.reinit(dst);
+    std::vector<Mandel> rate(points.n_points());
+    with_n_nodes(points.n_nodes, [&](const auto n_constant) {
+      constexpr int n = n_constant;
+      for (unsigned int c = 0; c < points.n_cells(); ++c)
+        {
+          double cell_v[2 * n], cell_f[2 * n] = {};
+          gather<n>(dv.begin(), &points.nodes[c * n], cell_v);
+          turned.velocities_to_xy(c, cell_v);
+          strains_of_cell<n>(c, cell_v, h, rate);
+          add_forces_of_cell<n>(
+            c,
+            [&](const unsigned int p) -> Mandel {
+              return points.weight[p] * (tangent[p] * rate[p]);
+            },
+            cell_f);
+          turned.forces_to_dofs(c, cell_f);
+          scatter_add<n>(cell_f, &points.nodes[c * n], part.begin());
+        }
+    });
+    part.compress(VectorOperation::add);
+    dst += part;
+  }
+
+  void
+  InternalForces::for_each_strain_column(
+    const std::function<
+      void(const unsigned int, const unsigned int, const Mandel &)> &f) const
+  {
+    std::vector<Mandel> column(points.n_points());
+    with_n_nodes(points.n_nodes, [&](const auto n_constant) {
+      constexpr int n = n_constant;
+      for (unsigned int c = 0; c < points.n_cells(); ++c)
+        for (int j = 0; j < 2 * n; ++j)
+          {
+            double cell_v[2 * n] = {};
+            cell_v[j]            = 1.;
+            turned.velocities_to_xy(c, cell_v);
+            strains_of_cell<n>(c, cell_v, 1., column);
+            for (unsigned int p = points.first_point[c];
+                 p < points.first_point[c + 1];
+                 ++p)
+              f(p, dim * points.nodes[c * n + j / dim] + j % dim, column[p]);
+          }
+    });
+  }
+
+  Mandel
+  InternalForces::plastic_strain_increment(const unsigned int p) const
+  {
+    if (mode[p] == Mode::elastic)
+      return Mandel::Zero();
+    return strain[p] - materials[points.material[p]].elasticity().strain(
+                         Mandel(stress[p] - points.stress[p]));
+  }
+} // namespace geocone
