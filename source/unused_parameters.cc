@@ -119,7 +119,7 @@ namespace geocone
       {"Material point method/Largest move", method, {"MPM"}},
       {"Material point method/FLIP part",
        "Material point method/Transfer",
-       {"FLIP"}},
+       {"FLIP", "AFLIP"}},
       {"Explicit/*", method, {"explicit MPM"}}};
 
     std::vector<std::string>

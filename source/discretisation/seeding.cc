@@ -399,7 +399,7 @@ namespace geocone
                          nothing,
                          quadrature,
                          update_JxW_values | update_quadrature_points);
-    for (const BackgroundMesh::Cell cell : mesh.own_cells())
+    for (const BackgroundMesh::Cell &cell : mesh.own_cells())
       {
         values.reinit(Triangulation<dim>::cell_iterator(cell));
         for (unsigned int q = 0; q < quadrature.size(); ++q)

@@ -16,17 +16,20 @@ namespace geocone
   ParticleTransfer::ParticleTransfer()
     : ParameterAcceptor("/Material point method")
   {
-    kind.declare(*this,
+    rule.declare(*this,
                  "Transfer",
                  ". FLIP: particles take the change of the nodes' velocities. "
                  "APIC: they take the velocity and its affine part, which "
-                 "keeps angular momentum and damps vibrations.");
-    add_parameter("FLIP part",
-                  part,
-                  "For FLIP: the part of the new velocity that FLIP gives, the "
-                  "rest is PIC (interpolated, damps); 0 to 1.",
-                  prm,
-                  Patterns::Double(0., 1.));
+                 "keeps angular momentum and damps vibrations. AFLIP: both the "
+                 "change and the affine part, which damps less. PIC: they take "
+                 "the velocity, which damps most.");
+    add_parameter(
+      "FLIP part",
+      part,
+      "For FLIP and AFLIP: the part of the new velocity that the "
+      "change gives, the rest is interpolated, which damps; 0 to 1.",
+      prm,
+      Patterns::Double(0., 1.));
   }
 
   Tensor<2, dim>

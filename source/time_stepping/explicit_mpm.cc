@@ -154,10 +154,11 @@ namespace geocone
 
     if (affine && space.degree() == 1)
       throw InputError(ParticleTransfer::parameter,
-                       "APIC",
-                       "FLIP where the element is Q1",
-                       "take splines for APIC: with Q1 the noise of nodes with "
-                       "little mass grows from step to step");
+                       rule.name(),
+                       "FLIP | PIC where the element is Q1",
+                       "take splines for " + rule.name() +
+                         ": with Q1 the noise of nodes with "
+                         "little mass grows from step to step");
 
     if (const auto given = scene->observation.moment_centre())
       std::fill(transfer->centres.begin(), transfer->centres.end(), *given);

@@ -88,10 +88,11 @@ namespace geocone
     if (rule.is_affine() && consistent_mass > 0.)
       throw InputError(section + "Consistent mass part",
                        consistent_mass,
-                       "0 with Transfer = APIC",
-                       "APIC hands over momentum by the lumped mass and grows "
-                       "without bound with another: set it to 0, or Transfer = "
-                       "FLIP");
+                       "0 with Transfer = " + rule.name(),
+                       rule.name() +
+                         " hands over momentum by the lumped mass and grows "
+                         "without bound with another: set it to 0, or Transfer "
+                         "= FLIP");
     if (!(largest_move > 0.))
       throw InputError(
         section + "Largest move", largest_move, "> 0 cells", "3 is usual");

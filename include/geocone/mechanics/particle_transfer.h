@@ -13,19 +13,32 @@
 namespace geocone
 {
   /**
+   * A rule by which particles take their velocities from the nodes:
+   *   v_p := alpha (v_p + sum_i N_i (v_i - vL_i)) + (1 - alpha) sum_i N_i v_i,
+   * and, if it is affine, C of the velocity field v_p + C (x - x_p), with which they
+   * give momentum to the nodes (affine_velocity()).
+   */
+  struct TransferRule
+  {
+    bool is_affine;
+    bool flips; ///< alpha is 'FLIP part'; otherwise 0
+  };
+
+  /**
    * How particles take their velocities from the nodes, in implicit and in explicit
-   * steps alike: parameters of "Material point method".
+   * steps alike: parameters of "Material point method". A new rule is a line of
+   * its list.
    */
   class ParticleTransfer : public dealii::ParameterAcceptor
   {
   public:
     ParticleTransfer();
 
-    /** APIC: a particle has an affine velocity field, v + C (x - x_p). */
+    /** Whether a particle has an affine velocity field, v + C (x - x_p). */
     bool
     is_affine() const
     {
-      return kind == Kind::apic;
+      return present().is_affine;
     }
 
     /** Part of the change that a particle takes, v_p + dv; the rest is that of the
@@ -33,24 +46,39 @@ namespace geocone
     double
     flip_part() const
     {
-      return is_affine() ? 0. : part;
+      return present().flips ? part : 0.;
+    }
+
+    /** What the file calls the rule. */
+    std::string
+    name() const
+    {
+      return rule.word();
     }
 
     /** "Material point method/Transfer", for messages. */
     static const char *const parameter;
 
   private:
-    enum class Kind
+    const TransferRule &
+    present() const
     {
-      flip,
-      apic
-    };
-    Choice<Kind> kind = {{{"FLIP", Kind::flip}, {"APIC", Kind::apic}}};
-    double       part = 1.;
+      return *static_cast<const TransferRule *>(rule);
+    }
+
+    static constexpr TransferRule flip  = {false, true};
+    static constexpr TransferRule apic  = {true, false};
+    static constexpr TransferRule aflip = {true, true};
+    static constexpr TransferRule pic   = {false, false};
+
+    Choice<const TransferRule *> rule = {
+      {{"FLIP", &flip}, {"APIC", &apic}, {"AFLIP", &aflip}, {"PIC", &pic}}};
+
+    double part = 1.;
   };
 
   /**
-   * C of APIC, by the moments of a particle's nodes,
+   * C of the affine rules (APIC), by the moments of a particle's nodes,
    *   B = sum_i N_i v_i r_i',  D = sum_i N_i r_i r_i',  r_i = x_i - x_p:
    * C e = B e/d for the eigenvectors e of D with the eigenvalues d. At a side of
    * the mesh only the functions of the side are left: across it, where d vanishes,
