@@ -161,6 +161,12 @@ namespace geocone
                   chi,
                   "chi (-), 0 <= chi < 1: the similarity centre starts at chi "
                   "times the stress.");
+    add_parameter(
+      "Initial centre",
+      given_centre,
+      "The similarity centre a at the start instead: xx, yy, zz, xy "
+      "(Pa), tension positive; in 3D also yz, zx. Empty: chi times "
+      "the stress.");
     add_parameter("Initial anisotropy",
                   given_beta,
                   "Inclination beta at the start: xx, yy, zz, xy (-), of trace "
@@ -172,6 +178,11 @@ namespace geocone
       "anisotropy (-).");
     add_parameter(
       "Initial structure ratio", initial_Rb, "Rb at the start (-), >= Rbf.");
+    add_parameter(
+      "Show tensors",
+      show_tensors,
+      "Whether fields and tables have the components of the "
+      "similarity centre a (Pa) and the inclination beta (-), too.");
     if_outside.declare(*this,
                        "Stress outside",
                        ": what to do with an initial stress outside the yield "
@@ -312,6 +323,22 @@ namespace geocone
                        chi,
                        "0 <= chi < 1",
                        "0: the centre starts at zero stress");
+    bool is_finite = true;
+    for (const double component : given_centre)
+      is_finite = is_finite && std::isfinite(component);
+    if (!is_finite || (!given_centre.empty() && given_centre.size() != 4 &&
+                       given_centre.size() != 6))
+      throw InputError(
+        parameter("Initial centre"),
+        dealii::Patterns::Tools::to_string(given_centre),
+        "finite numbers xx, yy, zz, xy or xx, yy, zz, xy, yz, zx "
+        "(Pa), or nothing",
+        "leave it empty for 'Initial centre ratio chi'");
+    if (!given_centre.empty() && chi != 0.)
+      throw InputError(parameter("Initial centre ratio chi"),
+                       chi,
+                       "0 where 'Initial centre' is given",
+                       "give one of them");
     double trace = 0., largest = 0.;
     for (std::size_t i = 0; i < given_beta.size(); ++i)
       {
@@ -365,7 +392,10 @@ namespace geocone
                        "stiffness");
     y.stress = stress;
     y.a      = chi * stress;
-    y.Rb     = initial_Rb;
+    for (unsigned int i = 0; i < std::min<std::size_t>(n, given_centre.size());
+         ++i)
+      y.a[i] = (i < 3 ? -1. : -sqrt2) * given_centre[i];
+    y.Rb = initial_Rb;
     y.beta.setZero();
     for (unsigned int i = 0; i < std::min<std::size_t>(n, given_beta.size());
          ++i)
@@ -414,12 +444,14 @@ namespace geocone
     const double inside = law.yield_function(y.a, y.beta, y.pcb);
     if (!(R <= 1. + 1e-9) ||
         !(inside < 0. || (inside == 0. && y.a.norm() == 0.)))
-      throw InputError(parameter("Initial centre ratio chi"),
-                       chi,
-                       "a similarity centre within the yield surface; fbar(a) "
-                       "= " +
-                         format("%g", inside) + " Pa^2" + at,
-                       "lower chi, or the initial anisotropy");
+      throw InputError(
+        parameter(given_centre.empty() ? "Initial centre ratio chi"
+                                       : "Initial centre"),
+        given_centre.empty() ? format("%g", chi)
+                             : dealii::Patterns::Tools::to_string(given_centre),
+        "a similarity centre within the yield surface; fbar(a) = " +
+          format("%g", inside) + " Pa^2" + at,
+        "bring it nearer to zero stress, or lower the initial anisotropy");
     return changed;
   }
 
@@ -502,13 +534,21 @@ namespace geocone
   std::vector<ConstitutiveLaw::Shown>
   Subloading::shown() const
   {
-    return {{"stress_zz", "stress zz (Pa)"},
-            {"mean_pressure", "p (Pa)"},
-            {"deviatoric_stress", "q (Pa)"},
-            {"subloading_ratio", "R (-)"},
-            {"structure_ratio", "Rb (-)"},
-            {"yield_surface_size", "pcb (Pa)"},
-            {"anisotropy", "anisotropy (-)"}};
+    std::vector<Shown> all = {{"stress_zz", "stress zz (Pa)"},
+                              {"mean_pressure", "p (Pa)"},
+                              {"deviatoric_stress", "q (Pa)"},
+                              {"subloading_ratio", "R (-)"},
+                              {"structure_ratio", "Rb (-)"},
+                              {"yield_surface_size", "pcb (Pa)"},
+                              {"anisotropy", "anisotropy (-)"}};
+    if (show_tensors)
+      for (const bool is_centre : {false, true})
+        for (const char *component : {"xx", "yy", "zz", "xy"})
+          all.push_back(
+            {std::string(is_centre ? "centre_" : "inclination_") + component,
+             std::string(is_centre ? "a " : "beta ") + component +
+               (is_centre ? " (Pa)" : " (-)")});
+    return all;
   }
 
   void
@@ -527,5 +567,11 @@ namespace geocone
     values[4] = y.Rb;
     values[5] = y.pcb;
     values[6] = std::sqrt(1.5) * y.beta.norm();
+    if (show_tensors)
+      for (unsigned int k = 0; k < 4; ++k)
+        {
+          values[7 + k]  = history[inclination + k];
+          values[11 + k] = history[centre + k];
+        }
   }
 } // namespace geocone

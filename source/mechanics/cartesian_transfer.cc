@@ -15,7 +15,7 @@ namespace geocone
 
   namespace
   {
-    /** Cells around the points in which they may move until the next refresh. */
+    /** Cells around the points in which they may move until the next sort. */
     constexpr int margin = 2;
 
     /** Nodes are read and written by four values, the mass up to three beyond. */
@@ -90,14 +90,14 @@ namespace geocone
   }
 
   void
-  CartesianTransfer::refresh(std::vector<PointArrays> &groups)
+  CartesianTransfer::sort(std::vector<PointArrays> &groups)
   {
     if (n_ranks > 1)
       {
         cut_slabs(groups);
         migrate(groups);
       }
-    sort(groups);
+    sort_by_cell(groups);
     store_nodes();
   }
 
@@ -158,7 +158,7 @@ namespace geocone
   }
 
   void
-  CartesianTransfer::sort(std::vector<PointArrays> &groups)
+  CartesianTransfer::sort_by_cell(std::vector<PointArrays> &groups)
   {
     // Where the points are, with room to move in.
     for (unsigned int d = 0; d < dim; ++d)
@@ -278,7 +278,7 @@ namespace geocone
   }
 
   bool
-  CartesianTransfer::must_refresh(const PassSums &sums) const
+  CartesianTransfer::must_sort(const PassSums &sums) const
   {
     if (sums.lower[0] > sums.upper[0])
       return false; // no points
@@ -319,44 +319,44 @@ namespace geocone
   }
 
   void
-  CartesianTransfer::gather(const BlockPoints &points, BlockScratch &scratch)
+  CartesianTransfer::gather(const TransferBlock &points, BlockScratch &scratch)
   {
     kernels.gather[grid.degree](view(false), points, scratch);
   }
 
   void
-  CartesianTransfer::gather_values(const BlockPoints &points,
-                                   BlockScratch      &scratch)
+  CartesianTransfer::gather_values(const TransferBlock &points,
+                                   BlockScratch        &scratch)
   {
     kernels.gather_values[grid.degree](view(false), points, scratch);
   }
 
   void
-  CartesianTransfer::gather_affine(const BlockPoints &points,
-                                   BlockScratch      &scratch)
+  CartesianTransfer::gather_affine(const TransferBlock &points,
+                                   BlockScratch        &scratch)
   {
     kernels.gather_affine[grid.degree](view(false), points, scratch);
   }
 
   void
-  CartesianTransfer::scatter(const BlockPoints &points,
-                             BlockScratch      &scratch,
-                             const bool         with_mass)
+  CartesianTransfer::scatter(const TransferBlock &points,
+                             BlockScratch        &scratch,
+                             const bool           with_mass)
   {
     kernels.scatter[grid.degree](view(with_mass), points, scratch);
   }
 
   void
-  CartesianTransfer::scatter_values(const BlockPoints &points,
-                                    BlockScratch      &scratch,
-                                    const bool         with_mass)
+  CartesianTransfer::scatter_values(const TransferBlock &points,
+                                    BlockScratch        &scratch,
+                                    const bool           with_mass)
   {
     kernels.scatter_values[grid.degree](view(with_mass), points, scratch);
   }
 
   void
-  CartesianTransfer::scatter_affine(const BlockPoints &points,
-                                    BlockScratch      &scratch)
+  CartesianTransfer::scatter_affine(const TransferBlock &points,
+                                    BlockScratch        &scratch)
   {
     kernels.scatter_affine[grid.degree](view(false), points, scratch);
   }
@@ -467,7 +467,7 @@ namespace geocone
   }
 
   Point<dim>
-  CartesianTransfer::a_stored_place() const
+  CartesianTransfer::stored_place() const
   {
     Point<dim> place;
     for (unsigned int d = 0; d < dim; ++d)

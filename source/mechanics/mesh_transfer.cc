@@ -117,7 +117,7 @@ namespace geocone
   }
 
   void
-  MeshTransfer::refresh(std::vector<PointArrays> &groups)
+  MeshTransfer::sort(std::vector<PointArrays> &groups)
   {
     lost.clear();
     functions.resize(groups.size());
@@ -254,8 +254,8 @@ namespace geocone
   }
 
   PointFunctions
-  MeshTransfer::functions_at(const BlockPoints &points,
-                             const unsigned int k) const
+  MeshTransfer::functions_at(const TransferBlock &points,
+                             const unsigned int   k) const
   {
     const Functions  &at    = functions[points.group];
     const std::size_t first = n * static_cast<std::size_t>(points.first + k);
@@ -264,7 +264,7 @@ namespace geocone
   }
 
   void
-  MeshTransfer::gather(const BlockPoints &points, BlockScratch &scratch)
+  MeshTransfer::gather(const TransferBlock &points, BlockScratch &scratch)
   {
     for (unsigned int k = 0; k < points.n; ++k)
       functions_at(points, k).gather<4, true>(read.data(),
@@ -272,7 +272,8 @@ namespace geocone
   }
 
   void
-  MeshTransfer::gather_values(const BlockPoints &points, BlockScratch &scratch)
+  MeshTransfer::gather_values(const TransferBlock &points,
+                              BlockScratch        &scratch)
   {
     for (unsigned int k = 0; k < points.n; ++k)
       functions_at(points, k).gather<4, false>(read.data(),
@@ -280,7 +281,7 @@ namespace geocone
   }
 
   void
-  MeshTransfer::gather_affine(const BlockPoints &points, BlockScratch &)
+  MeshTransfer::gather_affine(const TransferBlock &points, BlockScratch &)
   {
     for (unsigned int k = 0; k < points.n; ++k)
       {
@@ -298,9 +299,9 @@ namespace geocone
 
   template <bool with_gradients>
   void
-  MeshTransfer::scatter_any(const BlockPoints  &points,
-                            const BlockScratch &scratch,
-                            const bool          with_mass)
+  MeshTransfer::scatter_any(const TransferBlock &points,
+                            const BlockScratch  &scratch,
+                            const bool           with_mass)
   {
     for (unsigned int k = 0; k < points.n; ++k)
       {
@@ -312,23 +313,23 @@ namespace geocone
   }
 
   void
-  MeshTransfer::scatter(const BlockPoints &points,
-                        BlockScratch      &scratch,
-                        const bool         with_mass)
+  MeshTransfer::scatter(const TransferBlock &points,
+                        BlockScratch        &scratch,
+                        const bool           with_mass)
   {
     scatter_any<true>(points, scratch, with_mass);
   }
 
   void
-  MeshTransfer::scatter_values(const BlockPoints &points,
-                               BlockScratch      &scratch,
-                               const bool         with_mass)
+  MeshTransfer::scatter_values(const TransferBlock &points,
+                               BlockScratch        &scratch,
+                               const bool           with_mass)
   {
     scatter_any<false>(points, scratch, with_mass);
   }
 
   void
-  MeshTransfer::scatter_affine(const BlockPoints &points, BlockScratch &)
+  MeshTransfer::scatter_affine(const TransferBlock &points, BlockScratch &)
   {
     for (unsigned int k = 0; k < points.n; ++k)
       functions_at(points, k).scatter_affine<4>(
@@ -367,7 +368,7 @@ namespace geocone
   }
 
   Point<dim>
-  MeshTransfer::a_stored_place() const
+  MeshTransfer::stored_place() const
   {
     return (*mesh.own_cells().begin())->center();
   }

@@ -190,7 +190,7 @@ namespace geocone
     some_left = false;
   }
 
-  BlockPoints
+  TransferBlock
   ExplicitMPM::block(const unsigned int g, const unsigned int first)
   {
     PointArrays       &group = groups[g];
@@ -230,7 +230,7 @@ namespace geocone
         for (unsigned int first = 0; first < group.n_padded();
              first += PointBlock::capacity)
           {
-            const BlockPoints points = block(g, first);
+            const TransferBlock points = block(g, first);
             if (what.reads)
               {
                 if (what.gradients)
@@ -310,7 +310,7 @@ namespace geocone
   }
 
   void
-  ExplicitMPM::mend_positions(const BlockPoints &points)
+  ExplicitMPM::mend_positions(const TransferBlock &points)
   {
     PointArrays       &group = groups[points.group];
     const unsigned int end =
@@ -334,7 +334,7 @@ namespace geocone
                        "or 'Explicit/Time step', splines, or the order MUSL",
                        group.id[p]);
             group[Field::vx][p] = group[Field::vy][p] = 0.;
-            nearest = transfer->a_stored_place();
+            nearest = transfer->stored_place();
             for (unsigned int d = 0; d < dim; ++d)
               group[Field::x + d][p] = nearest[d];
             continue;
@@ -352,7 +352,7 @@ namespace geocone
                        group.id[p],
                        place[0],
                        place[1]);
-            nearest = transfer->a_stored_place(); // the run ends anyhow
+            nearest = transfer->stored_place(); // the run ends anyhow
           }
         else if (outside && p < end)
           {
@@ -394,7 +394,7 @@ namespace geocone
                         "'Mesh/Box'");
     {
       const Stopwatch watch(clock.refresh);
-      transfer->refresh(groups);
+      transfer->sort(groups);
     }
     for (const auto &[g, p] : transfer->lost)
       {
@@ -407,7 +407,7 @@ namespace geocone
     if (Utilities::MPI::logical_or(!obstacle.empty(), comm))
       throw StepFailure(text_of_any_rank(comm, obstacle));
     start_nodes();
-    nodes->refresh();
+    nodes->mark_held();
     body_mass     = current_mass();
     must_refresh  = false;
     since_refresh = 0;
@@ -507,7 +507,7 @@ namespace geocone
       sums.wave_speed2,
       sums.speed2,
       sums.strain,
-      double(must_refresh || some_left || transfer->must_refresh(sums)),
+      double(must_refresh || some_left || transfer->must_sort(sums)),
       double(!obstacle.empty()),
       double(stop_request_of_rank())};
     Utilities::MPI::max(largest, comm, largest);

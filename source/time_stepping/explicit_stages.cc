@@ -321,7 +321,7 @@ namespace geocone
   }
 
   void
-  ExplicitMPM::fade_points(const BlockPoints &points)
+  ExplicitMPM::fade_points(const TransferBlock &points)
   {
     PointArrays &group = groups[points.group];
     for (unsigned int k = 0; k < points.n; ++k)

@@ -42,7 +42,7 @@ namespace geocone
   }
 
   void
-  NodalUpdate::refresh()
+  NodalUpdate::mark_held()
   {
     is_held.assign(dim * static_cast<std::size_t>(transfer.n_nodes()), 0);
     for (const PrescribedNode &node : transfer.prescribed)

@@ -7,6 +7,8 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/files.h>
 
+#include <deal.II/base/exceptions.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <new>

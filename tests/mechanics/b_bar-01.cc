@@ -106,7 +106,7 @@ check(const std::string &element,
   problem.begin_step(h, nullptr, vL, Vector(layout));
 
   // The mass: of a unit velocity, all that the particles have.
-  problem.apply_mass(R, one);
+  problem.inertia_term().apply_mass(R, one);
   double total = 0., of_points = 0.;
   for (unsigned int i = 0; i < n; ++i)
     total += R.local_element(i);

@@ -20,7 +20,7 @@ assert summary["status"] == "finished"
 for topic, names in {
     "explicit": ["steps", "smallest_step_s", "massless_nodes"],
     "state": ["points", "mass_kg_per_m", "right_front_m", "y_largest_m"],
-    "energy": ["stress_work_J_per_m", "residual_max_relative"],
+    "energy": ["stress_work_J_per_m", "numerical_loss_max_relative"],
     "momentum": ["residual_max_relative"],
     "cost": ["cpu_ns_per_point_step", "bytes_per_point"]}.items():
     for name in names:

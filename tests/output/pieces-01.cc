@@ -43,8 +43,8 @@ int
 main(int argc, char **argv)
 {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const MPI_Comm    comm = MPI_COMM_WORLD;
-  const bool        last = dealii::Utilities::MPI::this_mpi_process(comm) + 1 ==
+  const MPI_Comm                                 comm = MPI_COMM_WORLD;
+  const bool last = dealii::Utilities::MPI::this_mpi_process(comm) + 1 ==
                     dealii::Utilities::MPI::n_mpi_processes(comm);
   const std::string folder = "pieces-01";
   if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
@@ -56,7 +56,9 @@ main(int argc, char **argv)
 
   FieldTable table;
   table.n_nodes   = 3;
-  table.positions = [](std::vector<double> &x) { x = {0., 0., 1., 0., 0., 1.}; };
+  table.positions = [](std::vector<double> &x) {
+    x = {0., 0., 1., 0., 0., 1.};
+  };
   FieldFiles files("points", FieldsFormat::vtu);
   files.write(table, folder, 0., comm);
   bool thrown = false;
@@ -68,7 +70,7 @@ main(int argc, char **argv)
     {
       thrown = true;
     }
-  const bool all_thrown = dealii::Utilities::MPI::logical_and(thrown, comm);
+  const bool all_thrown = !dealii::Utilities::MPI::logical_or(!thrown, comm);
   if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
     {
       std::printf("the error is that of all ranks: %s\n",

@@ -177,10 +177,11 @@ try_floor()
             v.local_element(i) *= 1. + error * std::sin(7. * i);
         v.update_ghost_values();
         const ResidualReport state = problem.residual(residual, v);
-        std::printf("nu = %g, a velocity that is wrong by %g is taken: %d\n",
-                    nu,
-                    error,
-                    int(state.norm <= problem.rounding_floor(v)));
+        std::printf(
+          "nu = %g, a velocity that is wrong by %g is taken: %d\n",
+          nu,
+          error,
+          int(state.norm <= problem.internal_forces().rounding_floor(v)));
       }
 }
 

@@ -124,6 +124,8 @@ namespace geocone
     double              chi        = 0.;
     double              zeta       = 0.;
     std::vector<double> given_beta = {0., 0., 0., 0.};
+    std::vector<double> given_centre; ///< tension positive; empty: chi sigma
+    bool                show_tensors = false;
     double              initial_Rb = 1.;
 
     Choice<Outside> if_outside = {

@@ -12,7 +12,7 @@ namespace geocone
   /**
    * The transfer on a uniform grid, which finds cells by a multiplication. Ranks
    * own slabs of columns, cut such that each has about the same number of points,
-   * anew in each refresh(). Columns of nodes are contiguous, so that what two
+   * anew in each sort(). Columns of nodes are contiguous, so that what two
    * ranks share is one piece of memory. Only the nodes around the points are
    * stored.
    */
@@ -28,26 +28,26 @@ namespace geocone
                       const BoundaryConditions &conditions);
 
     void
-    refresh(std::vector<PointArrays> &groups) override;
+    sort(std::vector<PointArrays> &groups) override;
     bool
-    must_refresh(const PassSums &sums) const override;
+    must_sort(const PassSums &sums) const override;
 
     void
-    gather(const BlockPoints &points, BlockScratch &scratch) override;
+    gather(const TransferBlock &points, BlockScratch &scratch) override;
     void
-    gather_values(const BlockPoints &points, BlockScratch &scratch) override;
+    gather_values(const TransferBlock &points, BlockScratch &scratch) override;
     void
-    gather_affine(const BlockPoints &points, BlockScratch &scratch) override;
+    gather_affine(const TransferBlock &points, BlockScratch &scratch) override;
     void
-    scatter(const BlockPoints &points,
-            BlockScratch      &scratch,
-            const bool         with_mass) override;
+    scatter(const TransferBlock &points,
+            BlockScratch        &scratch,
+            const bool           with_mass) override;
     void
-    scatter_values(const BlockPoints &points,
-                   BlockScratch      &scratch,
-                   const bool         with_mass) override;
+    scatter_values(const TransferBlock &points,
+                   BlockScratch        &scratch,
+                   const bool           with_mass) override;
     void
-    scatter_affine(const BlockPoints &points, BlockScratch &scratch) override;
+    scatter_affine(const TransferBlock &points, BlockScratch &scratch) override;
 
     void
     exchange(const bool with_mass) override;
@@ -55,7 +55,7 @@ namespace geocone
     bool
     reaches(const dealii::Point<dim> &x) const override;
     dealii::Point<dim>
-    a_stored_place() const override;
+    stored_place() const override;
     dealii::Point<dim>
     nearest_in_domain(const dealii::Point<dim> &x) const override;
 
@@ -101,7 +101,7 @@ namespace geocone
     migrate(std::vector<PointArrays> &groups) const;
 
     void
-    sort(std::vector<PointArrays> &groups);
+    sort_by_cell(std::vector<PointArrays> &groups);
 
     /** Chooses the stored functions, and the prescribed ones among them. */
     void
@@ -129,7 +129,7 @@ namespace geocone
     Range              stored[dim]; ///< functions, from which `read` etc. begin
     std::vector<Range> stored_columns; ///< of all ranks
 
-    std::vector<unsigned int>        count, order;  ///< of sort()
+    std::vector<unsigned int>        count, order;  ///< of sort_by_cell()
     std::vector<std::vector<double>> receive, sent; ///< of exchange()
   };
 } // namespace geocone

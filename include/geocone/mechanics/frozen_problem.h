@@ -31,8 +31,9 @@ namespace geocone
 
     /** @name By dof, two per node */
     /** @{ */
-    std::vector<int>    kind; ///< 0, Unknowns::prescribed_row or ::massless_row
-    std::vector<double> mass; ///< lumped (kg/m); empty without inertia
+    std::vector<int>
+      kind; ///< 0, Unknowns::prescribed_row or Unknowns::massless_row
+    std::vector<double> mass;       ///< lumped (kg/m); empty without inertia
     std::vector<double> force;      ///< F (N/m); empty without loads
     std::vector<double> velocity_L; ///< vL (m/s)
     std::vector<double> prescribed; ///< where the kind says so (m/s)

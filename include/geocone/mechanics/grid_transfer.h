@@ -37,7 +37,7 @@ namespace geocone
    *   write: momentum and force, from the points;
    *   mass.
    * Nodes that several ranks store hold the sums of all ranks after exchange().
-   * Points go to the rank that owns their place in refresh(), and not before: the
+   * Points go to the rank that owns their place in sort(), and not before: the
    * stored nodes reach at least a cell farther than the points.
    */
   class GridTransfer
@@ -50,31 +50,31 @@ namespace geocone
      * them, with nothing in write and mass. Collective.
      */
     virtual void
-    refresh(std::vector<PointArrays> &groups) = 0;
+    sort(std::vector<PointArrays> &groups) = 0;
 
-    /** Whether refresh() must come before the next step, for points that have
+    /** Whether sort() must come before the next step, for points that have
      *  moved to these bounds on this rank (not collective). */
     virtual bool
-    must_refresh(const PassSums &sums) const = 0;
+    must_sort(const PassSums &sums) const = 0;
 
     /** @name Blocks of points; see TransferKernels */
     /** @{ */
     virtual void
-    gather(const BlockPoints &points, BlockScratch &scratch) = 0;
+    gather(const TransferBlock &points, BlockScratch &scratch) = 0;
     virtual void
-    gather_values(const BlockPoints &points, BlockScratch &scratch) = 0;
+    gather_values(const TransferBlock &points, BlockScratch &scratch) = 0;
     virtual void
-    gather_affine(const BlockPoints &points, BlockScratch &scratch) = 0;
+    gather_affine(const TransferBlock &points, BlockScratch &scratch) = 0;
     virtual void
-    scatter(const BlockPoints &points,
-            BlockScratch      &scratch,
-            const bool         with_mass) = 0;
+    scatter(const TransferBlock &points,
+            BlockScratch        &scratch,
+            const bool           with_mass) = 0;
     virtual void
-    scatter_values(const BlockPoints &points,
-                   BlockScratch      &scratch,
-                   const bool         with_mass) = 0;
+    scatter_values(const TransferBlock &points,
+                   BlockScratch        &scratch,
+                   const bool           with_mass) = 0;
     virtual void
-    scatter_affine(const BlockPoints &points, BlockScratch &scratch) = 0;
+    scatter_affine(const TransferBlock &points, BlockScratch &scratch) = 0;
     /** @} */
 
     /**
@@ -90,9 +90,9 @@ namespace geocone
 
     /** A place that reaches() accepts. */
     virtual dealii::Point<dim>
-    a_stored_place() const = 0;
+    stored_place() const = 0;
 
-    /** Whether refresh() must come before every step. */
+    /** Whether sort() must come before every step. */
     virtual bool
     moves_each_step() const
     {
@@ -103,7 +103,7 @@ namespace geocone
     virtual dealii::Point<dim>
     nearest_in_domain(const dealii::Point<dim> &x) const = 0;
 
-    /** Whether points of any place may be given to any rank before refresh(), or
+    /** Whether points of any place may be given to any rank before sort(), or
      *  each must be given one that owns() its place. */
     virtual bool
     takes_any_point() const
@@ -145,7 +145,7 @@ namespace geocone
     /** Per condition the centre of the bounding box of all nodes it selects. */
     std::vector<dealii::Point<dim>> centres;
 
-    /** Points (group, number) that refresh() has found outside the mesh. */
+    /** Points (group, number) that sort() has found outside the mesh. */
     std::vector<std::array<unsigned int, 2>> lost;
 
     unsigned int

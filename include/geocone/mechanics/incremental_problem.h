@@ -81,7 +81,7 @@ namespace geocone
     residual(Vector &dst, const Vector &v, const LocalLaw &law = {});
 
     /** The law that linearises the complementarity problem itself at each
-     *  residual(). @param rho @param start as NaturalMap takes them */
+     *  residual(), for the arguments of NaturalMap. */
     NaturalMap
     make_natural_map(const double rho, const std::vector<Mandel> &start) const
     {

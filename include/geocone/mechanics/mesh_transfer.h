@@ -28,9 +28,9 @@ namespace geocone
                  const Space          &space);
 
     void
-    refresh(std::vector<PointArrays> &groups) override;
+    sort(std::vector<PointArrays> &groups) override;
     bool
-    must_refresh(const PassSums &) const override
+    must_sort(const PassSums &) const override
     {
       return true;
     }
@@ -49,26 +49,26 @@ namespace geocone
     }
 
     void
-    gather(const BlockPoints &points, BlockScratch &scratch) override;
+    gather(const TransferBlock &points, BlockScratch &scratch) override;
     void
-    gather_values(const BlockPoints &points, BlockScratch &scratch) override;
+    gather_values(const TransferBlock &points, BlockScratch &scratch) override;
     void
-    gather_affine(const BlockPoints &points, BlockScratch &scratch) override;
+    gather_affine(const TransferBlock &points, BlockScratch &scratch) override;
     void
-    scatter(const BlockPoints &points,
-            BlockScratch      &scratch,
-            const bool         with_mass) override;
+    scatter(const TransferBlock &points,
+            BlockScratch        &scratch,
+            const bool           with_mass) override;
     void
-    scatter_values(const BlockPoints &points,
-                   BlockScratch      &scratch,
-                   const bool         with_mass) override;
+    scatter_values(const TransferBlock &points,
+                   BlockScratch        &scratch,
+                   const bool           with_mass) override;
     void
-    scatter_affine(const BlockPoints &points, BlockScratch &scratch) override;
+    scatter_affine(const TransferBlock &points, BlockScratch &scratch) override;
 
     void
     exchange(const bool with_mass) override;
 
-    /** Points may be anywhere until the next refresh() finds them. */
+    /** Points may be anywhere until the next sort() finds them. */
     bool
     reaches(const dealii::Point<dim> &) const override
     {
@@ -80,7 +80,7 @@ namespace geocone
       return x;
     }
     dealii::Point<dim>
-    a_stored_place() const override;
+    stored_place() const override;
 
     double
     cell_size() const override
@@ -146,13 +146,13 @@ namespace geocone
 
     /** Those of a point of a block. */
     PointFunctions
-    functions_at(const BlockPoints &points, const unsigned int k) const;
+    functions_at(const TransferBlock &points, const unsigned int k) const;
 
     template <bool with_gradients>
     void
-    scatter_any(const BlockPoints  &points,
-                const BlockScratch &scratch,
-                const bool          with_mass);
+    scatter_any(const TransferBlock &points,
+                const BlockScratch  &scratch,
+                const bool           with_mass);
 
     const BackgroundMesh &mesh;
     const Space          &space;

@@ -57,20 +57,21 @@ namespace geocone
      * @param elastic_blend w in (1 - w) C + w D, for a tangent C
      */
     virtual void
-    linearise(const JacobianPattern &,
-              const double /*elastic_blend*/,
-              SparseMatrix &) const
+    linearise([[maybe_unused]] const JacobianPattern &pattern,
+              [[maybe_unused]] const double           elastic_blend,
+              [[maybe_unused]] SparseMatrix          &matrix) const
     {}
 
     /** dst += its part of (dR/dv) dv at the last residual(), in all owned rows.
      *  @param dv with its ghosts */
     virtual void
-    apply_tangent(Vector &, const Vector &) const
+    apply_tangent([[maybe_unused]] Vector       &dst,
+                  [[maybe_unused]] const Vector &dv) const
     {}
 
     /** dst += the diagonal of its part of the elastic Jacobian (kg/(m s)). */
     virtual void
-    add_elastic_diagonal(Vector &) const
+    add_elastic_diagonal([[maybe_unused]] Vector &dst) const
     {}
   };
 } // namespace geocone

@@ -52,7 +52,7 @@ namespace geocone
   };
 
   /** The arrays of a block of points, and of their affine velocities (APIC). */
-  struct BlockPoints
+  struct TransferBlock
   {
     unsigned int n;     ///< a multiple of PointBlock::lanes
     unsigned int group; ///< the arrays that they are part of
@@ -108,11 +108,11 @@ namespace geocone
     /** @{ */
 
     /** v, dv/dx, dv/dy from the nodes: sum_i q_i (N_i, dN_i/dx, dN_i/dy). */
-    void (*gather[4])(const GridView &, const BlockPoints &, BlockScratch &);
+    void (*gather[4])(const GridView &, const TransferBlock &, BlockScratch &);
 
     /** The same of v only. */
     void (*gather_values[4])(const GridView &,
-                             const BlockPoints &,
+                             const TransferBlock &,
                              BlockScratch &);
 
     /**
@@ -123,7 +123,7 @@ namespace geocone
      * the gradient and noise of nodes with little mass grows from step to step.
      */
     void (*gather_affine[4])(const GridView &,
-                             const BlockPoints &,
+                             const TransferBlock &,
                              BlockScratch &);
 
     /**
@@ -131,16 +131,16 @@ namespace geocone
      *   node += N (a) + dN/dx (b) + dN/dy (c),
      * and N m to the masses unless they are null.
      */
-    void (*scatter[4])(const GridView &, const BlockPoints &, BlockScratch &);
+    void (*scatter[4])(const GridView &, const TransferBlock &, BlockScratch &);
 
     /** The same of a and the masses only. */
     void (*scatter_values[4])(const GridView &,
-                              const BlockPoints &,
+                              const TransferBlock &,
                               BlockScratch &);
 
     /** Adds m N C (x_i - x) to the momentum, after scatter(). */
     void (*scatter_affine[4])(const GridView &,
-                              const BlockPoints &,
+                              const TransferBlock &,
                               BlockScratch &);
     /** @} */
 
@@ -153,19 +153,19 @@ namespace geocone
     void (*update_points)(const Update,
                           const double dt,
                           const double flip_part,
-                          const BlockPoints &,
+                          const TransferBlock &,
                           BlockScratch &);
 
     /** V <- det(I + l) V, the stress work, and the extremes. */
-    void (*finish)(const BlockPoints &, BlockScratch &, PassSums &);
+    void (*finish)(const TransferBlock &, BlockScratch &, PassSums &);
 
     /** Bounds of positions and velocities. */
-    void (*bound)(const BlockPoints &, PassSums &);
+    void (*bound)(const TransferBlock &, PassSums &);
 
     /** The values that scatter() takes: (m v, -V s); parts of it, or all. */
     void (*prepare_scatter)(const bool momentum,
                             const bool force,
-                            const BlockPoints &,
+                            const TransferBlock &,
                             BlockScratch &);
   };
 

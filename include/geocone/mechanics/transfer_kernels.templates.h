@@ -66,9 +66,9 @@ namespace geocone
 
     template <int p, bool with_gradients>
     static void
-    gather(const GridView    &view,
-           const BlockPoints &points,
-           BlockScratch      &scratch)
+    gather(const GridView      &view,
+           const TransferBlock &points,
+           BlockScratch        &scratch)
     {
       const GridView grid = view; // a copy: stores cannot change it
       for (unsigned int k = 0; k < points.n; ++k)
@@ -105,8 +105,8 @@ namespace geocone
 
     template <int p>
     static void
-    gather_affine(const GridView    &view,
-                  const BlockPoints &points,
+    gather_affine(const GridView      &view,
+                  const TransferBlock &points,
                   BlockScratch &)
     {
       const GridView grid = view; // a copy: stores cannot change it
@@ -164,9 +164,9 @@ namespace geocone
 
     template <int p, bool with_gradients>
     static void
-    scatter(const GridView    &view,
-            const BlockPoints &points,
-            BlockScratch      &scratch)
+    scatter(const GridView      &view,
+            const TransferBlock &points,
+            BlockScratch        &scratch)
     {
       const GridView grid = view; // a copy: stores cannot change it
       for (unsigned int k = 0; k < points.n; ++k)
@@ -214,8 +214,8 @@ namespace geocone
 
     template <int p>
     static void
-    scatter_affine(const GridView    &view,
-                   const BlockPoints &points,
+    scatter_affine(const GridView      &view,
+                   const TransferBlock &points,
                    BlockScratch &)
     {
       const GridView grid = view; // a copy: stores cannot change it
@@ -240,11 +240,11 @@ namespace geocone
     }
 
     static void
-    update_points(const Update       update,
-                  const double       dt,
-                  const double       flip_part,
-                  const BlockPoints &points,
-                  BlockScratch      &scratch)
+    update_points(const Update         update,
+                  const double         dt,
+                  const double         flip_part,
+                  const TransferBlock &points,
+                  BlockScratch        &scratch)
     {
       const P h(dt), f(flip_part), pic(1. - flip_part);
       for (unsigned int k = 0; k < points.n; k += 4)
@@ -285,7 +285,7 @@ namespace geocone
     }
 
     static void
-    finish(const BlockPoints &points, BlockScratch &scratch, PassSums &sums)
+    finish(const TransferBlock &points, BlockScratch &scratch, PassSums &sums)
     {
       P work(0.), speed2(0.), strain(0.), least(1e300);
       for (unsigned int k = 0; k < points.n; k += 4)
@@ -314,7 +314,7 @@ namespace geocone
     }
 
     static void
-    bound(const BlockPoints &points, PassSums &sums)
+    bound(const TransferBlock &points, PassSums &sums)
     {
       P speed2(0.), check(0.), x0(1e300), x1(-1e300), y0(1e300), y1(-1e300);
       for (unsigned int k = 0; k < points.n; k += 4)
@@ -347,10 +347,10 @@ namespace geocone
     }
 
     static void
-    prepare_scatter(const bool         momentum,
-                    const bool         force,
-                    const BlockPoints &points,
-                    BlockScratch      &scratch)
+    prepare_scatter(const bool           momentum,
+                    const bool           force,
+                    const TransferBlock &points,
+                    BlockScratch        &scratch)
     {
       for (unsigned int k = 0; k < points.n; ++k)
         {

@@ -38,13 +38,13 @@ namespace geocone
   /**
    * The folder of an explicit run: statistics.csv (a line per step of the loading
    * programme, each of many explicit ones), summary.json and points-NNNN.vtu, with
-   *   energy residual   = kinetic energy gained + stress work + damping
-   *                       + removed - gravity's and the supports' work,
+   *   numerical loss    = gravity's and the supports' work - stress work
+   *                       - damping - removed - kinetic energy gained,
    *   momentum residual = momentum gained + removed - impulse of gravity,
    *                       supports and damping.
-   * The former is what the time integration and the transfer take or add (the
-   * stress work of a hypoelastic soil is not a stored energy); the latter is zero
-   * up to rounding. Read only with respect to the state.
+   * The former is what the time integration and the transfer take, as in implicit
+   * runs (the stress work of a hypoelastic soil is not a stored energy); the latter
+   * is zero up to rounding. Read only with respect to the state.
    */
   class ExplicitOutput : public OutputBase
   {
@@ -87,7 +87,7 @@ namespace geocone
     /** See the class. */
     /** @{ */
     double
-    energy_residual(const ExplicitRecord &record) const;
+    numerical_loss(const ExplicitRecord &record) const;
     dealii::Tensor<1, dim>
     momentum_residual(const ExplicitRecord &record) const;
     /** @} */

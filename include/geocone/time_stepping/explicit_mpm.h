@@ -274,7 +274,7 @@ namespace geocone
               const unsigned int p,
               const double      *history) const;
 
-    BlockPoints
+    TransferBlock
     block(const unsigned int group, const unsigned int first);
 
     void
@@ -282,7 +282,7 @@ namespace geocone
 
     /** Takes a part of the weight of a block of fading points. */
     void
-    fade_points(const BlockPoints &points);
+    fade_points(const TransferBlock &points);
 
     /** Says that a point has left the mesh. */
     std::string
@@ -290,7 +290,7 @@ namespace geocone
 
     /** Deals with points that have left the stored nodes. */
     void
-    mend_positions(const BlockPoints &points);
+    mend_positions(const TransferBlock &points);
 
     /** The nodes at the start of a step: what the points give to them. */
     void

@@ -83,9 +83,9 @@ namespace geocone
       bool                   measures_force; ///< for unbalanced_force()
     };
 
-    /** To be called after GridTransfer::refresh(). */
+    /** To be called after GridTransfer::sort(). */
     void
-    refresh();
+    mark_held();
 
     /** Velocity before the step, v = p/m with conditions at t; keeps the masses. */
     void

@@ -82,14 +82,14 @@ def draw_implicit(run, path):
 
 
 def draw_explicit(run, path):
-    """Draws the energies of an explicit run, and the residual of their balance."""
+    """Draws the energies of an explicit run, and its numerical loss."""
     time, energies = run.statistics["time (s)"], energies_of(run, EXPLICIT)
-    residual = run.statistics.get("energy residual (J/m)", np.zeros_like(time))
+    loss = run.statistics.get("numerical loss (J/m)", np.zeros_like(time))
     largest = max(np.max(np.abs(values)) for values in energies.values())
     energies = {name: values for name, values in energies.items()
                 if np.max(np.abs(values)) > 1e-4 * largest}
     figure, below = draw_energies(run, time, energies, EXPLICIT)
-    draw_rest(below, time, residual, "residual", largest, "largest\nenergy above")
+    draw_rest(below, time, loss, "loss", largest, "largest\nenergy above")
     below.axhline(0., color="black", linewidth=0.8)
-    below.set_title("residual of the balance (negative: taken by time steps and transfer)")
+    below.set_title("numerical loss (taken by time steps and transfer)")
     save(figure, run, path)

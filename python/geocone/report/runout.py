@@ -92,7 +92,7 @@ def table(rows, _):
         state, energy = row["summary"]["state"], row["summary"]["energy"]
         a = aspect_of(row)
         front = read_table(row["folder"] / "statistics.csv")["x of 99 % of the mass (m)"]
-        loss = -energy["residual_J_per_m"] / energy["gravity_work_J_per_m"]
+        loss = energy["numerical_loss_J_per_m"] / energy["gravity_work_J_per_m"]
         rest = energy["kinetic_J_per_m"] / energy["largest_kinetic_J_per_m"]
         lines.append([
             row["group"], f"{a:g}", f"{state['right_front_m']:.2f}",

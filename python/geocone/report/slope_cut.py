@@ -52,7 +52,7 @@ def table(rows, options):
             f"{(work[-1] - work[before]) / 1e3:.0f}",
             f"{x[~moved & (y > options['crest'] - 0.5)].max():.2f}",
             f"{x[moved].max():.2f}" if np.any(moved) else "-",
-            f"{-100. * steps['energy residual (J/m)'][-1] / work[-1]:.2f} %"])
+            f"{100. * steps['numerical loss (J/m)'][-1] / work[-1]:.2f} %"])
     return ["soil", "cells, points per cell", "points", "explicit steps", "unbalanced",
             "fastest point before (m/s)", "fastest point after (m/s)",
             "largest kinetic energy (kJ/m)", "released (kJ/m)", "edge (m)", "slide (m)",
