@@ -110,8 +110,11 @@ namespace geocone
           uLongf            room = compressBound(size);
           packed.resize(end + room);
           // Better compression takes ten times as long for a fifth of the size.
-          if (compress2(
-                &packed[end], &room, bytes + first, size, Z_BEST_SPEED) != Z_OK)
+          const int result =
+            compress2(&packed[end], &room, bytes + first, size, Z_BEST_SPEED);
+          if (result == Z_MEM_ERROR)
+            throw std::bad_alloc();
+          if (result != Z_OK)
             throw RunError("fields cannot be compressed\n"
                            "  remedy:  set 'Output/Fields format' = hdf5");
           packed.resize(end + room);
