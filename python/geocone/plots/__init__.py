@@ -12,7 +12,8 @@ For each run folder, as far as the files for them exist:
   plastic_strain.png               points-*.vtu at several times, if they move;
                                    shear_stress.png of an elastic body instead
 of an explicit run energy.png, runout.png, points.png (plastic strain or shear stress at
-six times), structure.png and loading.png of soils with such ratios; of an element test
+six times), slide.png where points are taken away, structure.png and loading.png of soils
+with such ratios; of an element test
 stress_strain.png, stress_path.png, compression.png and ratios.png.
 """
 
@@ -81,6 +82,8 @@ def main(arguments, prog="plot"):
                         help="only print a table of all runs, also into this file")
     parser.add_argument("--times", type=numbers, metavar="T1,T2,...",
                         help="times of the pictures of points (s)")
+    parser.add_argument("--animation", action="store_true",
+                        help="only draw points.gif, a film of the points")
     call = parser.parse_args(arguments)
     # Fonts lack characters of some names; what is not finite is not drawn.
     warnings.simplefilter("ignore")
@@ -101,6 +104,11 @@ def main(arguments, prog="plot"):
             return 0
         for run, name in zip(runs, names):
             below = call.output and (call.output / name if len(runs) > 1 else call.output)
+            if call.animation:
+                from geocone.plots import animation
+                (below or run.folder).mkdir(parents=True, exist_ok=True)
+                animation.draw(run, (below or run.folder) / "points.gif")
+                continue
             draw_run(run, below or run.folder, call.times)
         finish()
     except (PlotError, ReadError, Skipped, OSError) as problem:

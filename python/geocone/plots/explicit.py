@@ -6,6 +6,7 @@
   structure.png   the same: the ratio Rb of the structure, of soils that have one
   loading.png     the same: the ratio R of the subloading surface
   runout.png      statistics.csv: how far and how high the body reaches
+  slide.png       points-*.vtu: what has moved, of a body whose outline stays
 """
 
 import functools
@@ -48,12 +49,54 @@ def draw_runout(run, path):
     save(figure, run, path)
 
 
+def draw_slide(run, path):
+    """Draws in time how far the points have moved that moved most, and from where to
+    where those are that have moved by more than 5 % of the body's height."""
+    series = run.times("points")
+    fields = run.states("points", tuple(range(len(series))))
+    if not fields or any("displacement" not in field.data for field in fields):
+        raise Skipped("its points have no displacements")
+    moved = [np.linalg.norm(field.data["displacement"][:, :2], axis=1) for field in fields]
+    farthest = np.array([np.max(distance) for distance in moved])
+    # Displacements may be counted from the start of a stage: from the last one on.
+    first = max(np.flatnonzero(np.diff(farthest) < 0.) + 1, default=0)
+    height = np.ptp(fields[first].points[:, 1])
+    reach = [(np.min(x), np.max(x)) if len(x) else (np.nan, np.nan)
+             for x in (field.points[distance > 0.05 * height, 0]
+                       for field, distance in zip(fields, moved))]
+    if len(series) - first < 2 or not np.any(np.isfinite(reach[first:])):
+        raise Skipped("nothing slides")
+    edge, front = np.array(reach[first:]).T
+    figure, (above, below) = subplots(2, 1, figsize=(8., 6.), sharex=True)
+    above.plot(series[first:], farthest[first:], color=COLORS[0])
+    above.set(title=f"{plain(run.name)}: slide", ylabel="largest displacement (m)")
+    below.plot(series[first:], front, color=COLORS[0], label="front")
+    below.plot(series[first:], edge, color=COLORS[1], label="edge")
+    below.set(xlabel="time (s)", ylabel="x of what has moved (m)")
+    below.legend(**BESIDE)
+    save(figure, run, path)
+
+
+def taken_away_at(run):
+    """When the first points were taken away (s), or None."""
+    table = run.statistics
+    removed = table.get("removed mass (kg/m)", np.zeros(1))
+    return table["time (s)"][np.argmax(removed > 0.)] if np.any(removed > 0.) else None
+
+
 def snapshots_of(run, times):
-    """The fields at the wanted times or at up to six, and the box of their points."""
+    """The fields at the wanted times or at up to six, and the box of their points. Of
+    a body of which a part is taken away one is before that, and the others follow."""
     series = run.times("points")
     if not len(series):
         raise Skipped("there are no points")
-    fields = states_at(run, times or np.linspace(series[0], series[-1], 6))
+    if not times:
+        cut = taken_away_at(run)
+        before = series[series < cut][-1:] if cut is not None else []
+        after = series[series >= cut] if cut is not None else series
+        times = [*before, *np.linspace(*after[[0, -1]], 6 - len(before))] \
+            if len(after) else series
+    fields = states_at(run, times)
     return fields, view_of(fields, lambda size: 0.1 * np.max(size))
 
 
@@ -89,6 +132,8 @@ def pictures(run, times=None):
     """What draws each picture of an explicit run, by its name."""
     found = {"energy.png": draw_explicit, "runout.png": draw_runout,
              "points.png": functools.partial(draw_points, times=times)}
+    if taken_away_at(run) is not None:
+        found["slide.png"] = draw_slide
     try:
         known = set(snapshots_of(run, times)[0][0].data)
     except (ReadError, Skipped):  # told where points.png is drawn

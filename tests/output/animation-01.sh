@@ -1,0 +1,28 @@
+# A slope that is cut: one of the six panels of points.png is from before the cut, the
+# slide has a picture of its own, and a film has all times.
+program=$1 root=$2 folder=$3
+rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
+"$program" "$root/tests/explicit/slope_cut-01.prm" --quiet --output cut \
+  --set 'Output/Report for tests = none' --set 'Output/Expectations =' \
+  --set 'Output/Fields = true' --set 'Loading/cut/Output every = 2' \
+  --set 'Loading/cut/Duration = 1.2' 2>/dev/null
+"$root/scripts/plot" cut >plot.txt
+for picture in points.png energy.png structure.png; do
+  [ -s "cut/$picture" ] || { cat plot.txt; exit 1; }
+done
+# In 1.2 s nothing moves by 5 % of the height, or it has a picture.
+[ -s cut/slide.png ] || grep -q 'slide.png is not drawn: nothing slides' plot.txt
+"$root/scripts/plot" cut --animation
+PYTHONPATH=$root/python /usr/bin/python3 - <<'PYTHON'
+import geocone
+from geocone.plots.explicit import snapshots_of, taken_away_at
+from PIL import Image
+
+run = geocone.read("cut")
+film = Image.open("cut/points.gif")
+assert film.n_frames == len(run.times("points")), film.n_frames
+cut = taken_away_at(run)
+times = [field.time for field in snapshots_of(run, None)[0]]
+assert sum(time < cut for time in times) == 1 and len(times) == 6, (cut, times)
+assert times[-1] == run.times("points")[-1], times
+PYTHON
