@@ -170,17 +170,11 @@ namespace geocone
         {
           throw;
         }
-      catch (const InputError &)
+      catch (const std::exception &error)
         {
-          return true;
-        }
-      catch (const StepFailure &)
-        {
-          return true;
-        }
-      catch (const Stopped &)
-        {
-          return true;
+          return dynamic_cast<const InputError *>(&error) != nullptr ||
+                 dynamic_cast<const StepFailure *>(&error) != nullptr ||
+                 dynamic_cast<const Stopped *>(&error) != nullptr;
         }
       catch (...)
         {

@@ -3,10 +3,10 @@
 """Files are written whole."""
 
 
-def write_whole(path, text):
-    """Writes a file under a temporary name first."""
+def write_whole(path, content):
+    """Writes a file, of text or bytes, under a temporary name first."""
     part = path.with_name(path.name + ".part")
-    part.write_text(text)
+    (part.write_bytes if isinstance(content, bytes) else part.write_text)(content)
     part.replace(path)
 
 

@@ -3,11 +3,9 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
-#include <geocone/discretisation/msh_file.h>
+#include <geocone/discretisation/msh_scanner.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -17,284 +15,10 @@
 
 namespace geocone
 {
-  using dealii::Point;
-
   namespace
   {
     // Five million nodes in ASCII; the solvers end long before.
     constexpr std::uintmax_t largest_file = 512ULL << 20;
-
-    const std::string versions =
-      "gmsh's .msh files of version 2.2 or 4.1, ASCII or binary";
-
-    bool
-    is_space(const char c)
-    {
-      return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' ||
-             c == '\f';
-    }
-
-    /** A part of a file as it can be shown on any screen. */
-    std::string
-    shown(const std::string &text)
-    {
-      constexpr std::size_t longest = 30;
-      std::string           all;
-      for (const char c : text.substr(0, longest))
-        all += c >= ' ' && c <= '~' ? c : '?';
-      return "'" + all + (text.size() > longest ? "..." : "") + "'";
-    }
-
-    /**
-     * Goes through the text of a file. Every number is checked against its
-     * range when it is read; nothing is allocated.
-     */
-    class Scanner
-    {
-    public:
-      Scanner(const std::string &text, const std::string &what)
-        : text(text)
-        , what(what)
-      {}
-
-      /** Binary numbers from here on; @p swapped: of the other byte order. */
-      void
-      set_binary(const bool is_swapped)
-      {
-        binary  = true;
-        swapped = is_swapped;
-      }
-
-      bool
-      is_binary() const
-      {
-        return binary;
-      }
-
-      [[noreturn]] void
-      refuse(const std::string &fault,
-             const std::string &remedy = msh_remedy) const
-      {
-        const std::string place =
-          binary ? "byte " + std::to_string(last)
-                 : "line " +
-                     std::to_string(
-                       1 + std::count(text.begin(), text.begin() + last, '\n'));
-        throw InputError(what + ", " + place + ": " + fault +
-                         "\n  allowed: " + versions + "\n  remedy:  " + remedy);
-      }
-
-      bool
-      at_end()
-      {
-        skip_space();
-        return position == text.size();
-      }
-
-      /** The next word of a text. */
-      std::string
-      word(const char *name)
-      {
-        skip_space();
-        last = position;
-        while (position < text.size() && !is_space(text[position]))
-          ++position;
-        if (position == last)
-          refuse(std::string("the file ends where ") + name + " is expected",
-                 "it is not complete: copy or write it again");
-        return text.substr(last, position - last);
-      }
-
-      /** Goes to the start of the next line. */
-      void
-      end_line()
-      {
-        const std::size_t end = text.find('\n', position);
-        position = end == std::string::npos ? text.size() : end + 1;
-      }
-
-      /** Goes behind the line $EndNAME. */
-      void
-      skip_section(const std::string &name)
-      {
-        const std::string end = "\n$End" + name;
-        // The line of the header has ended before the section begins.
-        std::size_t at = text.find(end, position == 0 ? 0 : position - 1);
-        for (; at != std::string::npos; at = text.find(end, at + 1))
-          if (at + end.size() == text.size() || is_space(text[at + end.size()]))
-            {
-              position = at + end.size();
-              return;
-            }
-        last = position;
-        refuse("the section " + shown("$" + name) + " has no end",
-               "it is not complete: copy or write it again");
-      }
-
-      void
-      end_section(const std::string &name)
-      {
-        skip_space();
-        last                  = position;
-        const std::string end = "$End" + name;
-        if (text.compare(position, end.size(), end) != 0)
-          refuse(position == text.size()
-                   ? "the file ends before $End" + name
-                   : "there is more in the section " + shown("$" + name) +
-                       " than it announces, or less: " +
-                       shown(text.substr(position, 60)) + " instead of $End" +
-                       name,
-                 "copy it again, or " + msh_remedy);
-        position += end.size();
-      }
-
-      /** An integer that is text in binary files, too. */
-      template <typename Integer>
-      Integer
-      integer_in_text(const char   *name,
-                      const Integer smallest,
-                      const Integer largest)
-      {
-        const std::string token = word(name);
-        Integer           value{};
-        const auto        end =
-          std::from_chars(token.data(), token.data() + token.size(), value);
-        if (end.ec != std::errc() || end.ptr != token.data() + token.size() ||
-            value < smallest || value > largest)
-          refuse_number(name, shown(token), smallest, largest);
-        return value;
-      }
-
-      /** An integer: int or std::uint64_t, which binary files hold as such. */
-      template <typename Integer>
-      Integer
-      integer(const char   *name,
-              const Integer smallest = std::numeric_limits<Integer>::min(),
-              const Integer largest  = std::numeric_limits<Integer>::max())
-      {
-        if (!binary)
-          return integer_in_text(name, smallest, largest);
-        const Integer value = bytes<Integer>(name);
-        if (value < smallest || value > largest)
-          refuse_number(name, std::to_string(value), smallest, largest);
-        return value;
-      }
-
-      double
-      number(const char *name)
-      {
-        double      value = 0.;
-        std::string token;
-        bool        is_number = true;
-        if (binary)
-          value = bytes<double>(name);
-        else
-          {
-            token = word(name);
-            const auto end =
-              std::from_chars(token.data(), token.data() + token.size(), value);
-            is_number = end.ptr == token.data() + token.size() &&
-                        end.ec != std::errc::invalid_argument;
-            // Too small is zero, too large is infinite.
-            if (is_number && end.ec == std::errc::result_out_of_range)
-              value = std::strtod(token.c_str(), nullptr);
-          }
-        if (!is_number || !std::isfinite(value))
-          refuse(std::string(name) + " is no finite number: " +
-                   (binary ? format("%g", value) : shown(token)),
-                 "write the mesh anew; the file is damaged");
-        return value;
-      }
-
-      /** @p n items of at least @p size bytes each must follow. */
-      void
-      check_room(const std::uint64_t n,
-                 const std::uint64_t size,
-                 const char         *items) const
-      {
-        if (n > (text.size() - position) / size)
-          refuse("it announces " + std::to_string(n) + " " + items +
-                   ", more than the rest of the file can hold",
-                 "it is not complete or damaged: copy or write it again");
-      }
-
-      /** Skips @p n integers. */
-      template <typename Integer>
-      void
-      skip_integers(const std::uint64_t n, const char *name)
-      {
-        check_room(n, binary ? sizeof(Integer) : 2, name);
-        if (binary)
-          position += n * sizeof(Integer);
-        else
-          for (std::uint64_t i = 0; i < n; ++i)
-            integer_in_text(name,
-                            std::numeric_limits<Integer>::min(),
-                            std::numeric_limits<Integer>::max());
-      }
-
-      /** The text between quotation marks on the rest of the line. */
-      std::string
-      quoted(const char *name)
-      {
-        last = position;
-        const std::size_t line =
-          std::min(text.find('\n', position), text.size());
-        const std::size_t begin = text.find('"', position);
-        const std::size_t end =
-          begin < line ? text.find('"', begin + 1) : std::string::npos;
-        if (begin >= line || end >= line)
-          refuse(std::string(name) + " is not in quotation marks");
-        position = end + 1;
-        return text.substr(begin + 1, end - begin - 1);
-      }
-
-    private:
-      void
-      skip_space()
-      {
-        while (position < text.size() && is_space(text[position]))
-          ++position;
-      }
-
-      template <typename Integer>
-      [[noreturn]] void
-      refuse_number(const char        *name,
-                    const std::string &value,
-                    const Integer      smallest,
-                    const Integer      largest) const
-      {
-        refuse(std::string(name) + " is " + value +
-                 " instead of an integer from " + std::to_string(smallest) +
-                 " to " + std::to_string(largest),
-               "write the mesh anew; the file is damaged");
-      }
-
-      template <typename Number>
-      Number
-      bytes(const char *name)
-      {
-        last = position;
-        if (text.size() - position < sizeof(Number))
-          refuse(std::string("the file ends where ") + name + " is expected",
-                 "it is not complete: copy or write it again");
-        char raw[sizeof(Number)];
-        std::memcpy(raw, text.data() + position, sizeof(Number));
-        if (swapped)
-          std::reverse(raw, raw + sizeof(Number));
-        Number value;
-        std::memcpy(&value, raw, sizeof(Number));
-        position += sizeof(Number);
-        return value;
-      }
-
-      const std::string &text;
-      const std::string &what;
-      std::size_t        position = 0;
-      std::size_t        last     = 0;
-      bool               binary   = false;
-      bool               swapped  = false;
-    };
 
     /** Reads one file, section by section. */
     class Reader
@@ -314,7 +38,7 @@ namespace geocone
             const std::string header = in.word("a section");
             if (header.size() < 2 || header[0] != '$' ||
                 header.compare(0, 4, "$End") == 0)
-              in.refuse("there is " + shown(header) +
+              in.refuse("there is " + shown_part(header) +
                         " where a section should begin");
             const std::string name = header.substr(1);
             in.end_line();
@@ -332,7 +56,7 @@ namespace geocone
             if (known && !seen.insert(name).second)
               in.refuse("there is a second section $" + name);
             if (known && name != "MeshFormat" && seen.count("MeshFormat") == 0)
-              in.refuse("the section " + shown("$" + name) +
+              in.refuse("the section " + shown_part("$" + name) +
                         " stands before $MeshFormat");
 
             if (!known || (name == "Entities" && !four))
@@ -369,7 +93,7 @@ namespace geocone
         const int         binary = in.integer_in_text("the type of file", 0, 1);
         const int size = in.integer_in_text("the size of numbers", 0, 64);
         if (version != "2.2" && version != "4.1")
-          in.refuse("it is of version " + shown(version));
+          in.refuse("it is of version " + shown_part(version));
         if (binary != 0 && size != 8)
           in.refuse("its numbers have " + std::to_string(size) +
                     " bytes instead of 8");
@@ -404,7 +128,8 @@ namespace geocone
             if (std::any_of(name.begin(), name.end(), [](const char c) {
                   return (c >= 0 && c < ' ') || c == 127;
                 }))
-              in.refuse("the name " + shown(name) + " has unprintable letters",
+              in.refuse("the name " + shown_part(name) +
+                          " has unprintable letters",
                         "rename the physical group");
             if (dimension == 1 && !name.empty() &&
                 !data.curve_names.emplace(number, name).second)
@@ -697,7 +422,7 @@ namespace geocone
           }
       }
 
-      Scanner                                    in;
+      MshScanner                                 in;
       const std::string                         &what;
       MshData                                    data;
       bool                                       four          = false;
@@ -743,7 +468,7 @@ namespace geocone
   begins_as_msh(const std::string &text)
   {
     std::size_t begin = 0;
-    while (begin < text.size() && is_space(text[begin]))
+    while (begin < text.size() && is_msh_space(text[begin]))
       ++begin;
     for (const char *section : {"$MeshFormat", "$Comments", "$NOD"})
       if (text.compare(begin, std::strlen(section), section) == 0)
@@ -756,8 +481,8 @@ namespace geocone
   {
     std::error_code error;
     if (!std::filesystem::is_regular_file(file_name, error))
-      throw InputError(what + " is no regular file\n  allowed: " + versions +
-                       "\n  remedy:  check its name");
+      throw InputError(what + " is no regular file\n  allowed: " +
+                       msh_versions + "\n  remedy:  check its name");
     const std::uintmax_t size = std::filesystem::file_size(file_name, error);
     if (!error && size > largest_file)
       throw InputError(
@@ -770,7 +495,7 @@ namespace geocone
     std::string   text(error ? 0 : size, '\0');
     std::ifstream file(file_name, std::ios::binary);
     if (error || !file || (size > 0 && !file.read(&text[0], size)))
-      throw InputError(what + " cannot be read\n  allowed: " + versions +
+      throw InputError(what + " cannot be read\n  allowed: " + msh_versions +
                        "\n  remedy:  check its permissions");
     return text;
   }

@@ -13,8 +13,9 @@
 namespace geocone
 {
   /**
-   * A parameter that is one of some words, each for a value of an enumeration.
-   * The list of the words begins its documentation, and another word is refused.
+   * A parameter that is one of some words, each for a value of an enumeration, or a
+   * pointer to what is meant. The list of the words begins its documentation, and
+   * another word is refused.
    */
   template <typename Enum>
   class Choice

@@ -31,8 +31,8 @@ namespace geocone
 
     /** @name By dof, two per node */
     /** @{ */
-    std::vector<int>
-      kind; ///< 0, Unknowns::prescribed_row or Unknowns::massless_row
+    /** 0, Unknowns::prescribed_row or Unknowns::massless_row. */
+    std::vector<int>    kind;
     std::vector<double> mass;       ///< lumped (kg/m); empty without inertia
     std::vector<double> force;      ///< F (N/m); empty without loads
     std::vector<double> velocity_L; ///< vL (m/s)

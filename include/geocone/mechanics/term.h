@@ -24,9 +24,8 @@ namespace geocone
 
   /**
    * A part of the residual R(v) of an implicit step, which is a sum of such terms:
-   * what is not overridden is zero. Forces
-   * are per metre of thickness (N/m); dofs that are turned
-   * (Unknowns::turned_nodes) have their components.
+   * what is not overridden is zero. Forces are per metre of thickness (N/m); dofs
+   * that are turned (Unknowns::turned_nodes) have their components.
    */
   class Term
   {

@@ -12,12 +12,12 @@
 import functools
 
 import numpy as np
-from matplotlib.colors import LogNorm, Normalize
+from matplotlib.colors import Normalize
 
 from geocone.plots.energy import draw_explicit
-from geocone.plots.points import (SHEAR, STRAIN, draw_panels, shear_stress, states_at,
-                                  values_of, view_of)
-from geocone.reader import ReadError
+from geocone.plots.points import (draw_panels, states_at, strain_or_shear, values_of,
+                                  view_of)
+from geocone.reader import Missing, ReadError
 from geocone.style import BESIDE, COLORS, RATIOS, Skipped, plain, save, subplots
 
 OUTLINE = (  # columns of statistics.csv, in words, their colours and lines
@@ -78,8 +78,11 @@ def draw_slide(run, path):
 
 
 def taken_away_at(run):
-    """When the first points were taken away (s), or None."""
-    table = run.statistics
+    """When the first points were taken away (s), or None, also where it is not known."""
+    try:
+        table = run.statistics
+    except Missing:
+        return None
     removed = table.get("removed mass (kg/m)", np.zeros(1))
     return table["time (s)"][np.argmax(removed > 0.)] if np.any(removed > 0.) else None
 
@@ -103,17 +106,8 @@ def snapshots_of(run, times):
 def draw_points(run, path, times=None):
     """Draws plastic strain or, of an elastic body, shear stress."""
     fields, view = snapshots_of(run, times)
-    values = values_of(fields, STRAIN)
-    if values is not None and np.any(np.concatenate(values) > 0.):
-        everything = np.concatenate(values)
-        most = np.quantile(everything[everything > 0.], 0.99)
-        draw_panels(run, path, fields, view, values, LogNorm(1e-3 * most, most),
-                    "cumulative plastic strain (-)", extend="both")
-        return
-    values = shear_stress(fields)
-    most = np.quantile(np.concatenate(values), 0.995)
-    draw_panels(run, path, fields, view, values,
-                Normalize(0., max(most, np.finfo(float).tiny)), SHEAR, extend="max")
+    values, label, norm, extend = strain_or_shear(fields)
+    draw_panels(run, path, fields, view, values, norm, label, extend=extend)
 
 
 def draw_ratio(run, path, names, label, least, times=None):
@@ -132,9 +126,9 @@ def pictures(run, times=None):
     """What draws each picture of an explicit run, by its name."""
     found = {"energy.png": draw_explicit, "runout.png": draw_runout,
              "points.png": functools.partial(draw_points, times=times)}
-    if taken_away_at(run) is not None:
-        found["slide.png"] = draw_slide
     try:
+        if taken_away_at(run) is not None:
+            found["slide.png"] = draw_slide
         known = set(snapshots_of(run, times)[0][0].data)
     except (ReadError, Skipped):  # told where points.png is drawn
         known = set()

@@ -4,7 +4,7 @@
 of an elastic body, shear_stress.png."""
 
 import numpy as np
-from matplotlib.colors import Normalize
+from matplotlib.colors import LogNorm, Normalize
 from matplotlib.ticker import MaxNLocator
 
 from geocone.reader import nearest
@@ -34,6 +34,22 @@ def shear_stress(fields):
     if None in parts:
         raise Skipped("its points have neither plastic strain nor stress")
     return [np.hypot((xx - yy) / 2., xy) for xx, yy, xy in zip(*parts)]
+
+
+def strain_or_shear(fields):
+    """What is shown of points: plastic strain, on a scale of its logarithm, or the
+    shear stress of an elastic body.
+
+    @return values, a list over the fields; their name; their scale; its open ends"""
+    values = values_of(fields, STRAIN)
+    if values is not None and np.any(np.concatenate(values) > 0.):
+        everything = np.concatenate(values)
+        most = np.quantile(everything[everything > 0.], 0.99)
+        return (values, "cumulative plastic strain (-)", LogNorm(1e-3 * most, most),
+                "both")
+    values = shear_stress(fields)
+    most = np.quantile(np.concatenate(values), 0.995)
+    return values, SHEAR, Normalize(0., max(most, np.finfo(float).tiny)), "max"
 
 
 def view_of(fields, reach):
