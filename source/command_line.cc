@@ -197,6 +197,9 @@ namespace geocone
     Watcher watcher;
     Drawing drawing;
     int     status = 1;
+    // Open MPI would start a daemon for a run without mpirun, which it needs only
+    // to start further processes.
+    setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
     {
       dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
       watch_for_signals();

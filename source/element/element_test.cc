@@ -43,6 +43,12 @@ namespace geocone
                        "FEM | MPM | explicit MPM on several ranks",
                        "call it without mpirun: there is one point only");
     materials.prepare();
+    if (const double tau = materials.least_friction_memory();
+        std::isfinite(tau))
+      throw InputError("Materials/" + materials.name(0) + "/Friction memory",
+                       tau,
+                       "0 | automatic with the method 'point'",
+                       "its path has increments and no time to remember");
     mixed_control.prepare();
     if (initial_stress.size() != 6)
       throw InputError("Element/Initial stress",

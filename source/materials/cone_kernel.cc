@@ -17,24 +17,50 @@ namespace geocone
   }
 #endif
 
+  namespace
+  {
+    ConeNumbers
+    numbers_of(const FlowCone &cone, const Elasticity &elasticity)
+    {
+      return {cone.a,
+              cone.b,
+              cone.k / sqrt2,
+              cone.a > 0. ? cone.k / sqrt2 / cone.a :
+                            std::numeric_limits<double>::max(),
+              elasticity.normal_stiffness(),
+              elasticity.two_G,
+              elasticity.lambda + elasticity.two_G};
+    }
+
+    void
+    advance_by_best(const ConeNumbers &numbers, const PointBlock &block)
+    {
+#ifdef GEOCONE_HAS_AVX2_UNITS
+      if (machine_has_avx2())
+        return avx2::advance_cone(numbers, block);
+#endif
+      advance_cone_block<BaselineArch>(numbers, block);
+    }
+  } // namespace
+
   void
   advance_cone(const FlowCone   &cone,
                const Elasticity &elasticity,
                const PointBlock &block)
   {
-    const ConeNumbers numbers = {cone.a,
-                                 cone.b,
-                                 cone.k / sqrt2,
-                                 cone.a > 0.
-                                   ? cone.k / sqrt2 / cone.a
-                                   : std::numeric_limits<double>::max(),
-                                 elasticity.normal_stiffness(),
-                                 elasticity.two_G,
-                                 elasticity.lambda + elasticity.two_G};
-#ifdef GEOCONE_HAS_AVX2_UNITS
-    if (machine_has_avx2())
-      return avx2::advance_cone(numbers, block);
-#endif
-    advance_cone_block<BaselineArch>(numbers, block);
+    advance_by_best(numbers_of(cone, elasticity), block);
+  }
+
+  void
+  advance_cone(const FlowCone    &cone,
+               const Elasticity  &elasticity,
+               const PointBlock  &block,
+               const double       part,
+               const unsigned int place)
+  {
+    ConeNumbers numbers = numbers_of(cone, elasticity);
+    numbers.part        = part;
+    numbers.place       = place;
+    advance_by_best(numbers, block);
   }
 } // namespace geocone

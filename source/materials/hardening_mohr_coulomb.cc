@@ -6,12 +6,6 @@
 
 namespace geocone
 {
-  namespace
-  {
-    /** Place of gamma_p in the history. */
-    constexpr unsigned int plastic_shear = 1;
-  } // namespace
-
   HardeningMohrCoulomb::HardeningMohrCoulomb(const std::string &section)
     : MohrCoulomb(section)
   {
@@ -37,7 +31,7 @@ namespace geocone
   std::string
   HardeningMohrCoulomb::initialise(const Stress &stress, double *history) const
   {
-    history[plastic_shear] = 0.;
+    history[plastic_shear()] = 0.;
     return MohrCoulomb::initialise(stress, history);
   }
 
@@ -56,14 +50,14 @@ namespace geocone
   {
     MohrCoulomb::show(in_plane, history, values);
     values[MohrCoulomb::shown().size()] =
-      cohesion() + modulus * history[plastic_shear];
+      cohesion() + modulus * history[plastic_shear()];
   }
 
   std::optional<FlowCone>
   HardeningMohrCoulomb::flow_cone(const double *history) const
   {
     FlowCone cone = *MohrCoulomb::flow_cone(nullptr);
-    cone.k += slope / sqrt2 * history[plastic_shear];
+    cone.k += slope / sqrt2 * history[plastic_shear()];
     cone.hardening = slope;
     return cone;
   }
@@ -78,6 +72,6 @@ namespace geocone
   void
   HardeningMohrCoulomb::add_to_history(const double slip, double *history) const
   {
-    history[plastic_shear] += sqrt2 * slip;
+    history[plastic_shear()] += sqrt2 * slip;
   }
 } // namespace geocone

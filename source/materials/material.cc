@@ -54,10 +54,20 @@ namespace geocone
   Material::nearest_admissible(const Mandel &stress,
                                const double *history) const
   {
-    const auto cone = flow_cone(history);
-    return cone ? from_cone_axes(
-                    project(cone->a, cone->k, Mandel(to_cone_axes(stress))))
+    const auto cone = strength(history);
+    return cone ? from_cone_axes(project(*cone, Mandel(to_cone_axes(stress))))
                 : stress;
+  }
+
+  std::optional<FlowCone>
+  Material::step_cone(const Mandel  &stress_n,
+                      const double  *history_n,
+                      const StepLaw &step) const
+  {
+    std::optional<FlowCone> cone = flow_cone(history_n);
+    if (cone && step.friction_lag > 0.)
+      cone = cone->delayed(step.friction_lag, to_cone_axes(stress_n)[0]);
+    return cone;
   }
 
   std::optional<FlowCone>
@@ -86,7 +96,7 @@ namespace geocone
   Material::advance(const PointBlock &block, LawCounts &counts) const
   {
     counts.updates += block.n_points;
-    if (!hardens())
+    if (!has_history())
       if (const std::optional<FlowCone> cone = flow_cone(nullptr))
         return advance_cone(*cone, elastic, block);
     constexpr unsigned int   size = PointBlock::capacity;
@@ -113,7 +123,8 @@ namespace geocone
     update({dealii::ArrayView<const Mandel>(strain.data(), n),
             dealii::ArrayView<const Mandel>(stress_n.data(), n),
             history_n.data(),
-            m},
+            m,
+            {block.step}},
            response);
     for (unsigned int p = 0; p < n; ++p)
       {

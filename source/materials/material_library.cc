@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
 #include <geocone/materials/hardening_mohr_coulomb.h>
 #include <geocone/materials/linear_elastic.h>
 #include <geocone/materials/material_library.h>
@@ -10,6 +11,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
+#include <sstream>
 
 namespace geocone
 {
@@ -156,6 +159,59 @@ namespace geocone
       if (material != nullptr && !material->has_symmetric_tangent())
         return false;
     return true;
+  }
+
+  bool
+  Materials::yield_without_friction() const
+  {
+    bool yields = false;
+    for (const Material *material : in_closed_form)
+      if (material != nullptr)
+        if (const auto cone = material->initial_cone())
+          {
+            yields = true;
+            if (cone->a > 0.)
+              return false;
+          }
+    return yields;
+  }
+
+  double
+  Materials::least_friction_memory() const
+  {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Material *material : in_closed_form)
+      if (material != nullptr && material->friction_memory() > 0.)
+        least = std::min(least, material->friction_memory());
+    return least;
+  }
+
+  void
+  Materials::set_friction_memory(const double tau)
+  {
+    for (const auto &law : list)
+      if (auto *material = dynamic_cast<Material *>(law.get()))
+        material->set_friction_memory(tau);
+  }
+
+  std::string
+  Materials::as_parameters() const
+  {
+    std::istringstream in(ParameterFile::section("Materials"));
+    std::string        text, material;
+    for (std::string line; std::getline(in, line);)
+      {
+        const std::size_t begin = line.find_first_not_of(' ');
+        if (begin == 2 && line.compare(begin, 11, "subsection ") == 0)
+          material = line.substr(begin + 11);
+        const auto i = std::find(names.begin(), names.end(), material);
+        if (begin != std::string::npos && i != names.end() &&
+            line.compare(begin, 19, "set Friction memory") == 0)
+          line = format("    set Friction memory = %.17g",
+                        in_closed_form[i - names.begin()]->friction_memory());
+        text += line + "\n";
+      }
+    return text;
   }
 
   double

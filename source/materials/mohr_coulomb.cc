@@ -2,7 +2,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/materials/cone_kernel.h>
 #include <geocone/materials/mohr_coulomb.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <cmath>
 
 namespace geocone
 {
@@ -15,12 +20,23 @@ namespace geocone
                   theta,
                   "theta (degrees), 0 <= theta <= phi. theta = phi is "
                   "associated flow.");
+    add_parameter("Friction memory",
+                  memory_text,
+                  "Time (s) in which the strength follows the normal stress, "
+                  ">= 0; it makes flow with little dilatancy well-posed. 0: at "
+                  "once, the exact law. Automatic: 0, but for FEM and a soil "
+                  "with theta below about phi/2 and sin(phi) - sin(theta) > "
+                  "0.2 that a part of the boundary is pushed into: B/1000 over "
+                  "its speed, B its length (twice that with 'Observation/"
+                  "Factor' = -2 or 2); and with 'Time stepping/Friction' = "
+                  "exact it is 0 always.");
   }
 
   MohrCoulomb::MohrCoulomb(const std::string &section, const WithoutFriction &)
     : Material(section)
     , phi(0.)
     , theta(0.)
+    , memory_text("0")
   {
     add_parameter("Cohesion", c, "Undrained shear strength c (Pa), > 0.");
   }
@@ -54,6 +70,98 @@ namespace geocone
     cone.a = std::sin(radians(phi));
     cone.b = theta == phi ? cone.a : std::sin(radians(theta));
     cone.k = sqrt2 * c * std::cos(radians(phi));
+    prepare_memory();
+  }
+
+  void
+  MohrCoulomb::prepare_memory()
+  {
+    tau = 0.;
+    if (memory_text == "automatic")
+      return;
+    std::optional<double> given;
+    try
+      {
+        given = dealii::Utilities::string_to_double(memory_text);
+      }
+    catch (const dealii::ExceptionBase &)
+      {}
+    if (!given || !(*given >= 0.) || !std::isfinite(*given))
+      throw InputError(parameter("Friction memory"),
+                       memory_text,
+                       "automatic | a time >= 0 s",
+                       "0 is the exact law; take a time in which what is "
+                       "loaded moves by a thousandth of its length");
+    if (cone.b < cone.a) // or else nothing is to be remembered
+      tau = *given;
+  }
+
+  void
+  MohrCoulomb::set_friction_memory(const double time)
+  {
+    // As strong as theta = 0 at phi = 12: less is easy without.
+    constexpr double least = 0.2;
+    if (memory_text == "automatic" && non_associativity() > hard_flow &&
+        cone.a - cone.b > least)
+      tau = time;
+  }
+
+  std::string
+  MohrCoulomb::initialise(const Stress &stress, double *history) const
+  {
+    if (tau > 0.)
+      history[memory] = -(stress[0] + stress[1]) / sqrt2;
+    return Material::initialise(stress, history);
+  }
+
+  std::vector<ConstitutiveLaw::Shown>
+  MohrCoulomb::shown() const
+  {
+    std::vector<Shown> all = Material::shown();
+    if (tau > 0.)
+      all.push_back({"remembered_normal_stress", "remembered s_n (Pa)"});
+    return all;
+  }
+
+  void
+  MohrCoulomb::show(const std::array<double, 3> &in_plane,
+                    const double                *history,
+                    double                      *values) const
+  {
+    Material::show(in_plane, history, values);
+    if (tau > 0.)
+      values[Material::shown().size()] = history[memory];
+  }
+
+  std::optional<FlowCone>
+  MohrCoulomb::step_cone(const Mandel  &stress_n,
+                         const double  *history_n,
+                         const StepLaw &step) const
+  {
+    if (tau == 0.)
+      return Material::step_cone(stress_n, history_n, step);
+    // A solver's lag takes more of the past.
+    const double part = remembered(step.size);
+    return flow_cone(history_n)->delayed(part + (1. - part) * step.friction_lag,
+                                         history_n[memory]);
+  }
+
+  std::optional<FlowCone>
+  MohrCoulomb::strength(const double *history) const
+  {
+    const std::optional<FlowCone> exact = flow_cone(history);
+    return tau > 0. ? exact->delayed(1., history[memory]) : exact;
+  }
+
+  void
+  MohrCoulomb::advance(const PointBlock &block, LawCounts &counts) const
+  {
+    const bool only_remembers =
+      tau > 0. && n_history() == MohrCoulomb::n_history();
+    if (!only_remembers)
+      return Material::advance(block, counts);
+    counts.updates += block.n_points;
+    advance_cone(cone, elasticity(), block, remembered(block.step), memory);
   }
 
   void
@@ -63,32 +171,39 @@ namespace geocone
     const double       K               = elasticity().normal_stiffness();
     const double       two_G           = elasticity().two_G;
     const bool         linear          = response.tangent.size() > 0;
-    const double       lag             = increment.friction_lag;
     const MandelMatrix elastic_tangent = elasticity().stiffness();
-    const bool         fixed           = !hardens();
-    const auto         s_n             = [&](const std::size_t p) {
-      return to_cone_axes(increment.stress_n[p])[0];
-    };
+    const bool         fixed           = !has_history();
+    const bool         is_plain = fixed && increment.step.friction_lag == 0.;
+    const double       part     = remembered(increment.step.size);
     for (std::size_t p = 0; p < increment.strain.size(); ++p)
       {
         const std::size_t first = increment.n_history * p;
         const FlowCone    law =
-          fixed ? cone : *flow_cone(increment.history_n + first);
+          is_plain ? cone :
+                     *step_cone(increment.stress_n[p],
+                                increment.history_n + first,
+                                increment.step);
         const Mandel trial =
           increment.stress_n[p] + elasticity().stress(increment.strain[p]);
         const Mandel in_axes = to_cone_axes(trial);
         Mandel       returned;
         MandelMatrix tangent;
-        response.mode[p] = return_map(lag > 0. ? law.delayed(lag, s_n(p)) : law,
+        response.mode[p] = return_map(law,
                                       K,
                                       two_G,
                                       in_axes,
                                       returned,
                                       linear ? &tangent : nullptr);
         if (!fixed && response.history != nullptr)
-          add_to_history(FlowCone::tangential_norm(Mandel(in_axes - returned)) /
-                           two_G,
-                         response.history + first);
+          {
+            double *history = response.history + first;
+            if (tau > 0.)
+              history[memory] =
+                part * history[memory] + (1. - part) * returned[0];
+            add_to_history(
+              FlowCone::tangential_norm(Mandel(in_axes - returned)) / two_G,
+              history);
+          }
         // An elastic point keeps its trial stress to the last digit.
         const bool elastic = response.mode[p] == Mode::elastic;
         response.stress[p] = elastic ? trial : from_cone_axes(returned);

@@ -108,6 +108,7 @@ namespace geocone
   {
     const MPI_Comm comm = layout->get_mpi_communicator();
     FrozenProblem  frozen;
+    frozen.materials       = materials.as_parameters();
     frozen.h               = h;
     frozen.consistent_part = inertia ? inertia->consistent_part() : 0.;
 
@@ -370,12 +371,12 @@ namespace geocone
         if (m >= materials.size())
           throw RunError("the frozen problem has points of a material that its "
                          "materials lack");
-        if (materials[m].hardens() &&
+        if (materials[m].has_history() &&
             materials[m].n_history() > points.n_history)
           throw RunError("the frozen problem lacks the history of its points, "
                          "of which the material '" +
                          materials.name(m) +
-                         "' hardens\n  remedy:  freeze the step again "
+                         "' has one\n  remedy:  freeze the step again "
                          "('Output/Freeze steps')");
       }
     incremental_problem = std::make_unique<IncrementalProblem>(

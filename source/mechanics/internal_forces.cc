@@ -115,7 +115,7 @@ namespace geocone
     increment.stress_n  = ArrayView<const Mandel>(&points.stress[run.begin], n);
     increment.history_n = points.history_of(run.begin);
     increment.n_history = points.n_history;
-    increment.friction_lag = law.friction_lag;
+    increment.step      = step_law();
     return increment;
   }
 
@@ -126,7 +126,7 @@ namespace geocone
     std::vector<Mandel> stresses;
     std::vector<Mode>   modes;
     for (const Run &run : runs)
-      if (materials[run.material].hardens())
+      if (materials[run.material].has_history())
         {
           const unsigned int n = run.end - run.begin;
           stresses.resize(n);

@@ -27,6 +27,26 @@ namespace geocone
     return text_of_any_rank(comm, where);
   }
 
+  double
+  InternalForces::memory_work() const
+  {
+    double sum = 0.;
+    for (const Run &run : runs)
+      if (const Material &material = materials[run.material];
+          material.friction_memory() > 0.)
+        for (unsigned int p = run.begin; p < run.end; ++p)
+          if (mode[p] != Mode::elastic)
+            {
+              const Mandel z = to_cone_axes(plastic_strain_increment(p));
+              const Mandel s = to_cone_axes(stress[p]);
+              const auto   exact =
+                material.flow_cone(points.history_of(p))->hardened(z);
+              sum += points.weight[p] * FlowCone::tangential_norm(z) *
+                     std::abs(exact.yield_function(s));
+            }
+    return Utilities::MPI::sum(sum, comm);
+  }
+
   Quality
   InternalForces::quality() const
   {
@@ -43,8 +63,10 @@ namespace geocone
         .flow_cone(points.history_of(p))
         ->hardened(z);
     };
-    const auto solved_cone = [&](const unsigned int p, const FlowCone &exact) {
-      return exact.delayed(law.friction_lag, to_cone_axes(points.stress[p])[0]);
+    const auto solved_cone = [&](const unsigned int p, const Mandel &z) {
+      return materials[points.material[p]]
+        .step_cone(points.stress[p], points.history_of(p), step_law())
+        ->hardened(z);
     };
     const auto has_cone = [&](const Run &run) {
       return materials[run.material]
@@ -58,11 +80,10 @@ namespace geocone
             compliance, 1. / materials[run.material].elasticity().two_G);
           for (unsigned int p = run.begin; p < run.end; ++p)
             {
-              const Mandel   z    = z_at(p);
-              const FlowCone cone = exact_cone(p, z);
-              k_scale             = std::max(k_scale, cone.k);
-              stress_scale        = std::max(stress_scale, stress[p].norm());
-              y_scale = std::max(y_scale, solved_cone(p, cone).psi(z).norm());
+              const Mandel z = z_at(p);
+              k_scale        = std::max(k_scale, exact_cone(p, z).k);
+              stress_scale   = std::max(stress_scale, stress[p].norm());
+              y_scale = std::max(y_scale, solved_cone(p, z).psi(z).norm());
             }
         }
     stress_scale = Utilities::MPI::max(stress_scale, comm) +
@@ -77,12 +98,11 @@ namespace geocone
           {
             const double   two_G = materials[run.material].elasticity().two_G;
             const Mandel   z     = z_at(p);
-            const FlowCone exact = exact_cone(p, z);
-            const FlowCone cone  = solved_cone(p, exact);
+            const FlowCone cone  = solved_cone(p, z);
             const Mandel   s     = to_cone_axes(stress[p]);
             Quality        here;
             here.cone_violation = cone.yield_function(s) / stress_scale;
-            here.cone_excess    = exact.yield_function(s);
+            here.cone_excess    = exact_cone(p, z).yield_function(s);
             // The complementarity law is that of a cone without a cut-off.
             if (s[0] > -cone.tension + 1e-12 * stress_scale)
               {

@@ -9,10 +9,12 @@ namespace geocone
 {
   NaturalMap::NaturalMap(const MaterialPoints      &points,
                          const Materials           &materials,
+                         const StepLaw             &step,
                          const double               rho,
                          const std::vector<Mandel> &start)
     : points(points)
     , materials(materials)
+    , step(step)
     , rho(rho)
     , iterate(start)
     , slope(start.size())
@@ -20,8 +22,8 @@ namespace geocone
     for (unsigned int i = 0; i < materials.size(); ++i)
       {
         cones.push_back(materials[i].initial_cone());
-        // A law may harden without a cone.
-        hardens.push_back(materials[i].hardens() && cones.back());
+        // A law may have a history without a cone.
+        varies.push_back(materials[i].has_history() && cones.back());
       }
   }
 
@@ -36,10 +38,11 @@ namespace geocone
         const unsigned int material = points.material[p];
         FlowCone           at_point;
         const FlowCone    *cone = cones[material] ? &*cones[material] : nullptr;
-        if (hardens[material])
+        if (varies[material])
           {
-            at_point = *materials[material].flow_cone(points.history_of(p));
-            cone     = &at_point;
+            at_point = *materials[material].step_cone(
+              points.stress[p], points.history_of(p), step);
+            cone = &at_point;
           }
         const Elasticity &elasticity = materials[material].elasticity();
         Mandel            s          = iterate[p];
@@ -55,8 +58,9 @@ namespace geocone
             const Mandel x = to_cone_axes(s);
             Mandel       projected;
             MandelMatrix J;
-            const double k         = cone->hardened(z).k;
-            mode[p]                = return_map(FlowCone{cone->a, cone->a, k},
+            const double   k = cone->hardened(z).k;
+            const FlowCone convex{cone->a, cone->a, k, cone->tension};
+            mode[p]                = return_map(convex,
                                  1.,
                                  1.,
                                  Mandel(x - rho_p * cone->psi(z)),
@@ -74,7 +78,7 @@ namespace geocone
                 MandelMatrix B = rho_p * J * cone->psi_slope(z);
                 if (cone->hardening > 0.)
                   B -= cone->hardening *
-                       project_slope(cone->a, projected, mode[p]) *
+                       project_slope(convex, projected, mode[p]) *
                        tangential_direction(z).transpose();
                 const MandelMatrix A =
                   MandelMatrix::Identity() - J + B * S.asDiagonal();

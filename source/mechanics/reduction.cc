@@ -41,9 +41,9 @@ namespace geocone
                     points.n_points()),
              "take a coarser mesh, or automatic");
     for (const unsigned int material : points.material)
-      if (materials[material].hardens())
+      if (materials[material].has_history())
         refuse("another one with the material '" + materials.name(material) +
-                 "', which hardens",
+                 "', whose strength has a history",
                "take a perfectly plastic law, or automatic");
       else if (!materials[material].flow_cone(nullptr))
         refuse("another one with the material '" + materials.name(material) +

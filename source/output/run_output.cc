@@ -79,6 +79,9 @@ namespace geocone
       return r.last.energies.state() + dissipation - work;
     });
     add("numerical loss (J/m)", [this](const Record &) { return loss; });
+    if (remembers())
+      add("work of friction memory (J/m)",
+          [this](const Record &) { return memory_work; });
     add("energy identity error (-)",
         [](const Record &r) { return r.last.identity_error; });
     add_observations(
@@ -119,6 +122,7 @@ namespace geocone
         dissipation,
         loss,
         least_loss,
+        memory_work,
         energy_n,
         initial,
         n_load_jumps,
@@ -177,6 +181,7 @@ namespace geocone
     energy_n = e.state();
     work += e.external_work;
     dissipation += e.dissipation;
+    memory_work += e.memory_work;
     loss += step_loss;
     least_loss                     = std::min(least_loss, step_loss);
     const std::vector<double> line = table.line(record);
@@ -249,6 +254,59 @@ namespace geocone
         path, time, mesh, space, points, scene->materials, kinematics);
   }
 
+  bool
+  RunOutput::remembers() const
+  {
+    return std::isfinite(scene->materials.least_friction_memory());
+  }
+
+  Json
+  RunOutput::friction_memory() const
+  {
+    // The strength of an instant ago is in the load: by tau dF/dt.
+    Json        delay;
+    const auto  n   = records.size();
+    const double tau = scene->materials.least_friction_memory();
+    if (n > 1 && !scene->observation.conditions.empty())
+      {
+        const StepRecord &a = records[n - 2], &b = records[n - 1];
+        if (b.time > a.time && b.load != 0.)
+          delay = tau * (b.load - a.load) / (b.time - a.time) / b.load;
+      }
+    return {{"tau_s", tau},
+            {"work_J_per_m", memory_work},
+            {"work_relative",
+             dissipation > 0. ? Json(memory_work / dissipation) : Json()},
+            {"load_delay_relative", delay}};
+  }
+
+  void
+  RunOutput::warn_of_memory() const
+  {
+    const Json  &memory = summary["friction_memory"];
+    const double work_part =
+      memory["work_relative"].is_null() ? 0. :
+                                          memory["work_relative"].get<double>();
+    const double delay = memory["load_delay_relative"].is_null() ?
+                           0. :
+                           memory["load_delay_relative"].get<double>();
+    std::string felt;
+    if (work_part > 0.02)
+      felt = format("its strength was off the exact one by %.2g %% of the "
+                    "plastic work",
+                    100. * work_part);
+    if (std::abs(delay) > 0.005)
+      felt += (felt.empty() ? "" : ", and ") +
+              format("the last load still moves by %.2g %% in this time",
+                     100. * std::abs(delay));
+    if (!felt.empty())
+      log.warn(format("friction with memory (%.3g s) is felt by the result: ",
+                      memory["tau_s"].get<double>()) +
+               felt +
+               "; compare with half of it ('Materials/NAME/Friction memory') "
+               "or a longer run");
+  }
+
   Json
   RunOutput::results() const
   {
@@ -310,6 +368,8 @@ namespace geocone
       {"substeps", substeps},
       {"iterations_mean",
        records.empty() ? 0. : double(iterations) / records.size()},
+      {"iterations_per_substep",
+       substeps == 0 ? 0. : double(iterations) / substeps},
       {"iterations_max", most},
       {"failures", failures},
       {"regularised", regularised},
@@ -317,6 +377,8 @@ namespace geocone
       {"steps_at_rounding_floor", at_floor},
       {"steps_with_friction_lag", lagging},
       {"friction_lag_max", lag}};
+    if (remembers())
+      json["friction_memory"] = friction_memory();
     json["quality"] = {{"natural_map_error_max", quality.natural_map},
                        {"complementarity_max", quality.complementarity},
                        {"cone_violation_max", quality.cone_violation},
@@ -430,6 +492,8 @@ namespace geocone
                        records.size(),
                        newton_part["friction_lag_max"].get<double>(),
                        summary["quality"]["cone_excess_max_Pa"].get<double>()));
+    if (remembers())
+      warn_of_memory();
     if (summary.contains("limit_load"))
       {
         const Json &limit = summary["limit_load"];

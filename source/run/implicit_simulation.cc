@@ -90,6 +90,8 @@ namespace geocone
     scene.materials.check_closed_form(method.name());
     for (const auto &stage : scene.loading.stages)
       stage->check_implicit();
+    if (!method.is_mpm() && !newton.wants_exact_friction())
+      scene.materials.set_friction_memory(scene.time_of_small_motion());
     newton.prepare();
     step_control.prepare();
     exact_solution.prepare();
@@ -176,7 +178,7 @@ namespace geocone
         // A substep that stood for a whole step grows with the steps.
         if (place.in_stage > 0 && substep >= last_size * (1. - 1e-6))
           substep = h;
-        substep   = std::min(substep, h);
+        substep   = std::min(substep, largest_substep(h));
         last_size = h;
       }
     try
@@ -227,6 +229,7 @@ namespace geocone
         // Works add up over the substeps, and the worst of them counts.
         report.energies.external_work += present.last.energies.external_work;
         report.energies.dissipation += present.last.energies.dissipation;
+        report.energies.memory_work += present.last.energies.memory_work;
         report.identity_error =
           std::max(report.identity_error, present.last.identity_error);
         report.quality.take_worse(present.last.quality);
@@ -241,8 +244,16 @@ namespace geocone
         // Friction that lags stands for what smaller steps did not solve.
         if (present.last.newton.iterations <= step_control.easy_iterations ||
             last_lag > 0.)
-          substep = std::min(h, 1.5 * substep);
+          substep = std::min(largest_substep(h), 1.5 * substep);
       }
+  }
+
+  double
+  ImplicitSimulation::largest_substep(const double h) const
+  {
+    // Equal ones.
+    const double most = scene.materials.least_friction_memory() / 2.;
+    return h <= most ? h : h / std::ceil(h / most - 1e-6);
   }
 
   void

@@ -3,6 +3,11 @@
 
 #include <geocone/scene/scene.h>
 
+#include <deal.II/base/bounding_box.h>
+
+#include <algorithm>
+#include <cmath>
+
 namespace geocone
 {
   Scene::Scene(const ParameterFile &file)
@@ -43,5 +48,54 @@ namespace geocone
     tractions.prepare();
     loading.prepare();
     observation.prepare(dirichlet, materials, gravity);
+  }
+
+  double
+  Scene::time_of_small_motion() const
+  {
+    if (geometry.outline.empty()) // discs, or a file whose sides are not known
+      return 0.;
+    const dealii::BoundingBox<dim> body(geometry.outline);
+    double                         end = 0., least = 0.;
+    for (const auto &stage : loading.stages)
+      end += stage->duration;
+    for (unsigned int c = 0; c < dirichlet.list.size(); ++c)
+      {
+        const BoundaryCondition &condition = *dirichlet.list[c];
+        auto [low, high]                   = body.get_boundary_points();
+        if (const auto box = condition.box_corners())
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              low[d]  = std::max(low[d], (*box)[0][d]);
+              high[d] = std::min(high[d], (*box)[1][d]);
+            }
+        // Sides that are upright are as long as the part is high.
+        bool upright = false;
+        for (const std::string &side : condition.sides)
+          upright = upright || side == "left" || side == "right";
+        double     length = std::abs(high[upright] - low[upright]);
+        const auto centre = dealii::Point<dim>((low + high) / 2.);
+        const bool is_half =
+          std::abs(observation.factor) == 2. &&
+          std::count(
+            observation.conditions.begin(), observation.conditions.end(), c);
+        if (is_half)
+          length *= 2.;
+        double                 speed = 0.;
+        constexpr unsigned int looks = 64;
+        for (unsigned int i = 0; i < looks; ++i)
+          {
+            const double t      = end * (i + 0.5) / looks;
+            double       square = 0.;
+            for (const auto &component : condition.components)
+              if (component)
+                square += std::pow(component->value(centre, t), 2);
+            speed = std::max(speed, std::sqrt(square));
+          }
+        const double time = 1e-3 * length / speed;
+        if (speed > 0. && std::isfinite(time) && (least == 0. || time < least))
+          least = time;
+      }
+    return least;
   }
 } // namespace geocone

@@ -22,19 +22,11 @@ namespace geocone
   }
 
   void
-  LagContinuation::solve_delayed(const double         lag,
-                                 const double         accuracy,
-                                 const StepWorkspace &work) const
+  LagContinuation::from_explicit_friction(const double         lag,
+                                          const double         accuracy,
+                                          const StepWorkspace &work) const
   {
-    const Vector start = work.v;
-    LineSearch   search;
-    NewtonLoop   first  = loop(lag, accuracy, allowed);
-    first.elastic_first = elastic_first;
-    first.run(search, work);
-    if (work.report.converged || lag == 1.)
-      return;
-    // Friction that is explicit leaves a convex problem.
-    work.v                          = start;
+    LineSearch search;
     NewtonLoop explicit_friction    = loop(1., NewtonLoop::near, allowed);
     explicit_friction.elastic_first = elastic_first;
     explicit_friction.run(search, work);
@@ -43,19 +35,32 @@ namespace geocone
   }
 
   void
-  LagContinuation::solve_exact(const double         lag,
-                               const StepWorkspace &work) const
+  LagContinuation::solve_first(const StepWorkspace &work) const
+  {
+    const Vector start = work.v;
+    LineSearch   search;
+    NewtonLoop   first  = loop(first_lag, NewtonLoop::near, allowed);
+    first.elastic_first = elastic_first;
+    first.run(search, work);
+    if (work.report.converged)
+      return;
+    work.v = start;
+    from_explicit_friction(first_lag, NewtonLoop::near, work);
+  }
+
+  void
+  LagContinuation::solve_on_path(const StepWorkspace &work) const
   {
     SolverReport      &report = work.report;
     const unsigned int before = report.iterations;
-    solve_delayed(lag, NewtonLoop::near, work);
+    solve_first(work);
     if (!report.converged)
       return;
 
     // The last solution that was reached, and its lag.
     const Vector first       = work.v;
     Vector       reached     = work.v;
-    double       reached_lag = lag, fall = 0.55 * lag;
+    double       reached_lag = first_lag, fall = 0.55 * first_lag;
     bool         shortened = false;
     LineSearch   search;
     const auto   go_to = [&](const double next, const double accuracy) {
@@ -109,7 +114,7 @@ namespace geocone
     if (report.converged)
       return;
     work.v            = first;
-    NewtonLoop newton = loop(lag, tolerance, 40);
+    NewtonLoop newton = loop(first_lag, tolerance, 40);
     newton.moves      = true;
     newton.run(search, work);
   }

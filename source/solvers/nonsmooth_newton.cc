@@ -17,15 +17,6 @@ namespace geocone
   using dealii::Patterns::Integer;
   using dealii::Patterns::Selection;
 
-  namespace
-  {
-    /**
-     * Largest (a - b)/a for which the line search alone was seen to be enough
-     * on most meshes: theta >= phi/2 is (nearly) 1/2.
-     */
-    constexpr double hard_flow = 0.51;
-  } // namespace
-
   NonsmoothNewton::SolverName::SolverName()
     : dealii::ParameterAcceptor("/Linear solver")
   {
@@ -46,17 +37,10 @@ namespace geocone
       "Friction",
       ". Exact: strength depends on the normal "
       "stress at the end of the step; steps that are not solved are cut. "
-      "Delayed: a part of that stress ('Friction lag') is of the step's start, "
-      "which makes steps without dilatancy as cheap as associated ones, at an "
-      "error of first order in the step. Automatic: exact, but single steps "
-      "that are not solved keep the least lag that is, and are counted. "
-      "Nothing changes for associated flow.");
-    add_parameter("Friction lag",
-                  lag,
-                  "The part for delayed friction, 0 to 1: 0 is exact, 1 takes "
-                  "all of it from the start.",
-                  prm,
-                  Double(0., 1.));
+      "Automatic: exact, but in single steps that are not solved a part of "
+      "that stress, the least that is solved, lags: it is of the step's start. "
+      "They are counted. Nothing changes for associated flow, and nothing lags "
+      "where friction has a memory ('Materials/NAME/Friction memory').");
   }
 
   NonsmoothNewton::NonsmoothNewton()
@@ -69,7 +53,8 @@ namespace geocone
       "map: the velocities, with the closed-form law. Natural map: velocities, "
       "stresses and plastic strains with the natural map of the law, which "
       "each iteration linearises. Automatic: the return map for theta >= "
-      "phi/2, and the natural map otherwise and where that fails. Reduced: the "
+      "phi/2 > 0 and for friction with memory, and the natural map otherwise "
+      "and where that fails. Reduced: the "
       "stresses alone, by Newton's method; constraints on particles are "
       "eliminated or kept with multipliers. Gauss-Seidel: the stresses alone, "
       "point by point. What is reduced needs a lumped mass, one rank and at "
@@ -146,11 +131,6 @@ namespace geocone
         (natural ? "automatic | elastic blend | none" : "automatic | none") +
           with,
         "take automatic, or the formulation 'return map'");
-    if (friction.kind == Friction::Kind::delayed)
-      throw InputError("Time stepping/Friction",
-                       friction.kind.word(),
-                       "automatic | exact" + with,
-                       "take exact, or the formulation 'return map'");
     if (!natural && first_iterate != FirstIterate::none)
       throw InputError("Newton/First iterate",
                        first_iterate.word(),
@@ -222,6 +202,33 @@ namespace geocone
                work);
   }
 
+  void
+  NonsmoothNewton::solve_with_memory(const LagContinuation &continuation,
+                                     const StepWorkspace   &work) const
+  {
+    // A step that the line search does not solve soon it hardly ever does; the
+    // natural map then does, but not for particles at their apex.
+    const bool   points_move = work.problem.points_move();
+    const bool   elastic     = continuation.elastic_first;
+    const Vector start       = work.v;
+    attempt(
+      Method::line_search, nullptr, points_move ? 40 : 12, elastic, work);
+    if (!work.report.converged && !points_move)
+      {
+        work.v = start;
+        attempt(Method::elastic_blend,
+                &work.problem.stress_at_start(),
+                60,
+                elastic,
+                work);
+      }
+    if (!work.report.converged)
+      {
+        work.v = start;
+        continuation.solve_from_explicit_friction(work);
+      }
+  }
+
   SolverReport
   NonsmoothNewton::solve(IncrementalProblem &problem,
                          LinearSystem       &system,
@@ -239,7 +246,7 @@ namespace geocone
       }
 
     const bool                 associated = problem.non_associativity() == 0.;
-    const bool                 hard = problem.non_associativity() > hard_flow;
+    const bool hard = problem.non_associativity() > Material::hard_flow;
     bool                       elastic_first = hints.elastic_first;
     std::vector<Mandel>        first_stress; // of the first iterate
     const std::vector<Mandel> *start_of_s = &problem.stress_at_start();
@@ -257,13 +264,8 @@ namespace geocone
     continuation.allowed            = allowed(40);
     continuation.allowed_on_path    = allowed(60);
     continuation.elastic_first      = elastic_first;
-    continuation.keeps_lag = friction.kind == Friction::Kind::automatic;
-    if (friction.kind == Friction::Kind::delayed && !associated)
-      {
-        continuation.solve_delayed(friction.lag, work);
-        return report;
-      }
-
+    continuation.keeps_lag = friction.kind == Friction::Kind::automatic &&
+                             !problem.remembers_friction();
     const Vector start    = v;
     const auto   try_with = [&](const Method               method,
                               const std::vector<Mandel> *natural_map_start,
@@ -284,23 +286,36 @@ namespace geocone
                  associated ? 150 : 60);
         return report;
       }
+    if (chosen == Method::automatic && problem.remembers_friction() &&
+        formulation == Formulation::automatic)
+      {
+        solve_with_memory(continuation, work);
+        return report;
+      }
     if (chosen == Method::automatic)
       {
         const bool both = formulation == Formulation::automatic;
+        // Tresca's law, which has no apex.
+        const bool natural_first = both && problem.yields_without_friction();
+        if (natural_first)
+          try_with(Method::elastic_blend, start_of_s, 100);
+        if (report.converged)
+          return report;
         if (formulation == Formulation::return_map || (both && !hard))
           try_with(hard ? Method::elastic_blend : Method::line_search,
                    nullptr,
                    hard         ? 30
                    : associated ? 150
                                 : 60);
-        if (!report.converged && formulation != Formulation::return_map)
+        if (!report.converged && !natural_first &&
+            formulation != Formulation::return_map)
           try_with(Method::elastic_blend, start_of_s, both ? 40 : 100);
       }
     if (!report.converged && !associated &&
         formulation != Formulation::natural_map)
       {
         v = start;
-        continuation.solve_exact(friction.lag > 0. ? friction.lag : 0.5, work);
+        continuation.solve_on_path(work);
       }
     return report;
   }

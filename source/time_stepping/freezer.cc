@@ -74,7 +74,6 @@ namespace geocone
     if (!chosen && !failed)
       return;
     FrozenProblem frozen = problem.freeze(start);
-    frozen.materials     = ParameterFile::section("Materials");
     frozen.particles     = particles;
     if (dealii::Utilities::MPI::this_mpi_process(
           start.get_mpi_communicator()) == 0)

@@ -168,6 +168,7 @@ namespace geocone
                                 dealii::ArrayView<double>(sums.data(), 2));
     report.identity_error = energy_identity_error(
       *problem, points, scene->materials, velocity_n, v, sums[0]);
+    const double memory_work = forces.memory_work();
 
     for (unsigned int p = 0; p < points.n_points(); ++p)
       {
@@ -191,6 +192,7 @@ namespace geocone
       largest_plastic_strain(points, v.get_mpi_communicator());
     report.energies.external_work = sums[0];
     report.energies.dissipation   = sums[1];
+    report.energies.memory_work   = memory_work;
     return report;
   }
 

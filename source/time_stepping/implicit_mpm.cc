@@ -525,6 +525,8 @@ namespace geocone
     const double external_work =
       work.of_others + (advection == Advection::none ? work.of_weight : 0.) +
       work_of_changing_gravity(step, points);
+    const double memory_work =
+      (step.h / step.solved_h) * problem->internal_forces().memory_work();
     const double dissipation = update_points(step, moved, points);
     update_supports(step, v, kinematics, report.reactions);
     if (advection != Advection::none)
@@ -543,6 +545,7 @@ namespace geocone
       largest_plastic_strain(points, v.get_mpi_communicator());
     report.energies.external_work = external_work;
     report.energies.dissipation   = dissipation;
+    report.energies.memory_work   = memory_work;
     return report;
   }
 

@@ -61,7 +61,8 @@ check_cone(const FlowCone &cone)
 
       // dP_C/dk, where k moves the set.
       Mandel       projected;
-      const Mode   where = return_map(FlowCone{cone.a, cone.a, cone.k},
+      const FlowCone associated{cone.a, cone.a, cone.k};
+      const Mode   where = return_map(associated,
                                     1.,
                                     1.,
                                     t,
@@ -71,7 +72,7 @@ check_cone(const FlowCone &cone)
                            project(cone.a, cone.k - 1e-6, t)) /
                           2e-6;
       if (smooth && (where == Mode::elastic || (t - projected).norm() > 1e-3))
-        projection.add((project_slope(cone.a, projected, where) - by_k).norm());
+        projection.add((project_slope(associated, projected, where) - by_k).norm());
     }
   std::cout << "a = " << cone.a << ", b = " << cone.b << ", k = " << cone.k
             << ", h = " << cone.hardening << ", cut-off " << cone.tension

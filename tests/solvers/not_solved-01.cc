@@ -87,7 +87,10 @@ try_all()
   for (const std::string &formulation : formulations)
     for (const std::string &globalisation : globalisations)
       for (const auto &law : laws)
-        for (const std::string friction : {"exact", "automatic", "delayed"})
+        for (const std::string friction : {"Time stepping/Friction = exact",
+                                           "Time stepping/Friction = automatic",
+                                           "Materials/soil/Friction memory = "
+                                           "0.01"})
           {
             std::vector<std::string> overrides = {
               "Mesh/Cell size = 0.5",
@@ -96,7 +99,7 @@ try_all()
               "Newton/Maximum iterations = 2",
               "Newton/Formulation = " + formulation,
               "Newton/Globalisation = " + globalisation,
-              "Time stepping/Friction = " + friction};
+              friction};
             overrides.insert(overrides.end(), law.begin(), law.end());
             try
               {

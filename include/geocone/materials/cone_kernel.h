@@ -21,6 +21,20 @@ namespace geocone
   advance_cone(const FlowCone   &cone,
                const Elasticity &elasticity,
                const PointBlock &block);
+
+  /**
+   * The same with friction that remembers (MohrCoulomb): the cone of each point is
+   * cone.delayed(part, p), with its cut-off, and p becomes part p + (1 - part) s_n.
+   * @param cone with a > 0
+   * @param part lambda
+   * @param place that of p (Pa) in the history
+   */
+  void
+  advance_cone(const FlowCone    &cone,
+               const Elasticity  &elasticity,
+               const PointBlock  &block,
+               const double       part,
+               const unsigned int place);
 } // namespace geocone
 
 #endif

@@ -11,7 +11,7 @@ namespace geocone
   /**
    * MohrCoulomb with linear isotropic hardening of the cohesion,
    *   c = c_0 + H gamma_p,
-   * where gamma_p, the second history variable, is the plastic shear strain, the
+   * where gamma_p, the last history variable, is the plastic shear strain, the
    * integral of |e_1 - e_2| = sqrt2 |z_t| over the plastic strain increments in
    * the plane (-). In cone axes k = k_n + h |z_t| with h = 2 H cos(phi): the
    * return map has it in closed form. H = 0 is perfect plasticity. The tip of the
@@ -55,6 +55,13 @@ namespace geocone
     add_to_history(const double slip, double *history) const override;
 
   private:
+    /** Place of gamma_p in the history. */
+    unsigned int
+    plastic_shear() const
+    {
+      return MohrCoulomb::n_history();
+    }
+
     double modulus = 0.;
     double slope   = 0.; ///< h = dk/d|z_t| (Pa)
   };

@@ -15,6 +15,19 @@
 
 namespace geocone
 {
+  /** What the law of a step depends on besides the state of its points at t_n. */
+  struct StepLaw
+  {
+    double size = 0.; ///< h (s)
+
+    /**
+     * Part of the normal stress on which strength depends that a solver takes from
+     * t_n: 0 is the law itself, 1 makes friction explicit (doc/theory.md, section
+     * "Delayed friction"). Laws without friction have no use for it.
+     */
+    double friction_lag = 0.;
+  };
+
   /** What a batch of points asks of its material: the same index, one point. */
   struct Increment
   {
@@ -26,12 +39,7 @@ namespace geocone
     const double *history_n = nullptr;
     unsigned int  n_history = 0;
 
-    /**
-     * Part of the normal stress on which strength depends that is taken from
-     * t_n: 0 is the exact law, 1 makes it explicit (doc/theory.md, section
-     * "Delayed friction"). Laws without friction have no use for it.
-     */
-    double friction_lag = 0.;
+    StepLaw step;
   };
 
   /** What the material answers. An empty `tangent` is not computed, nor is the
@@ -113,7 +121,7 @@ namespace geocone
 
     /** Whether steps change the history. */
     bool
-    hardens() const
+    has_history() const
     {
       return n_history() > Material::n_history();
     }
@@ -129,14 +137,43 @@ namespace geocone
       return std::nullopt;
     }
 
+    /**
+     * The cone that a step solves for: flow_cone(), but for what of the normal
+     * stress is that of the past (FlowCone::delayed()).
+     * @param stress_n,history_n of the point at t_n
+     */
+    virtual std::optional<FlowCone>
+    step_cone(const Mandel  &stress_n,
+              const double  *history_n,
+              const StepLaw &step) const;
+
+    /** The relaxation time tau of friction with memory (s); 0: none. */
+    virtual double
+    friction_memory() const
+    {
+      return 0.;
+    }
+
+    /** Takes the scene's tau where the file leaves it to it (automatic) and the
+     *  exact law would be hard. */
+    virtual void
+    set_friction_memory(const double /*tau*/)
+    {}
+
     /** That of a point that has not yielded. */
     std::optional<FlowCone>
     initial_cone() const;
 
-    /** The stress of the cone that is nearest to a stress (Pa), which without a
-     *  cone is itself. @param history of the point */
+    /** The stress that the strength of a point allows which is nearest to a stress
+     *  (Pa), which without a cone is itself. @param history of the point */
     Mandel
     nearest_admissible(const Mandel &stress, const double *history) const;
+
+    /**
+     * Largest (a - b)/a for which the line search alone was seen to be enough
+     * on most meshes: theta >= phi/2 is (nearly) 1/2.
+     */
+    static constexpr double hard_flow = 0.51;
 
     /**
      * (a - b)/a between 0 (associated) and 1 (no dilatancy), a and b those of the
@@ -156,6 +193,15 @@ namespace geocone
     elasticity() const
     {
       return elastic;
+    }
+
+  protected:
+    /** What a stress at the end of a step must be in: flow_cone(), but for laws
+     *  whose strength follows the stress. */
+    virtual std::optional<FlowCone>
+    strength(const double *history) const
+    {
+      return flow_cone(history);
     }
 
   private:

@@ -85,6 +85,23 @@ namespace geocone
     double
     non_associativity() const;
 
+    /** Whether some of them yield, and all of those by cylinders (a = 0). */
+    bool
+    yield_without_friction() const;
+
+    /** The least relaxation time of friction with memory of all materials (s);
+     *  infinite if none has a memory. */
+    double
+    least_friction_memory() const;
+
+    /** Gives tau (s) to those that leave it to the scene. */
+    void
+    set_friction_memory(const double tau);
+
+    /** Its section as text, with numbers in place of what the scene has decided. */
+    std::string
+    as_parameters() const;
+
     /** Whether all tangents are symmetric. */
     bool
     symmetric() const;

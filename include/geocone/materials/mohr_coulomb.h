@@ -16,6 +16,16 @@ namespace geocone
    * phi = 0 is Tresca's cylinder, |s_t| <= sqrt2 c. Yielding is governed by the
    * in-plane stresses: the out-of-plane stress is assumed intermediate.
    * theta = phi is associated flow, theta = 0 flow without dilatancy.
+   *
+   * Friction with memory (doc/theory.md, section of that name; Prakash and Clifton
+   * 1993 and Cochard and Rice 2000 for sliding): the strength follows the normal
+   * stress with the relaxation time tau, by the second history variable p (Pa),
+   *   |s_t| <= b s_n + mu p + sqrt2 c cos(phi),   dp/dt = (s_n - p)/tau,
+   * a and b the apertures, mu = a - b. A step h has p = lambda p_n +
+   * (1 - lambda) s_n with lambda = tau/(h + tau): the cone with the aperture
+   * a - lambda mu and the same flow, FlowCone::delayed(lambda, p_n). A state that
+   * does not change has p = s_n, the exact strength; tau = 0 is the exact law. The
+   * plastic work is never negative, since p >= -k/a for ever.
    */
   class MohrCoulomb : public Material
   {
@@ -28,11 +38,46 @@ namespace geocone
     void
     update(const Increment &increment, const Response &response) const override;
 
+    /** Exact, without memory. */
     std::optional<FlowCone>
     flow_cone(const double *) const override
     {
       return cone;
     }
+
+    std::optional<FlowCone>
+    step_cone(const Mandel  &stress_n,
+              const double  *history_n,
+              const StepLaw &step) const override;
+
+    void
+    advance(const PointBlock &block, LawCounts &counts) const override;
+
+    unsigned int
+    n_history() const override
+    {
+      return Material::n_history() + (tau > 0.);
+    }
+
+    std::string
+    initialise(const Stress &stress, double *history) const override;
+
+    std::vector<Shown>
+    shown() const override;
+
+    void
+    show(const std::array<double, 3> &in_plane,
+         const double                *history,
+         double                      *values) const override;
+
+    double
+    friction_memory() const override
+    {
+      return tau;
+    }
+
+    void
+    set_friction_memory(const double tau) override;
 
     double
     cohesion() const
@@ -54,6 +99,9 @@ namespace geocone
     add_to_history(const double /*slip*/, double * /*history*/) const
     {}
 
+    std::optional<FlowCone>
+    strength(const double *history) const override;
+
     /** For laws that fix phi = theta = 0 and do not declare the angles. */
     struct WithoutFriction
     {};
@@ -64,6 +112,22 @@ namespace geocone
     double   phi   = 25.;
     double   theta = 25.;
     FlowCone cone;
+
+    /** Place of p in the history, if tau > 0. */
+    static constexpr unsigned int memory = 1;
+    std::string                   memory_text = "automatic";
+    double                        tau         = 0.;
+
+    /** Reads the memory, if the file gives it. */
+    void
+    prepare_memory();
+
+    /** lambda, the part of p at the end of a step that is p_n. @param h (s) */
+    double
+    remembered(const double h) const
+    {
+      return tau > 0. ? tau / (h + tau) : 0.;
+    }
   };
 
   /** Tresca's law |s1 - s2| <= 2c: MohrCoulomb with phi = theta = 0. */

@@ -52,6 +52,8 @@ namespace geocone
     /** Modulus M of the elastic pressure wave, c = sqrt(M/rho), after (Pa). */
     double *wave_modulus = nullptr;
     /** @} */
+
+    double step = 0.; ///< dt (s), for laws that depend on time
   };
 
   /** What laws count while they work; sums and extremes over all points. */

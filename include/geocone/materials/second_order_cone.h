@@ -51,6 +51,9 @@ namespace geocone
     apex     ///< at its tip
   };
 
+  /** Of a cone that is not cut off. */
+  constexpr double infinite_tension = std::numeric_limits<double>::infinity();
+
   /**
    * The admissible set of a cone law and its flow, in cone axes:
    *   C = { s : |s_t| <= a s_n + k },   a >= 0, k >= 0,
@@ -68,7 +71,7 @@ namespace geocone
     double k = 0.; ///< radius of the yield surface at s_n = 0 (Pa)
 
     /** Cut-off: s_n >= -tension also where the apex lies farther out (Pa). */
-    double tension = std::numeric_limits<double>::infinity();
+    double tension = infinite_tension;
 
     /** Linear hardening h (Pa): the radius k is that at t_n, and k + h |z_t| at the
      *  end of the step. */
@@ -268,6 +271,20 @@ namespace geocone
     return Mode::apex;
   }
 
+  /** Euclidean projection onto {|s_t| <= a s_n + k, s_n >= -tension} of a cone,
+   *  whatever its flow. @param[out] jacobian as below */
+  template <typename V,
+            typename M =
+              Eigen::Matrix<double, V::RowsAtCompileTime, V::RowsAtCompileTime>>
+  V
+  project(const FlowCone &cone, const V &x, M *jacobian = nullptr)
+  {
+    V              projected;
+    const FlowCone associated{cone.a, cone.a, cone.k, cone.tension};
+    return_map(associated, 1., 1., x, projected, jacobian);
+    return projected;
+  }
+
   /**
    * Euclidean projection onto C = {|s_t| <= a s_n + k}.
    * @param[out] jacobian an element of Clarke's generalised Jacobian (paper,
@@ -279,10 +296,7 @@ namespace geocone
   V
   project(const double a, const double k, const V &x, M *jacobian = nullptr)
   {
-    V              projected;
-    const FlowCone cone{a, a, k};
-    return_map(cone, 1., 1., x, projected, jacobian);
-    return projected;
+    return project(FlowCone{a, a, k}, x, jacobian);
   }
 
   /** The tangential unit vector x_t/|x_t|, or zero. */
@@ -295,15 +309,19 @@ namespace geocone
 
   /** Derivative of project() by k. @param mode where @p projected lies */
   inline Mandel
-  project_slope(const double a, const Mandel &projected, const Mode mode)
+  project_slope(const FlowCone &cone, const Mandel &projected, const Mode mode)
   {
     if (mode == Mode::elastic)
       return Mandel::Zero();
-    if (mode == Mode::apex)
-      return {-1. / a, 0., 0.};
     Mandel slope = tangential_direction(projected);
-    slope[0]     = -a;
-    return slope / (1. + a * a);
+    if (mode == Mode::apex && cone.tension == infinite_tension)
+      return {-1. / cone.a, 0., 0.};
+    if (mode == Mode::apex) // cut off, inside of the disc or on its edge
+      return cone.yield_function(projected) < -1e-12 * cone.k
+               ? Mandel(Mandel::Zero())
+               : slope;
+    slope[0] = -cone.a;
+    return slope / (1. + cone.a * cone.a);
   }
 
   /**

@@ -85,7 +85,28 @@ namespace geocone
     NaturalMap
     make_natural_map(const double rho, const std::vector<Mandel> &start) const
     {
-      return NaturalMap(points, materials, rho, start);
+      return NaturalMap(points, materials, {h}, rho, start);
+    }
+
+    /** Whether friction has a memory in some of the materials. */
+    bool
+    remembers_friction() const
+    {
+      return std::isfinite(materials.least_friction_memory());
+    }
+
+    /** Whether the yield surfaces are cylinders (phi = 0), without a tip. */
+    bool
+    yields_without_friction() const
+    {
+      return materials.yield_without_friction();
+    }
+
+    /** Whether the points are particles. */
+    bool
+    points_move() const
+    {
+      return !points.values.empty();
     }
 
     /** Whether the Jacobian is symmetric positive definite. */

@@ -31,7 +31,8 @@ namespace geocone
     double complementarity = 0.; ///< |<y, s + (k/a) n>| / (both scales)
 
     /** max(0, |s_t| - a s_n - k) of the exact cone (Pa): not zero where friction
-     *  is delayed, while the other numbers are those of the law that was solved. */
+     *  lags or remembers, while the other numbers are those of the law that was
+     *  solved. */
     double cone_excess = 0.;
 
     void
@@ -117,6 +118,11 @@ namespace geocone
     std::string
     not_a_number() const;
 
+    /** sum V |z_t| ||s_t| - a s_n - k| over the plastic points of materials whose
+     *  friction has a memory (J/m): 0 for the exact law. Collective. */
+    double
+    memory_work() const;
+
     /** @name Trial states, by point */
     /** @{ */
     const std::vector<Mandel> &
@@ -160,6 +166,12 @@ namespace geocone
     /** What a run asks of its material at the last residual(). */
     Increment
     increment_of(const Run &run) const;
+
+    StepLaw
+    step_law() const
+    {
+      return {h, law.friction_lag};
+    }
 
     /** Asks the materials, run by run. */
     void

@@ -29,11 +29,13 @@ namespace geocone
   {
   public:
     /**
+     * @param step whose cones the points have (Material::step_cone())
      * @param rho in units of 2G of each point
      * @param start where the iteration for s starts, by point (Pa)
      */
     NaturalMap(const MaterialPoints      &points,
                const Materials           &materials,
+               const StepLaw             &step,
                const double               rho,
                const std::vector<Mandel> &start);
 
@@ -69,9 +71,10 @@ namespace geocone
   private:
     const MaterialPoints                &points;
     const Materials                     &materials;
+    const StepLaw                        step;
     const double                         rho;
-    std::vector<std::optional<FlowCone>> cones;   ///< by material
-    std::vector<char>                    hardens; ///< whether they do
+    std::vector<std::optional<FlowCone>> cones;  ///< by material
+    std::vector<char>                    varies; ///< whether by point, too
     std::vector<Mandel>                  iterate;
     std::vector<MandelMatrix>            slope;
     std::vector<Mandel>                  last_strain; ///< or empty

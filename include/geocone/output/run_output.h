@@ -135,6 +135,18 @@ namespace geocone
     Json
     results() const;
 
+    /** Whether the friction of some of the soil has a memory. */
+    bool
+    remembers() const;
+
+    /** What it has done, for the summary. */
+    Json
+    friction_memory() const;
+
+    /** Warns if it has changed the result by more than about 1 %. */
+    void
+    warn_of_memory() const;
+
     /** Warns of the first load that jumps by more than half and back. */
     void
     warn_of_jump();
@@ -152,7 +164,8 @@ namespace geocone
     std::optional<Failure>      failure;
 
     /** Sums since the start (J/m), and the least loss of a step. */
-    double work = 0., dissipation = 0., loss = 0., least_loss = 0.;
+    double work = 0., dissipation = 0., loss = 0., least_loss = 0.,
+           memory_work = 0.;
     double energy_n = 0.; ///< kinetic, elastic and potential, at the last step
     Energies initial;
 

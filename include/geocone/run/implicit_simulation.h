@@ -76,6 +76,11 @@ namespace geocone
     void
     load(const Archive &archive) override;
 
+    /** The longest substep of a step h, which friction with memory limits to
+     *  tau/2: its tangent is then nearly elliptic (doc/theory.md). */
+    double
+    largest_substep(const double h) const;
+
     /** From t to t + h, in substeps. @throws StepFailure */
     void
     solve_step(const unsigned int step, const double t, const double h);

@@ -25,22 +25,28 @@ namespace geocone
      *  did; otherwise it is not solved. */
     bool keeps_lag = true;
 
-    /** Solves the law with one lag, from friction that is explicit if need be. */
+    /** Solves the law from the solution with explicit friction, a convex problem. */
     void
-    solve_delayed(const double lag, const StepWorkspace &work) const
+    solve_from_explicit_friction(const StepWorkspace &work) const
     {
-      solve_delayed(lag, tolerance, work);
+      from_explicit_friction(0., tolerance, work);
     }
 
-    /** Follows the solutions from a lag down to 0, or as far as it gets. */
+    /** Follows the solutions from first_lag down to 0, or as far as it gets. */
     void
-    solve_exact(const double lag, const StepWorkspace &work) const;
+    solve_on_path(const StepWorkspace &work) const;
 
   private:
+    static constexpr double first_lag = 0.5;
+
     void
-    solve_delayed(const double         lag,
-                  const double         accuracy,
-                  const StepWorkspace &work) const;
+    from_explicit_friction(const double         lag,
+                           const double         accuracy,
+                           const StepWorkspace &work) const;
+
+    /** Solves the law with first_lag, from explicit friction if need be. */
+    void
+    solve_first(const StepWorkspace &work) const;
 
     /** A Newton iteration with one lag. */
     NewtonLoop

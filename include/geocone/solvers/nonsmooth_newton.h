@@ -15,6 +15,8 @@
 
 namespace geocone
 {
+  struct LagContinuation;
+
   /**
    * The nonsmooth solver of a step: which formulation, globalisation and law are
    * tried, and in which order. NewtonLoop is the iteration, Globalisation and
@@ -28,7 +30,6 @@ namespace geocone
    *
    * Friction, by name:
    *  - exact: the law at t_{n+1}, or the step is not solved;
-   *  - delayed: the law with `Friction lag`, a time discretisation of first order;
    *  - automatic: exact where the continuation gets there, and otherwise with the
    *    least lag that it has reached, which the report tells.
    */
@@ -75,6 +76,15 @@ namespace geocone
      */
     ReducedReport
     solve_reduced(const ReducedProblem &problem, Eigen::VectorXd &s) const;
+
+    /** Whether nothing but the exact law will do: it is asked for, or what solves
+     *  for stresses alone, which knows no other. */
+    bool
+    wants_exact_friction() const
+    {
+      return friction.kind == Friction::Kind::exact || is_reduced() ||
+             first_iterate == FirstIterate::gauss_seidel;
+    }
 
     /** Name of the linear solver that was asked for. */
     const std::string &
@@ -150,13 +160,10 @@ namespace geocone
       enum class Kind
       {
         automatic,
-        exact,
-        delayed
+        exact
       };
-      Choice<Kind> kind = {{{"automatic", Kind::automatic},
-                            {"exact", Kind::exact},
-                            {"delayed", Kind::delayed}}};
-      double       lag  = 0.5;
+      Choice<Kind> kind = {
+        {{"automatic", Kind::automatic}, {"exact", Kind::exact}}};
     };
     Friction friction;
 
@@ -170,6 +177,11 @@ namespace geocone
     {
       return max_iterations > 0 ? max_iterations : automatic;
     }
+
+    /** The tries for friction that remembers, whose tangent is nearly elliptic. */
+    void
+    solve_with_memory(const LagContinuation &continuation,
+                      const StepWorkspace   &work) const;
 
     /** Solves for the stresses alone. */
     void

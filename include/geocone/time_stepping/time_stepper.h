@@ -33,6 +33,9 @@ namespace geocone
     double potential     = 0.;
     double external_work = 0.; ///< of the step: loads and supports
     double dissipation   = 0.; ///< of the step: sum V s'(-z) >= 0
+    /** Of the step: sum V |z_t| ||s_t| - a s_n - k|, the plastic work by which
+     *  friction with memory is off the exact strength. */
+    double memory_work = 0.;
 
     double
     state() const
@@ -43,7 +46,8 @@ namespace geocone
     void
     state(StateRow &row)
     {
-      row(kinetic, elastic, potential, external_work, dissipation);
+      row(
+        kinetic, elastic, potential, external_work, dissipation, memory_work);
     }
   };
 
