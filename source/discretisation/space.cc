@@ -49,8 +49,9 @@ namespace geocone
                   "which are not negative, for MPM.");
     add_parameter("B-bar",
                   b_bar,
-                  "For Q1: the volumetric strain of a cell is its mean over "
-                  "the cell's points, against locking.");
+                  "The volumetric strain of a cell is its mean over the cell's "
+                  "points, against locking: for Q1, and for other elements "
+                  "where many points share a cell and hardly change volume.");
   }
 
   void
@@ -87,12 +88,12 @@ namespace geocone
                        "take B-spline 2 or 3, which hardly lock");
     if (basis == Basis::automatic)
       basis = method.is_mpm() ? Basis::bernstein : Basis::lagrange;
-    if (b_bar && kind != Element::q1)
+    if (b_bar && kind == Element::p1)
       throw InputError("Discretisation/B-bar",
                        "true",
-                       "true for Q1 only",
-                       "elements and splines of higher degree do not need it: "
-                       "set B-bar = false, or Element = Q1");
+                       "false with P1",
+                       "its strain is constant in a cell anyhow: set B-bar = "
+                       "false, or another element");
   }
 
   void

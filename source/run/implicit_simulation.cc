@@ -160,7 +160,11 @@ namespace geocone
   {
     if (stage.reset_displacement)
       stepper->reset(kinematics, points);
-    substep = stage.step_sizes()[0];
+    // What begins to move jumps: a step of a small part of the memory is nearly
+    // convex, and longer ones follow by themselves.
+    constexpr double first_part = 1. / 16.;
+    substep                     = std::min(stage.step_sizes()[0],
+                       first_part * scene.materials.least_friction_memory());
   }
 
   Simulation::Ended
@@ -263,7 +267,8 @@ namespace geocone
                           const double        size,
                           const SolverReport &report)
   {
-    substep = size / 2.;
+    // The first step climbs from rest: what it needs is far smaller.
+    substep = step == 1 && done == 0. ? size / 8. : size / 2.;
     if (run_output.verbosity >= 2)
       log.print("    cut: " + report.reason);
     else if (run_output.verbosity == 1)
@@ -273,7 +278,8 @@ namespace geocone
                           t,
                           substep,
                           present.iterations));
-    const double smallest = h * std::pow(0.5, step_control.max_halvings);
+    const double smallest =
+      largest_substep(h) * std::pow(0.5, step_control.max_halvings);
     if (substep >= smallest * (1. - 1e-6))
       return;
     const std::string jump =

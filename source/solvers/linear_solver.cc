@@ -388,7 +388,7 @@ namespace geocone
     const std::string chosen = name != "automatic" ? name
                                : !serial           ? "Mumps"
                                : symmetric         ? "Cholmod"
-                                                   : "Umfpack";
+                                                   : "Mumps";
     if (chosen != "Mumps" && !serial)
       throw InputError("Linear solver/Name",
                        name,

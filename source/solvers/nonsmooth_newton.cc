@@ -23,8 +23,7 @@ namespace geocone
     add_parameter("Name",
                   value,
                   "automatic | Cholmod | Umfpack | Mumps. Automatic: Cholmod "
-                  "for associated flow and Umfpack otherwise on one rank, "
-                  "Mumps on several.",
+                  "for associated flow on one rank, otherwise Mumps.",
                   prm,
                   Selection("automatic|Cholmod|Umfpack|Mumps"));
   }
@@ -99,8 +98,9 @@ namespace geocone
       "Linear systems to solve before an attempt at a step is given up, at "
       "most 1000000; twice as many where it converges. 0: 30 for the elastic "
       "blend with the return map, 150 for the line search and associated flow "
-      "(slow starts are worth waiting for), 100 for the natural map where "
-      "nothing would follow and otherwise 40, and 60 for all else.",
+      "(slow starts are worth waiting for) but 30 for phi = 0, 12 for it and "
+      "FEM with friction that remembers, 100 for the natural map where nothing "
+      "would follow and otherwise 40, and 60 for all else.",
       prm,
       Integer(0, 1000000));
     globalisation.declare(
@@ -298,15 +298,15 @@ namespace geocone
         // Tresca's law, which has no apex.
         const bool natural_first = both && problem.yields_without_friction();
         if (natural_first)
-          try_with(Method::elastic_blend, start_of_s, 100);
+          try_with(Method::elastic_blend, start_of_s, 40);
         if (report.converged)
           return report;
         if (formulation == Formulation::return_map || (both && !hard))
           try_with(hard ? Method::elastic_blend : Method::line_search,
                    nullptr,
-                   hard         ? 30
-                   : associated ? 150
-                                : 60);
+                   hard || natural_first ? 30
+                   : associated          ? 150
+                                         : 60);
         if (!report.converged && !natural_first &&
             formulation != Formulation::return_map)
           try_with(Method::elastic_blend, start_of_s, both ? 40 : 100);

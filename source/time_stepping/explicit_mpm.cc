@@ -257,7 +257,8 @@ namespace geocone
                              history.data(),
                              group[Field::plastic_strain] + first,
                              scratch.work,
-                             scratch.wave_modulus},
+                             scratch.wave_modulus,
+                             dt},
                             counts);
                 kernels->finish(points, scratch, sums);
               }
