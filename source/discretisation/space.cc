@@ -49,9 +49,8 @@ namespace geocone
                   "which are not negative, for MPM.");
     add_parameter("B-bar",
                   b_bar,
-                  "The volumetric strain of a cell is its mean over the cell's "
-                  "points, against locking: for Q1, and for other elements "
-                  "where many points share a cell and hardly change volume.");
+                  "For Q1: the volumetric strain of a cell is its mean over "
+                  "the cell's points, against locking.");
   }
 
   void
@@ -88,12 +87,13 @@ namespace geocone
                        "take B-spline 2 or 3, which hardly lock");
     if (basis == Basis::automatic)
       basis = method.is_mpm() ? Basis::bernstein : Basis::lagrange;
-    if (b_bar && kind == Element::p1)
+    if (b_bar && kind != Element::q1)
       throw InputError("Discretisation/B-bar",
                        "true",
-                       "false with P1",
-                       "its strain is constant in a cell anyhow: set B-bar = "
-                       "false, or another element");
+                       "true for Q1 only",
+                       "elements and splines of higher degree lock little, and "
+                       "one mean per cell leaves them too soft: set B-bar = "
+                       "false, or Element = Q1");
   }
 
   void

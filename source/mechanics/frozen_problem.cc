@@ -370,7 +370,8 @@ namespace geocone
       {
         if (m >= materials.size())
           throw RunError("the frozen problem has points of a material that its "
-                         "materials lack");
+                         "materials lack: the file is damaged\n  remedy:  "
+                         "freeze the step again ('Output/Freeze steps')");
         if (materials[m].has_history() &&
             materials[m].n_history() > points.n_history)
           throw RunError("the frozen problem lacks the history of its points, "
