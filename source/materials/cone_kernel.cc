@@ -25,8 +25,8 @@ namespace geocone
       return {cone.a,
               cone.b,
               cone.k / sqrt2,
-              cone.a > 0. ? cone.k / sqrt2 / cone.a :
-                            std::numeric_limits<double>::max(),
+              cone.a > 0. ? cone.k / sqrt2 / cone.a
+                          : std::numeric_limits<double>::max(),
               elasticity.normal_stiffness(),
               elasticity.two_G,
               elasticity.lambda + elasticity.two_G};

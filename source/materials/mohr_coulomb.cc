@@ -178,22 +178,17 @@ namespace geocone
     for (std::size_t p = 0; p < increment.strain.size(); ++p)
       {
         const std::size_t first = increment.n_history * p;
-        const FlowCone    law =
-          is_plain ? cone :
-                     *step_cone(increment.stress_n[p],
-                                increment.history_n + first,
-                                increment.step);
-        const Mandel trial =
+        const FlowCone    law   = is_plain ? cone
+                                           : *step_cone(increment.stress_n[p],
+                                                   increment.history_n + first,
+                                                   increment.step);
+        const Mandel      trial =
           increment.stress_n[p] + elasticity().stress(increment.strain[p]);
         const Mandel in_axes = to_cone_axes(trial);
         Mandel       returned;
         MandelMatrix tangent;
-        response.mode[p] = return_map(law,
-                                      K,
-                                      two_G,
-                                      in_axes,
-                                      returned,
-                                      linear ? &tangent : nullptr);
+        response.mode[p] = return_map(
+          law, K, two_G, in_axes, returned, linear ? &tangent : nullptr);
         if (!fixed && response.history != nullptr)
           {
             double *history = response.history + first;

@@ -55,17 +55,13 @@ namespace geocone
             const double rho_p = rho * elasticity.two_G;
             const Mandel z     = to_cone_axes(
               elasticity.strain(Mandel(s - points.stress[p])) - strain[p]);
-            const Mandel x = to_cone_axes(s);
-            Mandel       projected;
-            MandelMatrix J;
+            const Mandel   x = to_cone_axes(s);
+            Mandel         projected;
+            MandelMatrix   J;
             const double   k = cone->hardened(z).k;
             const FlowCone convex{cone->a, cone->a, k, cone->tension};
-            mode[p]                = return_map(convex,
-                                 1.,
-                                 1.,
-                                 Mandel(x - rho_p * cone->psi(z)),
-                                 projected,
-                                 &J);
+            mode[p] = return_map(
+              convex, 1., 1., Mandel(x - rho_p * cone->psi(z)), projected, &J);
             const Mandel R         = x - projected;
             error.largest_residual = std::max(error.largest_residual, R.norm());
             error.stress_scale     = std::max(error.stress_scale, x.norm());

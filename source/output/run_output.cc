@@ -264,8 +264,8 @@ namespace geocone
   RunOutput::friction_memory() const
   {
     // The strength of an instant ago is in the load: by tau dF/dt.
-    Json        delay;
-    const auto  n   = records.size();
+    Json         delay;
+    const auto   n   = records.size();
     const double tau = scene->materials.least_friction_memory();
     if (n > 1 && !scene->observation.conditions.empty())
       {
@@ -283,14 +283,14 @@ namespace geocone
   void
   RunOutput::warn_of_memory() const
   {
-    const Json  &memory = summary["friction_memory"];
-    const double work_part =
-      memory["work_relative"].is_null() ? 0. :
-                                          memory["work_relative"].get<double>();
-    const double delay = memory["load_delay_relative"].is_null() ?
-                           0. :
-                           memory["load_delay_relative"].get<double>();
-    std::string felt;
+    const Json  &memory    = summary["friction_memory"];
+    const double work_part = memory["work_relative"].is_null()
+                               ? 0.
+                               : memory["work_relative"].get<double>();
+    const double delay     = memory["load_delay_relative"].is_null()
+                               ? 0.
+                               : memory["load_delay_relative"].get<double>();
+    std::string  felt;
     if (work_part > 0.02)
       felt = format("its strength was off the exact one by %.2g %% of the "
                     "plastic work",

@@ -73,12 +73,12 @@ namespace geocone
         bool upright = false;
         for (const std::string &side : condition.sides)
           upright = upright || side == "left" || side == "right";
-        double     length = std::abs(high[upright] - low[upright]);
-        const auto centre = dealii::Point<dim>((low + high) / 2.);
-        const bool is_half =
-          std::abs(observation.factor) == 2. &&
-          std::count(
-            observation.conditions.begin(), observation.conditions.end(), c);
+        double     length  = std::abs(high[upright] - low[upright]);
+        const auto centre  = dealii::Point<dim>((low + high) / 2.);
+        const bool is_half = std::abs(observation.factor) == 2. &&
+                             std::count(observation.conditions.begin(),
+                                        observation.conditions.end(),
+                                        c);
         if (is_half)
           length *= 2.;
         double                 speed = 0.;

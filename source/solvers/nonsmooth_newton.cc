@@ -211,8 +211,7 @@ namespace geocone
     const bool   points_move = work.problem.points_move();
     const bool   elastic     = continuation.elastic_first;
     const Vector start       = work.v;
-    attempt(
-      Method::line_search, nullptr, points_move ? 40 : 12, elastic, work);
+    attempt(Method::line_search, nullptr, points_move ? 40 : 12, elastic, work);
     if (!work.report.converged && !points_move)
       {
         work.v = start;
@@ -245,9 +244,9 @@ namespace geocone
         return report;
       }
 
-    const bool                 associated = problem.non_associativity() == 0.;
-    const bool hard = problem.non_associativity() > Material::hard_flow;
-    bool                       elastic_first = hints.elastic_first;
+    const bool associated = problem.non_associativity() == 0.;
+    const bool hard       = problem.non_associativity() > Material::hard_flow;
+    bool       elastic_first = hints.elastic_first;
     std::vector<Mandel>        first_stress; // of the first iterate
     const std::vector<Mandel> *start_of_s = &problem.stress_at_start();
     if (first_iterate != FirstIterate::none)

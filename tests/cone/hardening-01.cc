@@ -60,19 +60,16 @@ check_cone(const FlowCone &cone)
         difference.add((C - differences).norm());
 
       // dP_C/dk, where k moves the set.
-      Mandel       projected;
+      Mandel         projected;
       const FlowCone associated{cone.a, cone.a, cone.k};
-      const Mode   where = return_map(associated,
-                                    1.,
-                                    1.,
-                                    t,
-                                    projected,
-                                    static_cast<MandelMatrix *>(nullptr));
-      const Mandel by_k  = (project(cone.a, cone.k + 1e-6, t) -
+      const Mode     where = return_map(
+        associated, 1., 1., t, projected, static_cast<MandelMatrix *>(nullptr));
+      const Mandel by_k = (project(cone.a, cone.k + 1e-6, t) -
                            project(cone.a, cone.k - 1e-6, t)) /
                           2e-6;
       if (smooth && (where == Mode::elastic || (t - projected).norm() > 1e-3))
-        projection.add((project_slope(associated, projected, where) - by_k).norm());
+        projection.add(
+          (project_slope(associated, projected, where) - by_k).norm());
     }
   std::cout << "a = " << cone.a << ", b = " << cone.b << ", k = " << cone.k
             << ", h = " << cone.hardening << ", cut-off " << cone.tension

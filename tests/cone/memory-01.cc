@@ -31,10 +31,11 @@ prepare(Law               &law,
         const std::string &more = "")
 {
   std::ostringstream text;
-  text << "subsection Materials\nsubsection " << name << "\nset Cohesion = " << c
-       << "\nset Friction angle = " << phi << "\nset Dilatancy angle = " << theta
-       << "\nset Young modulus = " << E << "\nset Poisson ratio = " << nu
-       << "\nset Friction memory = " << tau << "\n"
+  text << "subsection Materials\nsubsection " << name
+       << "\nset Cohesion = " << c << "\nset Friction angle = " << phi
+       << "\nset Dilatancy angle = " << theta << "\nset Young modulus = " << E
+       << "\nset Poisson ratio = " << nu << "\nset Friction memory = " << tau
+       << "\n"
        << more << "end\nend\n";
   auto &prm = dealii::ParameterAcceptor::prm;
   prm.parse_input_from_string(text.str());
@@ -87,7 +88,10 @@ struct Point
 
 /** Random paths: the law, its tangent, its work; and explicit steps. */
 void
-paths(const std::string &name, const double phi, const double theta, const double c)
+paths(const std::string &name,
+      const double       phi,
+      const double       theta,
+      const double       c)
 {
   MohrCoulomb law("Materials/" + name);
   prepare(law, name, phi, theta, c);
@@ -101,9 +105,10 @@ paths(const std::string &name, const double phi, const double theta, const doubl
       Point point(law, -scale * Mandel(1., 1., 0.));
       for (unsigned int n = 0; n < 60; ++n)
         {
-          const double h      = random(0., 1.) * tau;
-          const Mandel strain = random.vector<Mandel>(n % 7 == 0 ? 0.03 : 0.005);
-          const Point  before = point;
+          const double h = random(0., 1.) * tau;
+          const Mandel strain =
+            random.vector<Mandel>(n % 7 == 0 ? 0.03 : 0.005);
+          const Point before = point;
           point.step(strain, h);
           const Mandel s = to_cone_axes(point.stress);
           const double T = FlowCone::tangential_norm(s);
@@ -135,7 +140,8 @@ paths(const std::string &name, const double phi, const double theta, const doubl
               up.step(strain + change, h);
               down.step(strain - change, h);
               differences.col(j) = (up.stress - down.stress) / 2e-8;
-              smooth = smooth && up.mode == point.mode && down.mode == point.mode;
+              smooth =
+                smooth && up.mode == point.mode && down.mode == point.mode;
             }
           // The edge of the disc at the cut-off is a kink, too.
           if (smooth && point.mode != Mode::apex)
@@ -144,21 +150,21 @@ paths(const std::string &name, const double phi, const double theta, const doubl
           // Four lanes of an explicit step, by the kernel and without it.
           for (const bool kernel : {true, false})
             {
-              using Lanes = std::array<double, PointBlock::lanes>;
+              using Lanes      = std::array<double, PointBlock::lanes>;
               const auto lanes = [](const double value) {
                 Lanes all;
                 all.fill(value);
                 return all;
               };
               const Lanes xx = lanes(strain[0]), yy = lanes(strain[1]),
-                          xy = lanes(strain[2] / sqrt2 );
-              Lanes       s_xx = lanes(before.stress[0]),
-                    s_yy       = lanes(before.stress[1]),
-                    s_xy       = lanes(before.stress[2] / sqrt2), work, wave,
-                    plastic    = lanes(0.);
+                          xy = lanes(strain[2] / sqrt2);
+              Lanes s_xx     = lanes(before.stress[0]),
+                    s_yy     = lanes(before.stress[1]),
+                    s_xy     = lanes(before.stress[2] / sqrt2), work, wave,
+                    plastic  = lanes(0.);
               Lanes   histories[2] = {lanes(before.history[0]),
                                       lanes(before.history[1])};
-              double *arrays[2] = {histories[0].data(), histories[1].data()};
+              double *arrays[2]    = {histories[0].data(), histories[1].data()};
               const PointBlock block = {PointBlock::lanes,
                                         xx.data(),
                                         xy.data(),
@@ -191,7 +197,8 @@ paths(const std::string &name, const double phi, const double theta, const doubl
         }
     }
   std::cout << name << std::endl;
-  print("  points flow, and some end at the cut-off", n_cone > 1000 && n_apex > 100);
+  print("  points flow, and some end at the cut-off",
+        n_cone > 1000 && n_apex > 100);
   print("  some are above the exact strength", n_above > 100);
   print_below("  violation of the law/10 kPa", violation, "1e-12");
   print_below("  distance from the yield surface/10 kPa", on_cone, "1e-12");
@@ -216,12 +223,10 @@ error_of_lag(const Material &law, const unsigned int n_steps)
       Mandel       strain(-e_n / sqrt2, -e_n / sqrt2, 20. * h);
       point.step(strain, h);
     }
-  const double p =
-    start + rate * (end - tau * (1. - std::exp(-end / tau)));
+  const double p = start + rate * (end - tau * (1. - std::exp(-end / tau)));
   const double strength = exact.a * p + exact.k;
-  return std::abs(FlowCone::tangential_norm(to_cone_axes(point.stress)) /
-                    strength -
-                  1.);
+  return std::abs(
+    FlowCone::tangential_norm(to_cone_axes(point.stress)) / strength - 1.);
 }
 
 int
@@ -253,12 +258,8 @@ main()
 
   // With hardening: both histories, side by side.
   HardeningMohrCoulomb hardening("Materials/hardening");
-  prepare(hardening,
-          "hardening",
-          25.,
-          0.,
-          1000.,
-          "set Hardening modulus = 1e5\n");
+  prepare(
+    hardening, "hardening", 25., 0., 1000., "set Hardening modulus = 1e5\n");
   Point both(hardening, -1e4 * Mandel(1., 1., 0.));
   for (unsigned int n = 0; n < 100; ++n)
     both.step(shear, tau);

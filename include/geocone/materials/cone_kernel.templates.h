@@ -33,11 +33,11 @@ namespace geocone
   {
     using P = Pack<Arch>;
     // With memory: a and the radius are those of the delayed cone.
-    const double lagging = remembers ? cone.part * (cone.a - cone.b) : 0.;
-    const double aperture = cone.a - lagging;
-    double *const memory = remembers ? block.history[cone.place] : nullptr;
-    const P one(1.), half(0.5), quarter(0.25), zero(0.), tiny(1e-300);
-    const P a(aperture), b(cone.b), k(cone.radius), apex(cone.apex);
+    const double     lagging  = remembers ? cone.part * (cone.a - cone.b) : 0.;
+    const double     aperture = cone.a - lagging;
+    double *const    memory   = remembers ? block.history[cone.place] : nullptr;
+    const P          one(1.), half(0.5), quarter(0.25), zero(0.), tiny(1e-300);
+    const P          a(aperture), b(cone.b), k(cone.radius), apex(cone.apex);
     constexpr double root = 1.41421356237309504880;
     // s_n = -sqrt2 m, of which lambda mu/sqrt2 counts for the radius.
     const P least(-root * cone.apex), part_of_p(lagging / root),
@@ -63,9 +63,9 @@ namespace geocone
         const P d0 = cos2 * d - sin2 * sxy, s0 = sin2 * d + cos2 * sxy;
 
         const P mt = m0 + K_half * trace, dt = d0 + G * difference,
-                st  = s0 + G * shear;
-        const P tau = sqrt(dt * dt + st * st);
-        P radius = k;
+                st     = s0 + G * shear;
+        const P tau    = sqrt(dt * dt + st * st);
+        P       radius = k;
         if constexpr (remembers)
           radius = k + part_of_p * max(P::load(memory + p), least);
         P       f = tau - (radius - a * mt);
@@ -77,9 +77,10 @@ namespace geocone
           {
             // The cut-off is at the apex of the exact cone.
             const P m = mt - K * b * g;
-            tau_2     = where_greater(m, apex, min(tau, max(radius - a * apex, zero)), tau_1);
-            m1        = min(m, apex);
-            f         = max(f, mt - apex);
+            tau_2     = where_greater(
+              m, apex, min(tau, max(radius - a * apex, zero)), tau_1);
+            m1 = min(m, apex);
+            f  = max(f, mt - apex);
             (part * P::load(memory + p) - kept * m1).store(memory + p);
           }
         else
