@@ -49,6 +49,35 @@ namespace geocone
              "automatic where it is geostatic, or change the stress or the "
              "strength";
     }
+
+    /** What friction with memory makes of the steps, for the estimate.
+     *  @throws InputError if it makes too many of them */
+    std::string
+    text_of_memory(const Scene &scene)
+    {
+      const double tau = scene.materials.least_friction_memory();
+      if (!std::isfinite(tau))
+        return "";
+      double longest = 0.;
+      for (const auto &stage : scene.loading.stages)
+        for (const double size : stage->step_sizes())
+          longest = std::max(longest, size);
+      constexpr double most = 1e4;
+      for (unsigned int i = 0; i < scene.materials.size(); ++i)
+        if (const double own = scene.materials[i].friction_memory();
+            own > 0. && 2. * longest / own > most)
+          throw InputError(
+            "Materials/" + scene.materials.name(i) + "/Friction memory",
+            own,
+            format("0 | automatic | at least %.3g s, so that steps of %.3g s "
+                   "have at most %.0f substeps",
+                   2. * longest / most,
+                   longest,
+                   most),
+            "0 is the exact law; or take a longer memory, or shorter steps");
+      return format(
+        "friction has a memory of %.3g s, substeps at most half of it", tau);
+    }
   } // namespace
 
   StepControl::StepControl()
@@ -100,6 +129,8 @@ namespace geocone
       estimate_run(scene, method, mesh, seeding, run_output.fields_asked());
     log.print(options.name + ": " + estimate.text());
     estimate.check(options.force);
+    if (const std::string text = text_of_memory(scene); !text.empty())
+      log.print(options.name + ": " + text);
     mesh.prepare(scene, method);
     space.prepare(mesh, method);
     if (method.is_mpm())
@@ -230,6 +261,13 @@ namespace geocone
         done    = size == left ? h : done + size;
         reached = t + done;
         ++present.substeps;
+        if (run_output.verbosity == 1 && done < h && present.substeps % 20 == 0)
+          log.progress(format("step %u  t = %.4g s  %u substeps, %u iterations "
+                              "so far",
+                              step,
+                              reached,
+                              present.substeps,
+                              present.iterations));
         // Works add up over the substeps, and the worst of them counts.
         report.energies.external_work += present.last.energies.external_work;
         report.energies.dissipation += present.last.energies.dissipation;
