@@ -8,6 +8,7 @@
 #include <geocone/run/implicit_simulation.h>
 
 #include <fstream>
+#include <iostream>
 
 /** Runs a parameter file with overrides, silently, and returns its summary. */
 inline geocone::Json
@@ -27,8 +28,10 @@ simulate(const std::string              &file_name,
   geocone::ImplicitSimulation  simulation(MPI_COMM_WORLD, file, log);
   file.parse();
   geocone::RunOptions options;
-  options.name = "test";
+  options.name               = "test";
+  std::streambuf *const cerr = std::cerr.rdbuf(nullptr); // warnings
   simulation.run(options);
+  std::cerr.rdbuf(cerr);
   geocone::Json summary;
   std::ifstream("results/summary.json") >> summary;
   return summary;

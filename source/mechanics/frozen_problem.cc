@@ -330,9 +330,41 @@ namespace geocone
     return frozen;
   }
 
+  namespace
+  {
+    /** The points; where they were frozen without a memory that their law has
+     *  now, each remembers the stress that the step begins with. */
+    MaterialPoints
+    remembering(const MaterialPoints &frozen, const Materials &materials)
+    {
+      MaterialPoints points = frozen;
+      if (frozen.n_history >
+          1) // the memory of such a law would not be the last
+        return points;
+      points.n_history = 2;
+      points.history.assign(2 * points.material.size(), 0.);
+      bool remembered = false;
+      for (unsigned int i = 0; i < points.material.size(); ++i)
+        if (points.material[i] < materials.size())
+          {
+            const Material &law = materials[points.material[i]];
+            if (law.friction_memory() > 0. && law.n_history() == 2)
+              {
+                const Mandel &s = points.stress[i];
+                law.initialise(plane_strain_stress(s, 0.),
+                               &points.history[2 * i]);
+                if (frozen.n_history == 1)
+                  points.history[2 * i] = frozen.history[i];
+                remembered = true;
+              }
+          }
+      return remembered ? points : frozen;
+    }
+  } // namespace
+
   ThawedProblem::ThawedProblem(const FrozenProblem &frozen,
                                const Materials     &materials)
-    : points(frozen.points)
+    : points(remembering(frozen.points, materials))
   {
     const unsigned int n = frozen.kind.size();
     unknowns.free_row    = frozen.kind;

@@ -98,7 +98,7 @@ namespace geocone
       "Linear systems to solve before an attempt at a step is given up, at "
       "most 1000000; twice as many where it converges. 0: 30 for the elastic "
       "blend with the return map, 150 for the line search and associated flow "
-      "(slow starts are worth waiting for) but 30 for phi = 0, 12 for it and "
+      "(slow starts are worth waiting for) but 30 for phi = 0, 20 for it and "
       "FEM with friction that remembers, 100 for the natural map where nothing "
       "would follow and otherwise 40, and 60 for all else.",
       prm,
@@ -206,26 +206,24 @@ namespace geocone
   NonsmoothNewton::solve_with_memory(const LagContinuation &continuation,
                                      const StepWorkspace   &work) const
   {
-    // A step that the line search does not solve soon it hardly ever does; the
-    // natural map then does, but not for particles at their apex.
+    // A step that the line search does not solve soon it hardly ever does. The
+    // natural map then may, but not for particles at their apex; these start
+    // from explicit friction. What neither solves soon is better cut.
     const bool   points_move = work.problem.points_move();
     const bool   elastic     = continuation.elastic_first;
     const Vector start       = work.v;
-    attempt(Method::line_search, nullptr, points_move ? 40 : 12, elastic, work);
-    if (!work.report.converged && !points_move)
-      {
-        work.v = start;
-        attempt(Method::elastic_blend,
-                &work.problem.stress_at_start(),
-                60,
-                elastic,
-                work);
-      }
-    if (!work.report.converged)
-      {
-        work.v = start;
-        continuation.solve_from_explicit_friction(work);
-      }
+    attempt(Method::line_search, nullptr, points_move ? 40 : 20, elastic, work);
+    if (work.report.converged)
+      return;
+    work.v = start;
+    if (points_move)
+      continuation.solve_from_explicit_friction(work);
+    else
+      attempt(Method::elastic_blend,
+              &work.problem.stress_at_start(),
+              30,
+              elastic,
+              work);
   }
 
   SolverReport
