@@ -146,14 +146,9 @@ namespace geocone
         {
           throw;
         }
-      catch (const std::bad_alloc &)
-        {
-          return "out of memory\n  remedy:  'geocone --dry-run FILE.prm' tells "
-                 "how large a run is and by which parameter";
-        }
       catch (const std::exception &error)
         {
-          return error.what();
+          return text_of(error);
         }
       catch (...)
         {

@@ -88,13 +88,10 @@ namespace geocone
                        one.history.data());
         one.held_by[0] = 0;
         for (unsigned int c = 0; c < conditions.size(); ++c)
-          if (conditions[c]->imposition ==
-                BoundaryCondition::Imposition::points ||
-              conditions[c]->imposition ==
-                BoundaryCondition::Imposition::cell_averages)
-            if (in_first_row(
-                  *conditions[c], scene.geometry, seed.position, seed.volume))
-              one.held_by[0] = c + 1;
+          if (conditions[c]->holds() == Imposition::On::particles &&
+              in_first_row(
+                *conditions[c], scene.geometry, seed.position, seed.volume))
+            one.held_by[0] = c + 1;
         std::vector<double> properties(n_state + dim, 0.);
         StateRow            row(properties.data(), false);
         one.state(0, row);

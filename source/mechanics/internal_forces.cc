@@ -37,8 +37,9 @@ namespace geocone
   void
   InternalForces::begin_step(const double step)
   {
-    h   = step;
-    law = LocalLaw();
+    h              = step;
+    friction_lag   = 0.;
+    by_natural_map = false;
   }
 
   template <int n>
@@ -141,11 +142,10 @@ namespace geocone
   }
 
   void
-  InternalForces::residual(Vector         &part,
-                           const Vector   &v,
-                           const LocalLaw &local_law)
+  InternalForces::residual(Vector &part, const Vector &v, const LocalLaw &law)
   {
-    law = local_law;
+    friction_lag   = law.friction_lag;
+    by_natural_map = law.natural_map != nullptr;
     with_n_nodes(points.n_nodes, [&](const auto n_constant) {
       constexpr int n = n_constant;
       for (unsigned int c = 0; c < points.n_cells(); ++c)
@@ -159,7 +159,7 @@ namespace geocone
 
     previous_mode.swap(mode);
     map_error = NaturalMap::Error();
-    if (law.natural_map != nullptr)
+    if (by_natural_map)
       {
         map_error = law.natural_map->update(strain, mode);
         stress    = law.natural_map->stress();
@@ -201,7 +201,7 @@ namespace geocone
   double
   InternalForces::natural_map_error() const
   {
-    if (law.natural_map == nullptr)
+    if (!by_natural_map)
       return 0.;
     const double scale = Utilities::MPI::max(map_error.stress_scale, comm);
     return Utilities::MPI::max(map_error.largest_residual, comm) /

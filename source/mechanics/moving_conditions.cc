@@ -15,8 +15,6 @@ namespace geocone
 
   namespace
   {
-    using Imposition = BoundaryCondition::Imposition;
-
     /** The longest part of a line in one cell (m). */
     double
     cell_size_along(const BackgroundMesh       &mesh,
@@ -43,7 +41,7 @@ namespace geocone
   {
     const auto &list = scene.dirichlet.list;
     for (unsigned int c = 0; c < list.size(); ++c)
-      if (list[c]->imposition == Imposition::segments)
+      if (list[c]->holds() == Imposition::On::side)
         {
           supports.push_back({c, MovingBoundary(*list[c], scene.geometry, 0.)});
           for (MovingBoundary::Line &line : supports.back().boundary.lines)
@@ -75,24 +73,31 @@ namespace geocone
       }
   }
 
+  std::vector<unsigned int>
+  MovingConditions::count_held(const MaterialPoints &points) const
+  {
+    std::vector<unsigned int> own(scene.dirichlet.list.size()), all(own.size());
+    for (const unsigned int held : points.held_by)
+      if (held > 0)
+        ++own[held - 1];
+    Utilities::MPI::sum(ArrayView<const unsigned int>(own),
+                        mesh.triangulation().get_communicator(),
+                        ArrayView<unsigned int>(all));
+    return all;
+  }
+
   void
   MovingConditions::check_held_particles(const MaterialPoints &points) const
   {
-    const auto &list = scene.dirichlet.list;
-    for (unsigned int c = 0; c < list.size(); ++c)
-      {
-        const unsigned int n_held =
-          std::count(points.held_by.begin(), points.held_by.end(), c + 1);
-        if ((list[c]->imposition == Imposition::points ||
-             list[c]->imposition == Imposition::cell_averages) &&
-            Utilities::MPI::sum(n_held,
-                                mesh.triangulation().get_communicator()) == 0)
-          throw InputError(list[c]->parameter("Box"),
-                           list[c]->part(),
-                           "a part of a side with particles under it",
-                           "this condition holds no particle: check its sides "
-                           "and its box");
-      }
+    const std::vector<unsigned int> n_held = count_held(points);
+    for (unsigned int c = 0; c < n_held.size(); ++c)
+      if (const BoundaryCondition &condition = *scene.dirichlet.list[c];
+          condition.holds() == Imposition::On::particles && n_held[c] == 0)
+        throw InputError(condition.parameter("Box"),
+                         condition.part(),
+                         "a part of a side with particles under it",
+                         "this condition holds no particle: check its sides "
+                         "and its box");
   }
 
   void
@@ -171,19 +176,14 @@ namespace geocone
   }
 
   void
-  MovingConditions::make_rows(const MaterialPoints &points,
-                              const Vector         &prescribed,
-                              const double          t,
-                              Constraints          &constraints) const
+  MovingConditions::add_rows_of_sides(const double t, Multipliers &rows) const
   {
-    Multipliers &rows = constraints.multipliers;
-    rows.clear();
-    const auto         &list = scene.dirichlet.list;
     std::vector<double> part_in_mesh;
     for (const Side &side : supports)
       {
-        const BoundaryCondition &condition = *list[side.condition];
-        unsigned int             number    = 0;
+        const BoundaryCondition &condition =
+          *scene.dirichlet.list[side.condition];
+        unsigned int number = 0;
         for (const MovingBoundary::Line &line : side.boundary.lines)
           {
             part_in_mesh.push_back(0.);
@@ -194,63 +194,110 @@ namespace geocone
                      mesh, space, line.a + s * part, line.a + (s + 1.) * part))
                 {
                   part_in_mesh.back() += point.weight / condition.n_segments;
-                  for (unsigned int d = 0; d < dim; ++d)
-                    if (condition.components[d])
-                      {
-                        const Multipliers::Key key{side.condition, d, number};
-                        for (unsigned int i = 0; i < point.nodes.size(); ++i)
-                          rows.add_coefficient(key,
-                                               point.nodes[i],
-                                               point.weight * point.values[i]);
-                        rows.add_target(
-                          key,
-                          point.weight *
-                            condition.components[d]->value(point.position, t));
-                      }
+                  add_to_row(side.condition,
+                             {number, point.weight},
+                             point.position,
+                             t,
+                             point.nodes,
+                             point.values.data(),
+                             rows);
                 }
           }
       }
     if (!supports.empty())
       check_in_mesh(scene.dirichlet, supports, part_in_mesh);
+  }
 
-    const unsigned int                   n = points.n_nodes;
+  void
+  MovingConditions::add_rows_of_particles(const MaterialPoints &points,
+                                          const double          t,
+                                          Multipliers          &rows) const
+  {
+    const std::vector<unsigned int>      n_held = count_held(points);
     std::vector<types::global_dof_index> nodes;
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       {
-        const unsigned int begin = points.first_point[c],
-                           end   = points.first_point[c + 1];
-        for (unsigned int p = begin; p < end; ++p)
-          if (points.held_by[p] > 0)
+        const auto first = points.held_by.begin() + points.first_point[c],
+                   last  = points.held_by.begin() + points.first_point[c + 1];
+        for (unsigned int p = points.first_point[c];
+             p < points.first_point[c + 1];
+             ++p)
+          if (const unsigned int held = points.held_by[p]; held > 0)
             {
-              const unsigned int       held      = points.held_by[p];
-              const BoundaryCondition &condition = *list[held - 1];
-              const bool               average =
-                condition.imposition == Imposition::cell_averages;
-              const double weight =
-                average ? 1. / std::count(points.held_by.begin() + begin,
-                                          points.held_by.begin() + end,
-                                          held)
-                        : 1.;
+              const Imposition::Share share =
+                scene.dirichlet.list[held - 1]->imposition.get()->share(
+                  {points.id[p],
+                   static_cast<unsigned int>(
+                     points.cells[c]->global_active_cell_index()),
+                   static_cast<unsigned int>(std::count(first, last, held)),
+                   n_held[held - 1]});
               space.cell_nodes(points.cells[c], nodes);
-              for (unsigned int d = 0; d < dim; ++d)
-                if (condition.components[d])
-                  {
-                    const Multipliers::Key key{
-                      held - 1,
-                      d,
-                      average ? static_cast<unsigned int>(
-                                  points.cells[c]->global_active_cell_index())
-                              : points.id[p]};
-                    for (unsigned int i = 0; i < n; ++i)
-                      rows.add_coefficient(
-                        key, nodes[i], weight * points.values[p * n + i]);
-                    rows.add_target(key,
-                                    weight * condition.components[d]->value(
-                                               points.position[p], t));
-                  }
+              add_to_row(held - 1,
+                         share,
+                         points.position[p],
+                         t,
+                         nodes,
+                         &points.values[p * points.n_nodes],
+                         rows);
             }
       }
-    rows.assemble(scene, space, constraints, prescribed);
+  }
+
+  void
+  MovingConditions::add_to_row(
+    const unsigned int                          c,
+    const Imposition::Share                    &share,
+    const Point<dim>                           &x,
+    const double                                t,
+    const std::vector<types::global_dof_index> &nodes,
+    const double                               *values,
+    Multipliers                                &rows) const
+  {
+    const BoundaryCondition &condition = *scene.dirichlet.list[c];
+    for (unsigned int d = 0; d < dim; ++d)
+      if (condition.components[d])
+        {
+          const Multipliers::Key key{c, d, share.row};
+          for (unsigned int i = 0; i < nodes.size(); ++i)
+            rows.add_coefficient(key, nodes[i], share.weight * values[i]);
+          rows.add_target(key,
+                          share.weight * condition.components[d]->value(x, t));
+        }
+  }
+
+  void
+  MovingConditions::make_rows(const MaterialPoints &points,
+                              const Vector         &prescribed,
+                              const double          t,
+                              Constraints          &constraints) const
+  {
+    Multipliers &rows = constraints.multipliers;
+    rows.clear();
+    add_rows_of_sides(t, rows);
+    add_rows_of_particles(points, t, rows);
+    const auto refusal = rows.assemble(space, constraints, prescribed);
+    if (!refusal)
+      return;
+    const BoundaryCondition &condition =
+      *scene.dirichlet.list[refusal->key.condition];
+    if (!refusal->is_supported)
+      throw InputError(
+        condition.parameter("Box"),
+        condition.part(),
+        "a part of a side with particles near it",
+        "no function with mass supports the constraint: check "
+        "its sides and its box, or whether the body has left it");
+    const unsigned int component = refusal->key.component;
+    throw InputError(
+      condition.parameter(component == 0 ? "Velocity x" : "Velocity y"),
+      condition.formula(component),
+      "velocities that the functions of the space can take",
+      format("its rows depend on each other but contradict: %g "
+             "m/s is asked where the others leave %g m/s; impose "
+             "segments or cell averages, or a velocity that is "
+             "the same for all its points",
+             refusal->asked,
+             refusal->left));
   }
 
   void

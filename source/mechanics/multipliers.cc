@@ -1,8 +1,6 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/base/exceptions.h>
-#include <geocone/base/log.h>
 #include <geocone/mechanics/constraints.h>
 #include <geocone/mechanics/multipliers.h>
 
@@ -75,9 +73,8 @@ namespace geocone
                               value}});
   }
 
-  void
-  Multipliers::assemble(const Scene       &scene,
-                        const Space       &space,
+  std::optional<Multipliers::Refusal>
+  Multipliers::assemble(const Space       &space,
                         const Constraints &constraints,
                         const Vector      &prescribed)
   {
@@ -104,7 +101,7 @@ namespace geocone
     contributions.clear();
     given = rows.size();
     if (given == 0)
-      return;
+      return std::nullopt;
 
     // What each touched dof is, as its owner knows: free, prescribed (with its
     // value), or without mass.
@@ -148,12 +145,7 @@ namespace geocone
               free += std::abs(coefficient);
           }
         if (!(supported > 1e-8 * all))
-          throw InputError(
-            scene.dirichlet.list[name[0]]->parameter("Box"),
-            scene.dirichlet.list[name[0]]->part(),
-            "a part of a side with particles near it",
-            "no function with mass supports the constraint: check its sides "
-            "and its box, or whether the body has left it");
+          return Refusal{{name[0], name[1], name[2]}, false};
         asked.push_back({{name[0], name[1], name[2]}, row.target, all});
         target[r] = row.target;
         scale     = std::max(scale, std::abs(row.target));
@@ -205,17 +197,10 @@ namespace geocone
                 rank > 0 ? VectorXd(basis.solve(full.row(i).transpose())).dot(q)
                          : 0.;
               if (std::abs(left - target[i]) > rank_tolerance * scale)
-                throw InputError(
-                  scene.dirichlet.list[names[i][0]]->parameter(
-                    names[i][1] == 0 ? "Velocity x" : "Velocity y"),
-                  scene.dirichlet.list[names[i][0]]->formula(names[i][1]),
-                  "velocities that the functions of the space can take",
-                  format("its rows depend on each other but contradict: %g m/s "
-                         "is asked where the others leave %g m/s; impose "
-                         "segments or cell averages, or a velocity that is "
-                         "the same for all its points",
-                         rows[names[i]].target,
-                         rows[names[i]].target - target[i] + left));
+                return Refusal{{names[i][0], names[i][1], names[i][2]},
+                               true,
+                               rows[names[i]].target,
+                               rows[names[i]].target - target[i] + left};
             }
       }
 
@@ -230,6 +215,7 @@ namespace geocone
     H.resize(rank, touched.size());
     for (unsigned int j = 0; j < touched.size(); ++j)
       H.col(j) = independent.col(columns[j]);
+    return std::nullopt;
   }
 
   VectorXd

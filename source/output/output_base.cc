@@ -144,11 +144,7 @@ namespace geocone
           dynamic_cast<const StepFailure *>(&error) != nullptr;
         status = is_stopped
                    ? error.what() + std::string("; its files are whole")
-                 : dynamic_cast<const std::bad_alloc *>(&error) != nullptr
-                   ? std::string("failed: out of memory\n  remedy:  a smaller "
-                                 "run; 'geocone --dry-run FILE.prm' tells how "
-                                 "large this one is and by which parameter")
-                   : std::string("failed: ") + error.what();
+                   : "failed: " + text_of(error);
         if (is_stopped || is_step)
           write_all(status);
       }

@@ -16,7 +16,6 @@ namespace geocone
 
   namespace
   {
-    using Imposition = BoundaryCondition::Imposition;
 
     /** A Mandel vector turned by an angle: Q t Q'. */
     Mandel
@@ -557,7 +556,7 @@ namespace geocone
       return nullptr;
     const BoundaryCondition &condition =
       *scene->dirichlet.list[points.held_by[p] - 1];
-    return condition.imposition == Imposition::points ? &condition : nullptr;
+    return condition.imposition.get()->single ? &condition : nullptr;
   }
 
   std::string

@@ -30,8 +30,9 @@ EITHER = {"fem_unload_theta0", "fem_failed_blend_theta0", "fem_failed_lag_theta0
 CUT = {"fem_failed_lag_theta0", "fem_huge_step_theta0", "fem_unload_theta0",
        "mpm_slope_failed_lag_theta0", "mpm_slope_huge_theta0"}
 
-# Iterations that no problem of a class may need: about a quarter more than today.
-BOUNDS = {("fem", "assoc"): 220, ("fem", "half"): 45, ("fem", "theta0"): 55,
+# Iterations that no problem of a class may need: about a quarter more than was seen
+# (fem_nu049_theta0_cold took 74 with assertions, where it is rounded otherwise).
+BOUNDS = {("fem", "assoc"): 220, ("fem", "half"): 45, ("fem", "theta0"): 95,
           ("mpm", "assoc"): 40, ("mpm", "half"): 50, ("mpm", "theta0"): 85}
 NATURAL_MAP = 1e-11
 AGREEMENT = 1e-9  # of stresses, relative to the largest one
@@ -64,7 +65,7 @@ def solve(program, file, folder, *settings):
     for text in ("Output/If folder exists = overwrite",
                  "Time stepping/Friction = exact", *settings):
         command += ["--set", text]
-    result = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    result = subprocess.run(command, capture_output=True, text=True, timeout=600)
     if not (folder / "summary.json").exists():
         return None, result.stderr.strip() or f"exit code {result.returncode}"
     summary = json.loads((folder / "summary.json").read_text())

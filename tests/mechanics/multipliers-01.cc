@@ -95,14 +95,19 @@ check(const std::string        &name,
         }
     }
   constraints.set_values(v, 0.);
-  try
+  if (const auto refusal = rows.assemble(space, constraints, v))
     {
-      rows.assemble(setup.scene, space, constraints, v);
-    }
-  catch (const InputError &error)
-    {
-      if (speaks())
-        std::printf("  %s\n", error.what());
+      if (speaks() && refusal->is_supported)
+        std::printf(
+          "  row %u of condition %u asks for %g m/s, but %g m/s is left\n",
+          refusal->key.number,
+          refusal->key.condition,
+          refusal->asked,
+          refusal->left);
+      else if (speaks())
+        std::printf("  row %u of condition %u has no function with mass\n",
+                    refusal->key.number,
+                    refusal->key.condition);
       return;
     }
   if (speaks())

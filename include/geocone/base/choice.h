@@ -34,6 +34,12 @@ namespace geocone
       return value;
     }
 
+    Enum
+    get() const
+    {
+      return value;
+    }
+
     Choice &
     operator=(const Enum other)
     {

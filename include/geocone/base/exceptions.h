@@ -4,6 +4,7 @@
 #ifndef geocone_base_exceptions_h
 #define geocone_base_exceptions_h
 
+#include <new>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -24,6 +25,16 @@ namespace geocone
       else
         shown += c;
     return text.size() > 200 ? shown + "..." : shown;
+  }
+
+  /** What an error says; of memory that is not there, with a remedy. */
+  inline std::string
+  text_of(const std::exception &error)
+  {
+    if (dynamic_cast<const std::bad_alloc *>(&error) != nullptr)
+      return "out of memory\n  remedy:  a smaller run; 'geocone --dry-run "
+             "FILE.prm' tells how large it is and by which parameter";
+    return error.what();
   }
 
   /**

@@ -170,7 +170,7 @@ namespace geocone
     StepLaw
     step_law() const
     {
-      return {h, law.friction_lag};
+      return {h, friction_lag};
     }
 
     /** Asks the materials, run by run. */
@@ -181,7 +181,7 @@ namespace geocone
     void
     update_tangents() const
     {
-      if (law.natural_map == nullptr)
+      if (!by_natural_map)
         update_materials(true);
     }
 
@@ -206,8 +206,13 @@ namespace geocone
     TurnedDofs            turned;
 
     double            h = 0.;
-    LocalLaw          law; ///< of the last residual()
     NaturalMap::Error map_error;
+
+    /** @name The law of the last residual() */
+    /** @{ */
+    double friction_lag   = 0.;
+    bool   by_natural_map = false; ///< its tangents are there
+    /** @} */
 
     std::vector<Mandel>               strain;
     mutable std::vector<Mandel>       stress;

@@ -38,6 +38,8 @@ namespace geocone
     /**
      * Makes the rows H v = q, with q at time t. Collective.
      * @throws StepFailure if a side is no longer in the mesh
+     * @throws InputError for rows that no function supports or that contradict
+     * each other
      */
     void
     make_rows(const MaterialPoints &points,
@@ -63,6 +65,31 @@ namespace geocone
       unsigned int   condition;
       MovingBoundary boundary;
     };
+
+    /** Held particles of each condition, of all ranks. Collective. */
+    std::vector<unsigned int>
+    count_held(const MaterialPoints &points) const;
+
+    /** @name The rows of supports, as they are at time t */
+    /** @{ */
+    void
+    add_rows_of_sides(const double t, Multipliers &rows) const;
+    void
+    add_rows_of_particles(const MaterialPoints &points,
+                          const double          t,
+                          Multipliers          &rows) const;
+
+    /** Adds a place x, with the functions that are not zero there, to a row of
+     *  a condition for each component that it prescribes. */
+    void
+    add_to_row(const unsigned int                                  condition,
+               const Imposition::Share                            &share,
+               const dealii::Point<dim>                           &x,
+               const double                                        t,
+               const std::vector<dealii::types::global_dof_index> &nodes,
+               const double                                       *values,
+               Multipliers                                        &rows) const;
+    /** @} */
 
     /** Adds the part of a load that acts at a point of a line. */
     void

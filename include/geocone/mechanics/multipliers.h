@@ -5,11 +5,11 @@
 #define geocone_mechanics_multipliers_h
 
 #include <geocone/discretisation/space.h>
-#include <geocone/scene/scene.h>
 
 #include <Eigen/Dense>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace geocone
@@ -32,6 +32,15 @@ namespace geocone
       unsigned int condition;
       unsigned int component;
       unsigned int number;
+    };
+
+    /** A row that cannot be fulfilled. */
+    struct Refusal
+    {
+      Key    key;
+      bool   is_supported; ///< else no function with mass is in it
+      double asked = 0.;   ///< its target (m/s)
+      double left  = 0.;   ///< what the rows that it depends on leave (m/s)
     };
 
     Multipliers() = default;
@@ -64,12 +73,11 @@ namespace geocone
      * right-hand side; functions without mass are left out, and the remaining
      * coefficients of a row scaled so that its sum stays.
      * @param prescribed a vector that has the values of prescribed dofs
-     * @throws InputError for rows that no function supports, and for rows that
-     * contradict each other
+     * @return the first row that cannot be fulfilled, the same on all ranks, or
+     * nothing. Collective.
      */
-    void
-    assemble(const Scene       &scene,
-             const Space       &space,
+    std::optional<Refusal>
+    assemble(const Space       &space,
              const Constraints &constraints,
              const Vector      &prescribed);
 

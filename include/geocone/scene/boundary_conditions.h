@@ -4,9 +4,9 @@
 #ifndef geocone_scene_boundary_conditions_h
 #define geocone_scene_boundary_conditions_h
 
-#include <geocone/base/choice.h>
 #include <geocone/base/parameter_file.h>
 #include <geocone/scene/expression.h>
+#include <geocone/scene/imposition.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/tensor.h>
@@ -78,26 +78,8 @@ namespace geocone
     /** Names of the sides. */
     std::vector<std::string> sides;
 
-    /**
-     * What a prescribed velocity holds. With FEM: nodes. With MPM:
-     *  - nodes: the grid functions on sides of the background mesh;
-     *  - points: the particles of the first row under a side of the body;
-     *  - cell averages: the mean over those of them that share a cell;
-     *  - segments: the exact averages of the velocity over equal parts of a side
-     *    of the body, which moves with the prescribed velocity.
-     */
-    enum class Imposition
-    {
-      nodes,
-      points,
-      cell_averages,
-      segments
-    };
-    Choice<Imposition> imposition = {
-      {{"nodes", Imposition::nodes},
-       {"points", Imposition::points},
-       {"cell averages", Imposition::cell_averages},
-       {"segments", Imposition::segments}}};
+    /** How a prescribed velocity is imposed. */
+    Choice<const Imposition *> imposition = imposition_choice();
 
     /** Number of parts for `segments`. */
     unsigned int n_segments = 2;
@@ -105,11 +87,18 @@ namespace geocone
     /** The side is taken this many cell sizes shorter for `segments`. */
     double shortening = 0.;
 
+    /** What of the body or the mesh a prescribed velocity holds. */
+    Imposition::On
+    holds() const
+    {
+      return imposition.get()->on;
+    }
+
     /** Whether it holds particles or a side of the body, and not nodes. */
     bool
     moves() const
     {
-      return imposition != Imposition::nodes;
+      return holds() != Imposition::On::nodes;
     }
 
     /** Per component: the value as a function of (x, y, t), or nothing. */
