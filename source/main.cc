@@ -5,6 +5,7 @@
 #include <geocone/base/version.h>
 #include <geocone/command_line.h>
 #include <geocone/element/element_test.h>
+#include <geocone/limit_analysis/limit_analysis.h>
 #include <geocone/output/run_folder.h>
 #include <geocone/replay.h>
 #include <geocone/run/explicit_simulation.h>
@@ -69,12 +70,15 @@ namespace
       : point(MPI_COMM_WORLD, file, log)
       , implicit(MPI_COMM_WORLD, file, log)
       , explicit_mpm(MPI_COMM_WORLD, file, log)
+      , limit_analysis(MPI_COMM_WORLD, file, log)
     {}
 
     /** That of the parameter file, which has been parsed. */
     Simulation &
     chosen()
     {
+      if (limit_analysis.kind() == AnalysisKind::limit_load)
+        return limit_analysis;
       const std::string name = ParameterFile::value("Discretisation/Method");
       if (name == "point")
         return point;
@@ -86,6 +90,7 @@ namespace
     ElementTest        point;
     ImplicitSimulation implicit;
     ExplicitSimulation explicit_mpm;
+    LimitAnalysis      limit_analysis;
   };
 
   /** All parameters with an example of each kind of named section.

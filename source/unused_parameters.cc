@@ -25,6 +25,12 @@ namespace geocone
     const std::vector<std::string> of_scenes = {"FEM", "MPM", "explicit MPM"};
 
     const std::vector<Rule> rules = {
+      {"Analysis/Load factor of", "Analysis/Kind", {"limit load"}},
+      {"Analysis/Gap tolerance", "Analysis/Kind", {"limit load"}},
+      {"Analysis/Growth of meshes", "Analysis/Kind", {"limit load"}},
+      {"Analysis/Maximum cells", "Analysis/Kind", {"limit load"}},
+      {"Analysis/Maximum levels", "Analysis/Kind", {"limit load"}},
+      {"Analysis/Solver tolerance", "Analysis/Kind", {"limit load"}},
       {"Element/*", method, {"point"}},
       {"Path/*", method, {"point"}},
       {"Path/*/*", method, {"point"}},

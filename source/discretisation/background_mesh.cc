@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/discretisation/background_mesh.h>
+#include <geocone/discretisation/fitted_mesh.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -19,29 +20,6 @@
 namespace geocone
 {
   using namespace dealii;
-
-  namespace
-  {
-    const std::map<std::string, types::boundary_id> sides_of_box = {
-      {"bottom", 0}, {"right", 1}, {"top", 2}, {"left", 3}};
-
-    /** The side of a polygon on which x lies (the nearest one). */
-    types::boundary_id
-    nearest_side(const Polygon &outline, const Point<dim> &x)
-    {
-      std::size_t nearest  = 0;
-      double      distance = std::numeric_limits<double>::max();
-      for (std::size_t i = 0; i < outline.size(); ++i)
-        if (const double d = distance_to_segment(
-              x, outline[i], outline[(i + 1) % outline.size()]);
-            d < distance)
-          {
-            distance = d;
-            nearest  = i;
-          }
-      return nearest;
-    }
-  } // namespace
 
   BackgroundMesh::BackgroundMesh(const MPI_Comm comm)
     : ParameterAcceptor("/Mesh")
@@ -118,35 +96,13 @@ namespace geocone
   BackgroundMesh::prepare(const Scene &scene, const Method &method)
   {
     parameters.prepare(scene.geometry, method);
-    const Geometry &geometry = scene.geometry;
-
-    CoarseMesh mesh;
-    if (geometry.shape == Geometry::Shape::file)
-      mesh = mesh_of_file(geometry, scene.regions, comm);
-    else
-      {
-        mesh = parameters.type == MeshParameters::Type::unstructured
-                 ? unstructured_mesh(parameters, scene.regions, comm)
-                 : structured_mesh(parameters);
-        for (auto &cell : mesh.cells)
-          cell.material_id = scene.regions.material_at(mesh.centre(cell), -1);
-        mesh.sides = method.is_mpm() ? sides_of_box : geometry.sides;
-        for (const auto &edge : mesh.outer_edges())
-          {
-            CellData<1> line(2);
-            line.vertices = {edge[0], edge[1]};
-            line.boundary_id =
-              nearest_side(parameters.outline,
-                           0.5 * (mesh.points[edge[0]] + mesh.points[edge[1]]));
-            mesh.boundary.boundary_lines.push_back(line);
-          }
-      }
-    sides      = mesh.sides;
-    lines      = mesh.grid;
-    simplicial = mesh.has_triangles();
+    const CoarseMesh mesh = fitted_mesh(parameters, scene, method, comm);
+    sides                 = mesh.sides;
+    lines                 = mesh.grid;
+    simplicial            = mesh.has_triangles();
     if (simplicial && method.is_mpm())
       throw InputError("Geometry/File",
-                       geometry.file,
+                       scene.geometry.file,
                        "quadrilaterals with MPM",
                        "particles move through quadrilaterals only: recombine "
                        "the triangles in gmsh, or set Discretisation/Method = "
@@ -272,27 +228,7 @@ namespace geocone
   std::set<types::boundary_id>
   BackgroundMesh::side_ids(const BoundaryCondition &condition) const
   {
-    std::set<types::boundary_id> ids;
-    for (const std::string &name : condition.sides)
-      {
-        if (name == "all")
-          {
-            for (const auto id : tria->get_boundary_ids())
-              ids.insert(id);
-            continue;
-          }
-        const auto side = sides.find(name);
-        if (side == sides.end())
-          {
-            std::string known = "all";
-            for (const auto &entry : sides)
-              known += ", " + entry.first;
-            throw InputError(
-              condition.parameter("Sides"), name, known, "choose some of them");
-          }
-        ids.insert(side->second);
-      }
-    return ids;
+    return geocone::side_ids(condition, sides, tria->get_boundary_ids());
   }
 
   std::optional<Point<dim>>

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/discretisation/fitted_mesh.h>
 #include <geocone/discretisation/msh_mesh.h>
 
 #include <deal.II/base/mpi.h>
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <set>
 
@@ -274,10 +276,41 @@ namespace geocone
 
   namespace
   {
-    /** The mesh of the domain by gmsh, from numbers only. */
+    /** Sizes as gmsh's background field, by a view that is data. */
+    void
+    set_sizes(const CellSizes &sizes)
+    {
+      // x of the corners, then y, z and the values.
+      std::vector<double> data;
+      data.reserve(12 * sizes.triangles.size());
+      double smallest = std::numeric_limits<double>::max(), largest = 0.;
+      for (std::size_t i = 0; i < sizes.triangles.size(); ++i)
+        {
+          for (unsigned int d = 0; d < dim; ++d)
+            for (const Point<dim> &x : sizes.triangles[i])
+              data.push_back(x[d]);
+          data.insert(data.end(), 3, 0.);
+          for (const double size : sizes.sizes[i])
+            {
+              data.push_back(size);
+              smallest = std::min(smallest, size);
+              largest  = std::max(largest, size);
+            }
+        }
+      const int view = gmsh::view::add("sizes");
+      gmsh::view::addListData(view, "ST", sizes.triangles.size(), data);
+      const int field = gmsh::model::mesh::field::add("PostView");
+      gmsh::model::mesh::field::setNumber(field, "ViewIndex", 0);
+      gmsh::model::mesh::field::setAsBackgroundMesh(field);
+      gmsh::option::setNumber("Mesh.MeshSizeMin", smallest);
+      gmsh::option::setNumber("Mesh.MeshSizeMax", largest);
+    }
+
+    /** The mesh of the domain by gmsh, from numbers only. @param sizes or null */
     MshData
     mesh_domain(const MeshParameters &parameters,
                 const Regions        &regions,
+                const CellSizes      *sizes,
                 const std::string    &what)
     {
       namespace occ = gmsh::model::occ;
@@ -310,7 +343,9 @@ namespace geocone
       for (const auto &piece : origin[0])
         surfaces.insert(piece.second);
 
-      if (parameters.grading_points.empty())
+      if (sizes != nullptr)
+        set_sizes(*sizes);
+      else if (parameters.grading_points.empty())
         {
           // A cell is no larger than the domain.
           double extent = 0.;
@@ -359,19 +394,40 @@ namespace geocone
     }
   } // namespace
 
+  namespace
+  {
+    CoarseMesh
+    mesh_by_gmsh(const MeshParameters &parameters,
+                 const Regions        &regions,
+                 const CellSizes      *sizes,
+                 const MPI_Comm        comm)
+    {
+      const std::string what = "the mesh that gmsh has made";
+      const auto        mesh = [&]() {
+        return with_gmsh(
+          "gmsh cannot mesh the domain",
+          "change 'Mesh/Smallest size', 'Mesh/Size ratio' or "
+                 "'Mesh/Gmsh algorithm'",
+          [&]() { return mesh_domain(parameters, regions, sizes, what); });
+      };
+      return coarse_mesh(from_first_rank(comm, mesh), what, regions);
+    }
+  } // namespace
+
   CoarseMesh
   unstructured_mesh(const MeshParameters &parameters,
                     const Regions        &regions,
                     const MPI_Comm        comm)
   {
-    const std::string what = "the mesh that gmsh has made";
-    const auto        mesh = [&]() {
-      return with_gmsh(
-        "gmsh cannot mesh the domain",
-        "change 'Mesh/Smallest size', 'Mesh/Size ratio' or "
-               "'Mesh/Gmsh algorithm'",
-        [&]() { return mesh_domain(parameters, regions, what); });
-    };
-    return coarse_mesh(from_first_rank(comm, mesh), what, regions);
+    return mesh_by_gmsh(parameters, regions, nullptr, comm);
+  }
+
+  CoarseMesh
+  mesh_with_sizes(const MeshParameters &parameters,
+                  const Regions        &regions,
+                  const CellSizes      &sizes,
+                  const MPI_Comm        comm)
+  {
+    return mesh_by_gmsh(parameters, regions, &sizes, comm);
   }
 } // namespace geocone

@@ -1,0 +1,57 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_discretisation_fitted_mesh_h
+#define geocone_discretisation_fitted_mesh_h
+
+#include <geocone/discretisation/coarse_mesh.h>
+#include <geocone/scene/scene.h>
+
+#include <array>
+#include <set>
+#include <vector>
+
+namespace geocone
+{
+  /** Sizes that an unstructured mesh is to have, linear on triangles that cover
+   *  the domain (m). */
+  struct CellSizes
+  {
+    std::vector<std::array<dealii::Point<dim>, 3>> triangles;
+    std::vector<std::array<double, 3>>             sizes; ///< at the corners
+  };
+
+  /**
+   * The mesh of a scene, with the materials of its cells and the sides of its
+   * boundary. Collective.
+   * @param parameters prepared for the scene and the method
+   * @param sizes instead of those of the parameters; then gmsh makes the mesh
+   * @throws InputError
+   */
+  CoarseMesh
+  fitted_mesh(const MeshParameters &parameters,
+              const Scene          &scene,
+              const Method         &method,
+              const MPI_Comm        comm,
+              const CellSizes      *sizes = nullptr);
+
+  /**
+   * The numbers of the sides of a condition.
+   * @param sides their names
+   * @param all all that the boundary has, for "all"
+   * @throws InputError for a name that no side has
+   */
+  std::set<dealii::types::boundary_id>
+  side_ids(const BoundaryCondition                                 &condition,
+           const std::map<std::string, dealii::types::boundary_id> &sides,
+           const std::vector<dealii::types::boundary_id>           &all);
+
+  /** As unstructured_mesh(), with these sizes. Collective. */
+  CoarseMesh
+  mesh_with_sizes(const MeshParameters &parameters,
+                  const Regions        &regions,
+                  const CellSizes      &sizes,
+                  const MPI_Comm        comm);
+} // namespace geocone
+
+#endif

@@ -1,0 +1,172 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_limit_analysis_bound_problem_h
+#define geocone_limit_analysis_bound_problem_h
+
+#include <geocone/discretisation/coarse_mesh.h>
+#include <geocone/scene/scene.h>
+
+#include <Eigen/Dense>
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /** The triangles of a mesh as plain arrays. */
+  struct Triangles
+  {
+    explicit Triangles(const CoarseMesh &mesh);
+
+    struct Edge
+    {
+      std::array<unsigned int, 2> vertices;
+      int                         side = -1; ///< boundary id, or -1 inside
+    };
+
+    std::vector<dealii::Point<dim>>          vertices;
+    std::vector<std::array<unsigned int, 3>> cells; ///< counterclockwise
+    std::vector<unsigned int>                material;
+    std::vector<std::array<unsigned int, 3>>
+                      edges_of_cell; ///< edge i is opposite to vertex i
+    std::vector<Edge> edges;
+
+    std::map<std::string, dealii::types::boundary_id> sides;
+
+    /** The edges of the boundary that a condition holds, as its middle tells.
+     *  @throws InputError if there is none, or one is partly in its box */
+    struct HeldEdge
+    {
+      unsigned int edge, cell, opposite_vertex;
+    };
+    std::vector<HeldEdge>
+    held_edges(const BoundaryCondition &condition) const;
+
+    double
+    area(const unsigned int cell) const;
+
+    /** The gradients of the barycentric coordinates of a cell (1/m). */
+    std::array<dealii::Tensor<1, dim>, 3>
+    gradients(const unsigned int cell) const;
+  };
+
+  /** What the load factor of a limit analysis multiplies. */
+  enum class LoadFactor
+  {
+    automatic,
+    velocity,  ///< nothing: the load is the reaction to prescribed velocities
+    weight,    ///< the weight; tractions are dead loads
+    tractions, ///< the tractions; the weight is a dead load
+  };
+
+  /**
+   * The units in which a limit analysis computes: all numbers are of order one.
+   */
+  struct BoundUnits
+  {
+    double length   = 1.; ///< (m)
+    double stress   = 1.; ///< (Pa)
+    double velocity = 1.; ///< (m/s)
+  };
+
+  /** The cone of a point, in units: |s_t| <= a s_n + k. */
+  struct PointCone
+  {
+    double a = 0., k = 0.;
+
+    /** Tresca's cylinder, whose normal rate is zero. */
+    bool
+    is_cylinder() const
+    {
+      return a == 0.;
+    }
+  };
+
+  /**
+   * A rigid-plastic problem with associated flow in a space of velocities q, its
+   * points at the vertices of the triangles, one third of the area each:
+   *   equilibrium  sum_p V_p B_p' s_p = lambda f + F0  in free dofs,
+   *   strength     |s_t| <= a s_n + k,
+   *   flow         -B_p q in K* = {a |e_t| <= -e_n}.
+   * Strains and stresses are in cone axes (second_order_cone.h), all in units.
+   * Either f q = 1, and lambda is the load, or some velocities are prescribed, and
+   * the load is the power of their reactions.
+   */
+  struct BoundProblem
+  {
+    using Strains = Eigen::Matrix<double, 9, Eigen::Dynamic>;
+
+    unsigned int              n_local = 0; ///< dofs of a cell
+    std::vector<Strains>      B;           ///< of the three points of each cell
+    std::vector<unsigned int> dofs;        ///< n_local per cell
+    std::vector<double>       volume;      ///< of each point
+    std::vector<PointCone>    cone;        ///< of each point
+
+    std::vector<bool> is_prescribed; ///< by dof
+    Eigen::VectorXd   prescribed;    ///< values there, or 0
+    Eigen::VectorXd   dead, live;    ///< F0 and f by dof; f = 0: no factor
+
+    unsigned int
+    n_dofs() const
+    {
+      return prescribed.size();
+    }
+    unsigned int
+    n_points() const
+    {
+      return volume.size();
+    }
+    unsigned int
+    n_cells() const
+    {
+      return B.size();
+    }
+    bool
+    has_factor() const
+    {
+      return live.squaredNorm() > 0.;
+    }
+    unsigned int
+    n_unknowns() const;
+  };
+
+  /** What of a scene a limit analysis is about. */
+  struct BoundScene
+  {
+    const Scene           &scene;
+    const Triangles       &triangles;
+    LoadFactor             factor;
+    BoundUnits             units;
+    std::vector<PointCone> cones; ///< of the materials, in units
+  };
+
+  /**
+   * Quadratic velocities with the points at the vertices: strains are linear in a
+   * cell, so flow that is admissible at its vertices is so everywhere, and the
+   * dissipation of the vertices is an upper estimate (exact for a > 0): what it
+   * gives is an upper bound (Makrodimopoulos and Martin 2007). Dofs: x and y of
+   * the vertices, then of the edges.
+   */
+  BoundProblem
+  upper_problem(const BoundScene &scene);
+
+  /**
+   * The dual of linear stresses that are discontinuous between triangles, in its
+   * velocities: a translation u of each triangle and w at both ends of each edge,
+   *   B_i q = -3 sym(u x grad lambda_i) + 3/(2A) sum_{e at i} L_e sym(w_ei x n_e).
+   * Equilibrium of these rows is that of the continuum, so each admissible state
+   * is a lower bound (dual of Makrodimopoulos and Martin 2006). Dofs: x and y of
+   * the triangles, then of the two ends of the edges.
+   */
+  BoundProblem
+  lower_problem(const BoundScene &scene);
+
+  /** Strains at the vertices of a cell of quadratic velocities, in cone axes. */
+  BoundProblem::Strains
+  strains_of_quadratic(const Triangles &triangles, const unsigned int cell);
+} // namespace geocone
+
+#endif

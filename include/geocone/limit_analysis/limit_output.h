@@ -1,0 +1,82 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_limit_analysis_limit_output_h
+#define geocone_limit_analysis_limit_output_h
+
+#include <geocone/limit_analysis/certificate.h>
+#include <geocone/output/output_base.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /** A level of a limit analysis: a mesh with both bounds, in the unit of the
+   *  load. */
+  struct BoundLevel
+  {
+    unsigned int cells = 0, unknowns_upper = 0, unknowns_lower = 0;
+    double       lower = 0., upper = 0., gap = 0.; ///< gap: upper/lower - 1
+    bool         lower_certified = false, upper_certified = false;
+    unsigned int iterations_lower = 0, iterations_upper = 0;
+    double       violation_lower = 0., violation_upper = 0.;
+    double       error_lower = 0., error_upper = 0.;
+    double       gap_share   = 0.; ///< sum of eta over the gap
+    double       cpu_seconds = 0., mesh_seconds = 0.;
+
+    bool
+    certified() const
+    {
+      return lower_certified && upper_certified;
+    }
+
+    void
+    state(StateRow &row);
+  };
+
+  /** What is written of a limit analysis: bounds.csv, a line per level, the fields
+   *  of the levels, and the summary. */
+  class LimitOutput : public OutputBase
+  {
+  public:
+    LimitOutput(const MPI_Comm comm, Log &log);
+
+    /** @param unit of the load, e.g. "N/m"; @param reference or nothing */
+    void
+    prepare(const RunOptions           &options,
+            const std::string          &unit,
+            const std::optional<double> reference);
+
+    void
+    add_level(const unsigned int number, const BoundLevel &level);
+
+    /** Writes the triangles with both mechanisms and their part of the gap. */
+    void
+    write_fields(const double               number,
+                 const Triangles           &triangles,
+                 const BoundUnits          &units,
+                 const Bound               &upper,
+                 const Bound               &lower,
+                 const std::vector<double> &gap);
+
+    void
+    write_summary(const std::string             &status,
+                  const std::vector<BoundLevel> &levels,
+                  const Json                    &others);
+
+    /** What the file 'output' of tests has. */
+    void
+    report() const;
+
+    void
+    state_of_run(StateRow &row) override;
+
+  private:
+    std::unique_ptr<FieldFiles> fields;
+  };
+} // namespace geocone
+
+#endif

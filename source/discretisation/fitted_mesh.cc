@@ -1,0 +1,92 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/discretisation/fitted_mesh.h>
+
+#include <limits>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    const std::map<std::string, types::boundary_id> sides_of_box = {
+      {"bottom", 0}, {"right", 1}, {"top", 2}, {"left", 3}};
+
+    /** The side of a polygon on which x lies (the nearest one). */
+    types::boundary_id
+    nearest_side(const Polygon &outline, const Point<dim> &x)
+    {
+      std::size_t nearest  = 0;
+      double      distance = std::numeric_limits<double>::max();
+      for (std::size_t i = 0; i < outline.size(); ++i)
+        if (const double d = distance_to_segment(
+              x, outline[i], outline[(i + 1) % outline.size()]);
+            d < distance)
+          {
+            distance = d;
+            nearest  = i;
+          }
+      return nearest;
+    }
+  } // namespace
+
+  CoarseMesh
+  fitted_mesh(const MeshParameters &parameters,
+              const Scene          &scene,
+              const Method         &method,
+              const MPI_Comm        comm,
+              const CellSizes      *sizes)
+  {
+    if (scene.geometry.shape == Geometry::Shape::file)
+      return mesh_of_file(scene.geometry, scene.regions, comm);
+    CoarseMesh mesh =
+      sizes != nullptr
+        ? mesh_with_sizes(parameters, scene.regions, *sizes, comm)
+      : parameters.type == MeshParameters::Type::unstructured
+        ? unstructured_mesh(parameters, scene.regions, comm)
+        : structured_mesh(parameters);
+    for (auto &cell : mesh.cells)
+      cell.material_id = scene.regions.material_at(mesh.centre(cell), -1);
+    mesh.sides = method.is_mpm() ? sides_of_box : scene.geometry.sides;
+    for (const auto &edge : mesh.outer_edges())
+      {
+        CellData<1> line(2);
+        line.vertices = {edge[0], edge[1]};
+        line.boundary_id =
+          nearest_side(parameters.outline,
+                       0.5 * (mesh.points[edge[0]] + mesh.points[edge[1]]));
+        mesh.boundary.boundary_lines.push_back(line);
+      }
+    return mesh;
+  }
+
+  std::set<types::boundary_id>
+  side_ids(const BoundaryCondition                         &condition,
+           const std::map<std::string, types::boundary_id> &sides,
+           const std::vector<types::boundary_id>           &all)
+  {
+    std::set<types::boundary_id> ids;
+    for (const std::string &name : condition.sides)
+      {
+        if (name == "all")
+          {
+            ids.insert(all.begin(), all.end());
+            continue;
+          }
+        const auto side = sides.find(name);
+        if (side == sides.end())
+          {
+            std::string known = "all";
+            for (const auto &entry : sides)
+              known += ", " + entry.first;
+            throw InputError(
+              condition.parameter("Sides"), name, known, "choose some of them");
+          }
+        ids.insert(side->second);
+      }
+    return ids;
+  }
+} // namespace geocone

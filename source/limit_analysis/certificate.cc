@@ -1,0 +1,359 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/log.h>
+#include <geocone/limit_analysis/cell_matrix.h>
+#include <geocone/limit_analysis/certificate.h>
+#include <geocone/materials/second_order_cone.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace geocone
+{
+  using dealii::Point;
+  using dealii::Tensor;
+  using Eigen::Vector3d;
+  using Eigen::VectorXd;
+
+  namespace
+  {
+    /** What rounding may leave: of equilibrium and incompressibility, and of the
+     *  strength where there is no cohesion to scale by, as at a free surface, where
+     *  stresses are at the apex. */
+    constexpr double rounding          = 1e-8;
+    constexpr double rounding_strength = 1e-8;
+
+    double
+    excess(const PointCone &cone, const Vector3d &s)
+    {
+      return s.tail<2>().norm() - cone.a * s[0] - cone.k;
+    }
+
+    /** The violation of -e in K*; of a cylinder nothing here. */
+    double
+    violation(const PointCone &cone, const Vector3d &e)
+    {
+      return cone.is_cylinder() ? 0. : cone.a * e.tail<2>().norm() + e[0];
+    }
+
+    Tensor<1, dim>
+    traction(const Vector3d &s, const Tensor<1, dim> &n)
+    {
+      const Mandel x = from_cone_axes(Mandel(s));
+      return Tensor<1, dim>(
+        {x[0] * n[0] + x[2] / sqrt2 * n[1], x[2] / sqrt2 * n[0] + x[1] * n[1]});
+    }
+
+    /**
+     * The largest error of equilibrium, from the fields alone, over the largest
+     * stress: |div s + body force| times the length of the unit, and jumps of
+     * tractions at both ends of all edges, boundary values included.
+     */
+    double
+    equilibrium_error(const BoundScene            &bound,
+                      const BoundProblem          &problem,
+                      const std::vector<Vector3d> &s,
+                      const double                 lambda)
+    {
+      const Triangles   &triangles = bound.triangles;
+      const unsigned int n_cells   = triangles.cells.size();
+      const double       L         = bound.units.length;
+      const VectorXd     F         = problem.dead + lambda * problem.live;
+      double largest = std::numeric_limits<double>::min(), error = 0.;
+      for (const Vector3d &one : s)
+        largest = std::max(largest, one.norm());
+      for (unsigned int c = 0; c < n_cells; ++c)
+        {
+          const auto     g = triangles.gradients(c);
+          Tensor<1, dim> divergence;
+          for (unsigned int i = 0; i < 3; ++i)
+            divergence += traction(s[3 * c + i], g[i]);
+          for (unsigned int d = 0; d < dim; ++d)
+            error =
+              std::max(error,
+                       std::abs(L * divergence[d] +
+                                F[dim * c + d] / (3. * problem.volume[3 * c])) *
+                         std::sqrt(triangles.area(c)) / L);
+        }
+      // The sum of the tractions of both cells at each end of each edge.
+      std::vector<Tensor<1, dim>> sum(2 * triangles.edges.size());
+      for (unsigned int c = 0; c < n_cells; ++c)
+        {
+          const auto g = triangles.gradients(c);
+          for (unsigned int e = 0; e < 3; ++e)
+            for (const unsigned int i : {(e + 1) % 3, (e + 2) % 3})
+              {
+                const unsigned int edge = triangles.edges_of_cell[c][e];
+                const unsigned int end =
+                  triangles.edges[edge].vertices[0] == triangles.cells[c][i]
+                    ? 0
+                    : 1;
+                sum[2 * edge + end] +=
+                  traction(s[3 * c + i], -1. * g[e] / g[e].norm());
+              }
+        }
+      for (unsigned int e = 0; e < triangles.edges.size(); ++e)
+        {
+          const auto  &ends = triangles.edges[e].vertices;
+          const double length =
+            triangles.vertices[ends[0]].distance(triangles.vertices[ends[1]]) /
+            L;
+          for (unsigned int end = 0; end < 2; ++end)
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                const unsigned int dof = dim * (n_cells + 2 * e + end) + d;
+                if (!problem.is_prescribed[dof])
+                  error = std::max(
+                    error,
+                    std::abs(sum[2 * e + end][d] - F[dof] / (length / 2.)));
+              }
+        }
+      return error / largest;
+    }
+
+    /** Makes cylinders incompressible: the velocity that is nearest in the metric
+     *  of B'B with e_n = 0 there, by the method of multipliers. */
+    bool
+    make_incompressible(const BoundProblem &problem, VectorXd &q)
+    {
+      constexpr double        penalty = 1e8;
+      const unsigned int      n       = problem.n_points();
+      CellMatrix              matrix(problem, problem.B);
+      CellMatrix::PointBlocks blocks(n);
+      for (unsigned int p = 0; p < n; ++p)
+        {
+          blocks[p] = problem.volume[p] * Eigen::Matrix3d::Identity();
+          if (problem.cone[p].is_cylinder())
+            blocks[p](0, 0) += problem.volume[p] * penalty;
+        }
+      if (!matrix.factorise(blocks))
+        return false;
+      const VectorXd q_0        = q;
+      VectorXd       multiplier = VectorXd::Zero(n);
+      for (unsigned int i = 0; i < 6; ++i)
+        {
+          const auto e           = strain_rates(problem, q),
+                     e_0         = strain_rates(problem, q_0);
+          VectorXd           rhs = VectorXd::Zero(problem.n_dofs());
+          const unsigned int m   = problem.n_local;
+          for (unsigned int p = 0; p < n; ++p)
+            {
+              Vector3d s = e[p] - e_0[p];
+              if (problem.cone[p].is_cylinder())
+                s[0] += multiplier[p] + penalty * e[p][0];
+              const VectorXd f =
+                problem.B[p / 3].middleRows<3>(3 * (p % 3)).transpose() *
+                (problem.volume[p] * s);
+              for (unsigned int j = 0; j < m; ++j)
+                rhs[problem.dofs[m * (p / 3) + j]] -= f[j];
+            }
+          q += matrix.solve(rhs);
+          const auto next = strain_rates(problem, q);
+          for (unsigned int p = 0; p < n; ++p)
+            if (problem.cone[p].is_cylinder())
+              multiplier[p] += penalty * next[p][0];
+        }
+      return true;
+    }
+
+    /** (0, y - y_bottom) in the dofs of the upper problem. */
+    VectorXd
+    uniaxial_extension(const BoundScene &bound, const BoundProblem &problem)
+    {
+      const Triangles   &triangles  = bound.triangles;
+      const unsigned int n_vertices = triangles.vertices.size();
+      double             bottom     = std::numeric_limits<double>::max();
+      for (const auto &cell : triangles.cells)
+        for (const unsigned int v : cell)
+          bottom = std::min(bottom, triangles.vertices[v][1]);
+      VectorXd w = VectorXd::Zero(problem.n_dofs());
+      for (unsigned int v = 0; v < n_vertices; ++v)
+        w[dim * v + 1] =
+          (triangles.vertices[v][1] - bottom) / bound.units.length;
+      for (unsigned int e = 0; e < triangles.edges.size(); ++e)
+        {
+          const auto &ends = triangles.edges[e].vertices;
+          w[dim * (n_vertices + e) + 1] =
+            (w[dim * ends[0] + 1] + w[dim * ends[1] + 1]) / 2.;
+        }
+      return w;
+    }
+  } // namespace
+
+  double
+  dissipation(const PointCone &cone, const Vector3d &rate)
+  {
+    return cone.is_cylinder() ? cone.k * rate.tail<2>().norm()
+                              : -cone.k / cone.a * rate[0];
+  }
+
+  std::vector<Vector3d>
+  strain_rates(const BoundProblem &problem, const VectorXd &q)
+  {
+    std::vector<Vector3d> all(problem.n_points());
+    const unsigned int    n = problem.n_local;
+    VectorXd              own(n);
+    for (unsigned int c = 0; c < problem.n_cells(); ++c)
+      {
+        for (unsigned int i = 0; i < n; ++i)
+          own[i] = q[problem.dofs[n * c + i]];
+        for (unsigned int i = 0; i < 3; ++i)
+          all[3 * c + i] = problem.B[c].middleRows<3>(3 * i) * own;
+      }
+    return all;
+  }
+
+  Bound
+  certify_lower(const BoundScene    &bound,
+                const BoundProblem  &problem,
+                const BoundSolution &solution)
+  {
+    Bound  result;
+    double largest = std::numeric_limits<double>::min(), theta = 1.;
+    result.s = solution.s;
+    for (unsigned int p = 0; p < problem.n_points(); ++p)
+      {
+        const PointCone &cone = problem.cone[p];
+        largest               = std::max(largest, result.s[p].norm());
+        if (const double f = excess(cone, result.s[p]); f > 0.)
+          {
+            result.violation = std::max(result.violation, f);
+            theta            = std::min(theta, cone.k / (cone.k + f));
+          }
+      }
+    result.violation /= largest;
+    const bool is_scaled = problem.dead.squaredNorm() == 0. && theta > 0.;
+    if (!is_scaled)
+      theta = 1.;
+    result.error = equilibrium_error(bound, problem, result.s, solution.load);
+    result.load  = theta * solution.load;
+    for (Vector3d &one : result.s)
+      one *= theta;
+    if (!std::isfinite(result.load + result.error))
+      result.objection = "it is not a number";
+    else if (!(result.error < rounding))
+      result.objection =
+        format("its stresses miss equilibrium by %.1e of the largest one",
+               result.error);
+    else if (!is_scaled && result.violation > rounding_strength)
+      result.objection =
+        format("its stresses exceed the strength by %.1e of the largest one, "
+               "and a dead "
+               "load or soil without cohesion leaves nothing to scale",
+               result.violation);
+    else
+      result.certified = true;
+    return result;
+  }
+
+  Bound
+  certify_upper(const BoundScene    &bound,
+                const BoundProblem  &problem,
+                const BoundSolution &solution)
+  {
+    Bound result;
+    result.q = solution.q;
+    const bool cylinder =
+      std::any_of(problem.cone.begin(),
+                  problem.cone.end(),
+                  [](const PointCone &cone) { return cone.is_cylinder(); });
+    if (!solution.q.allFinite())
+      {
+        result.objection = "it is not a number";
+        return result;
+      }
+    if (cylinder && !make_incompressible(problem, result.q))
+      result.objection = "incompressible velocities were not found";
+
+    double     largest = std::numeric_limits<double>::min();
+    const auto rates   = strain_rates(problem, result.q);
+    for (unsigned int p = 0; p < problem.n_points(); ++p)
+      {
+        largest = std::max(largest, rates[p].norm());
+        if (problem.cone[p].is_cylinder())
+          result.error = std::max(result.error, std::abs(rates[p][0]));
+        result.violation =
+          std::max(result.violation, violation(problem.cone[p], rates[p]));
+      }
+
+    double scale = 1.; // of the prescribed velocities
+    if (result.violation > 0. && result.objection.empty())
+      {
+        const VectorXd w         = uniaxial_extension(bound, problem);
+        bool           is_usable = !cylinder;
+        double         slope     = 0.;
+        for (unsigned int i = 0; i < problem.n_dofs(); ++i)
+          if (problem.is_prescribed[i])
+            {
+              const double v = problem.prescribed[i];
+              is_usable      = is_usable && (v != 0. || std::abs(w[i]) < 1e-12);
+              if (v == 0.)
+                continue;
+              is_usable = is_usable &&
+                          (slope == 0. ||
+                           std::abs(w[i] / v - slope) < 1e-9 * std::abs(slope));
+              slope = w[i] / v;
+            }
+        if (is_usable)
+          {
+            // Its strain is a uniaxial extension: -w_n = |w_t| = 1/sqrt2.
+            double a = 0.;
+            for (const PointCone &cone : problem.cone)
+              a = std::max(a, cone.a);
+            const double delta = 1.001 * result.violation * sqrt2 / (1. - a);
+            result.q += delta * w;
+            scale = 1. + delta * slope;
+          }
+      }
+    const auto repaired = strain_rates(problem, result.q);
+    double     left = 0., power = -problem.dead.dot(result.q);
+    for (unsigned int p = 0; p < problem.n_points(); ++p)
+      {
+        left = std::max(left, violation(problem.cone[p], repaired[p]));
+        power += problem.volume[p] * dissipation(problem.cone[p], repaired[p]);
+      }
+    result.violation /= largest;
+    result.error /= largest;
+    const double work =
+      problem.has_factor() ? problem.live.dot(result.q) : scale;
+    result.load = power / work;
+    if (!result.objection.empty())
+      return result;
+    if (!std::isfinite(result.load) || !(work > 0.))
+      result.objection = "its velocities do no work";
+    else if (!(result.error < rounding))
+      result.objection =
+        format("its normal rates are %.1e of the largest one where phi = 0",
+               result.error);
+    else if (left > 0.)
+      result.objection =
+        format("its strain rates miss the cone by %.1e of the largest one, and "
+               "no field that obeys the boundary conditions is known to repair "
+               "them",
+               left / largest);
+    else
+      result.certified = true;
+    return result;
+  }
+
+  std::vector<double>
+  gap_of_cells(const BoundProblem &problem,
+               const Bound        &upper,
+               const Bound        &lower)
+  {
+    const auto          e = strain_rates(problem, upper.q);
+    std::vector<double> gap(problem.n_cells(), 0.);
+    for (unsigned int c = 0; c < problem.n_cells(); ++c)
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          const unsigned int p = 3 * c + i;
+          gap[c] += problem.volume[p] * dissipation(problem.cone[p], e[p]);
+          for (unsigned int j = 0; j < 3; ++j)
+            gap[c] -= problem.volume[p] / 4. * (i == j ? 2. : 1.) *
+                      lower.s[p].dot(e[3 * c + j]);
+        }
+    return gap;
+  }
+} // namespace geocone

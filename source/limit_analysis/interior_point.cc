@@ -1,0 +1,539 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/log.h>
+#include <geocone/limit_analysis/cell_matrix.h>
+#include <geocone/limit_analysis/interior_point.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace geocone
+{
+  namespace
+  {
+    using Eigen::Matrix3d;
+    using Eigen::Vector2d;
+    using Eigen::Vector3d;
+    using Eigen::VectorXd;
+    using Points = std::vector<Vector3d>;
+
+    /** Stiffness of the method of multipliers for Tresca's normal stress, where
+     *  strength, lengths and velocities are of order one. */
+    constexpr double bulk = 1e6;
+
+    double
+    root_of_determinant(const Vector3d &x)
+    {
+      const double t = x.tail<2>().norm();
+      return std::sqrt(std::max((x[0] - t) * (x[0] + t), 0.));
+    }
+
+    /** The Jordan product. */
+    Vector3d
+    product(const Vector3d &u, const Vector3d &v)
+    {
+      Vector3d p;
+      p[0]        = u.dot(v);
+      p.tail<2>() = u[0] * v.tail<2>() + v[0] * u.tail<2>();
+      return p;
+    }
+
+    /** y with product(l, y) = d. */
+    Vector3d
+    divide(const Vector3d &l, const Vector3d &d)
+    {
+      const double t = l.tail<2>().norm();
+      Vector3d     y;
+      y[0] = (l[0] * d[0] - l.tail<2>().dot(d.tail<2>())) /
+             ((l[0] - t) * (l[0] + t));
+      y.tail<2>() = (d.tail<2>() - y[0] * l.tail<2>()) / l[0];
+      return y;
+    }
+
+    /** The largest step with l + step d in the cone, at most 1/0.99. */
+    double
+    step_in_cone(const Vector3d &l, const Vector3d &d)
+    {
+      // |l_t + a d_t|^2 = (l_0 + a d_0)^2: the smallest positive root.
+      const double A = d[0] * d[0] - d.tail<2>().squaredNorm(),
+                   B = l[0] * d[0] - l.tail<2>().dot(d.tail<2>()),
+                   t = l.tail<2>().norm(), C = (l[0] - t) * (l[0] + t);
+      double step = 1. / 0.99;
+      if (d[0] < 0.)
+        step = std::min(step, -l[0] / d[0]);
+      const double discriminant = B * B - A * C;
+      if (discriminant >= 0.)
+        {
+          // A a^2 + 2 B a + C = 0, without cancellation.
+          const double r = -(B + std::copysign(std::sqrt(discriminant), B));
+          for (const double root :
+               {A != 0. ? r / A : -1., r != 0. ? C / r : -1.})
+            if (root > 0.)
+              step = std::min(step, root);
+        }
+      return step;
+    }
+
+    /** Nesterov's and Todd's scaling of a point: W z = W^-1 x. */
+    struct Scaling
+    {
+      double   eta2;
+      Vector3d w;
+      Matrix3d W, inverse, square;
+
+      Scaling(const Vector3d &x, const Vector3d &z)
+      {
+        const double   dx = root_of_determinant(x), dz = root_of_determinant(z);
+        const Vector3d u = x / dx, v = z / dz;
+        const double   gamma = std::sqrt((1. + u.dot(v)) / 2.);
+        w                    = u + v;
+        w.tail<2>()          = u.tail<2>() - v.tail<2>();
+        w /= 2. * gamma;
+        w[0]             = std::sqrt(1. + w.tail<2>().squaredNorm());
+        eta2             = dx / dz;
+        const double eta = std::sqrt(eta2);
+        Matrix3d     S;
+        S(0, 0)             = w[0];
+        S.block<1, 2>(0, 1) = w.tail<2>().transpose();
+        S.block<2, 1>(1, 0) = w.tail<2>();
+        S.block<2, 2>(1, 1) =
+          Eigen::Matrix2d::Identity() +
+          w.tail<2>() * w.tail<2>().transpose() / (1. + w[0]);
+        W = eta * S;
+        S.block<1, 2>(0, 1) *= -1.;
+        S.block<2, 1>(1, 0) *= -1.;
+        inverse = S / eta;
+        square  = 2. * w * w.transpose();
+        square(0, 0) -= 1.;
+        square(1, 1) += 1.;
+        square(2, 2) += 1.;
+        square *= eta2;
+      }
+
+      /** @name Of a cylinder, whose x_0 does not change */
+      /** @{ */
+      Eigen::Matrix2d
+      tangential() const
+      {
+        return eta2 * (Eigen::Matrix2d::Identity() -
+                       2. * w.tail<2>() * w.tail<2>().transpose() /
+                         (1. + 2. * w.tail<2>().squaredNorm()));
+      }
+      Vector2d
+      eliminated(const Vector3d &r) const
+      {
+        return r.tail<2>() - 2. * w[0] * r[0] /
+                               (1. + 2. * w.tail<2>().squaredNorm()) *
+                               w.tail<2>();
+      }
+      /** @} */
+    };
+
+    class Solver
+    {
+    public:
+      Solver(const BoundProblem &problem, const InteriorPoint::Options &options)
+        : problem(problem)
+        , options(options)
+        , n(problem.n_points())
+        , matrix(problem, strains = scaled_strains(problem))
+      {
+        const double mean =
+          std::accumulate(problem.volume.begin(), problem.volume.end(), 0.) / n;
+        for (const double V : problem.volume)
+          omega.push_back(V / mean);
+      }
+
+      BoundSolution
+      solve();
+
+    private:
+      static std::vector<BoundProblem::Strains>
+      scaled_strains(const BoundProblem &problem)
+      {
+        std::vector<BoundProblem::Strains> all = problem.B;
+        for (unsigned int p = 0; p < problem.n_points(); ++p)
+          if (!problem.cone[p].is_cylinder())
+            all[p / 3].row(3 * (p % 3)) /= problem.cone[p].a;
+        return all;
+      }
+
+      /** Bs q of all points. */
+      Points
+      rates(const VectorXd &q) const
+      {
+        Points                      all(n);
+        const unsigned int          m = problem.n_local;
+        VectorXd                    own(m);
+        Eigen::Matrix<double, 9, 1> e;
+        for (unsigned int c = 0; c < problem.n_cells(); ++c)
+          {
+            for (unsigned int i = 0; i < m; ++i)
+              own[i] = q[problem.dofs[m * c + i]];
+            e.noalias() = strains[c] * own;
+            for (unsigned int i = 0; i < 3; ++i)
+              all[3 * c + i] = e.segment<3>(3 * i);
+          }
+        return all;
+      }
+
+      /** sum V Bs' s in all dofs. */
+      VectorXd
+      forces(const Points &s) const
+      {
+        VectorXd           f = VectorXd::Zero(problem.n_dofs());
+        const unsigned int m = problem.n_local;
+        VectorXd           own(m);
+        for (unsigned int c = 0; c < problem.n_cells(); ++c)
+          {
+            own.setZero();
+            for (unsigned int i = 0; i < 3; ++i)
+              own.noalias() += strains[c].middleRows<3>(3 * i).transpose() *
+                               (problem.volume[3 * c + i] * s[3 * c + i]);
+            for (unsigned int i = 0; i < m; ++i)
+              f[problem.dofs[m * c + i]] += own[i];
+          }
+        return f;
+      }
+
+      /** x - o, or of a cylinder s_n and s_t: stresses with Bs. */
+      Points
+      stresses() const
+      {
+        Points s = x;
+        for (unsigned int p = 0; p < n; ++p)
+          s[p][0] = problem.cone[p].is_cylinder() ? s_n[p]
+                                                  : x[p][0] - problem.cone[p].k;
+        return s;
+      }
+
+      VectorXd
+      only_free(VectorXd f) const
+      {
+        for (unsigned int i = 0; i < f.size(); ++i)
+          if (problem.is_prescribed[i])
+            f[i] = 0.;
+        return f;
+      }
+
+      void
+      start();
+
+      /** Residuals at the present iterate. */
+      void
+      evaluate();
+
+      /** A Newton direction for W^-1 dx + W dz = d. */
+      void
+      direction(const Points &d);
+
+      /** Repairs equilibrium in the metric of the cones, so that x stays in. */
+      void
+      polish();
+
+      const BoundProblem                &problem;
+      const InteriorPoint::Options       options;
+      const unsigned int                 n;
+      std::vector<BoundProblem::Strains> strains; ///< Bs
+      CellMatrix                         matrix;
+      std::vector<double>                omega;
+
+      Points   x, z, dx, dz;
+      VectorXd s_n, ds_n, q, dq;
+      double   lambda = 0., d_lambda = 0.;
+
+      Points               rate, r_p;
+      VectorXd             r_d, x_2;
+      double               r_g = 0., mu = 0., gap = 0., load = 0.;
+      double               equilibrium = 0., flow = 0.;
+      std::vector<Scaling> scaling;
+    };
+
+    void
+    Solver::start()
+    {
+      CellMatrix::PointBlocks blocks(n);
+      for (unsigned int p = 0; p < n; ++p)
+        {
+          blocks[p] = problem.volume[p] * Matrix3d::Identity();
+          if (problem.cone[p].is_cylinder())
+            blocks[p](0, 0) *= 100.;
+        }
+      matrix.factorise(blocks);
+      q = problem.prescribed;
+      if (problem.has_factor())
+        {
+          q += matrix.solve(problem.live);
+          q /= problem.live.dot(q);
+        }
+      else
+        {
+          Points s = rates(q);
+          for (unsigned int p = 0; p < n; ++p)
+            if (problem.cone[p].is_cylinder())
+              s[p][0] *= 100.;
+          q -= matrix.solve(forces(s));
+        }
+
+      rate        = rates(q);
+      double V    = 0.;
+      double mean = 0.;
+      z.resize(n);
+      for (unsigned int p = 0; p < n; ++p)
+        {
+          z[p] = -omega[p] * rate[p];
+          if (problem.cone[p].is_cylinder())
+            z[p][0] = 0.;
+          V += problem.volume[p];
+          mean += problem.volume[p] * z[p].squaredNorm();
+        }
+      mean = std::sqrt(mean / V);
+      x.assign(n, Vector3d::Zero());
+      for (unsigned int p = 0; p < n; ++p)
+        {
+          const PointCone &cone = problem.cone[p];
+          z[p][0]          = std::max(z[p][0], z[p].tail<2>().norm() + mean);
+          const double K_p = (1. + cone.a) / (1. - cone.a);
+          // Also where there is no cohesion.
+          x[p][0] =
+            cone.is_cylinder() ? cone.k : K_p * K_p * std::max(cone.k, 0.1);
+        }
+      s_n.setZero(n);
+      lambda = 0.;
+    }
+
+    void
+    Solver::evaluate()
+    {
+      rate               = rates(q);
+      const Points   s   = stresses();
+      const VectorXd all = forces(s);
+      r_d = only_free(all - lambda * problem.live - problem.dead);
+      r_g = problem.has_factor() ? 1. - problem.live.dot(q) : 0.;
+      r_p.resize(n);
+      double product = 0., miss = 0., size = 0., stress = 0.;
+      gap = 0.;
+      for (unsigned int p = 0; p < n; ++p)
+        {
+          r_p[p]     = z[p] + omega[p] * rate[p];
+          Vector3d e = rate[p];
+          if (problem.cone[p].is_cylinder())
+            {
+              r_p[p][0] = omega[p] * rate[p][0];
+              miss += problem.volume[p] * (r_p[p] / omega[p]).squaredNorm();
+              r_p[p][0] = 0.;
+            }
+          else
+            miss += problem.volume[p] * (r_p[p] / omega[p]).squaredNorm();
+          size += problem.volume[p] * e.squaredNorm();
+          stress += problem.volume[p] * s[p].squaredNorm();
+          product += x[p].dot(z[p]);
+          gap += problem.volume[p] * x[p].dot(z[p]) / omega[p];
+        }
+      mu   = product / (2. * n);
+      flow = std::sqrt(miss / size);
+      // The power of the reactions of prescribed velocities.
+      load               = problem.has_factor()
+                             ? lambda
+                             : (all - problem.dead).dot(problem.prescribed);
+      const double force = std::max({all.norm(), problem.dead.norm(), 1e-300});
+      equilibrium        = r_d.norm() / force;
+    }
+
+    void
+    Solver::direction(const Points &d)
+    {
+      Points rhs(n), r_c(n);
+      for (unsigned int p = 0; p < n; ++p)
+        {
+          r_c[p] = scaling[p].W * d[p];
+          if (problem.cone[p].is_cylinder())
+            {
+              const Eigen::Matrix2d S = scaling[p].tangential();
+              rhs[p][0]               = bulk * rate[p][0];
+              rhs[p].tail<2>() =
+                scaling[p].eliminated(r_c[p]) + S * r_p[p].tail<2>();
+            }
+          else
+            rhs[p] = r_c[p] + scaling[p].square * r_p[p];
+        }
+      dq       = matrix.solve(-r_d - forces(rhs));
+      d_lambda = 0.;
+      if (problem.has_factor())
+        {
+          d_lambda = (r_g - problem.live.dot(dq)) / problem.live.dot(x_2);
+          dq += d_lambda * x_2;
+        }
+      const Points e = rates(dq);
+      dx.resize(n);
+      dz.resize(n);
+      ds_n.setZero(n);
+      for (unsigned int p = 0; p < n; ++p)
+        {
+          dz[p] = -r_p[p] - omega[p] * e[p];
+          if (problem.cone[p].is_cylinder())
+            {
+              const Scaling &scale = scaling[p];
+              const Vector2d dz_t  = dz[p].tail<2>();
+              dx[p][0]             = 0.;
+              dx[p].tail<2>() =
+                scale.eliminated(r_c[p]) - scale.tangential() * dz_t;
+              dz[p][0] = (r_c[p][0] - scale.square.block<1, 2>(0, 1) * dz_t) /
+                         scale.square(0, 0);
+              ds_n[p] = bulk * (rate[p][0] + e[p][0]);
+            }
+          else
+            dx[p] = r_c[p] - scaling[p].square * dz[p];
+        }
+    }
+
+    void
+    Solver::polish()
+    {
+      const VectorXd d = matrix.solve(-r_d);
+      const Points   e = rates(d);
+      for (unsigned int p = 0; p < n; ++p)
+        if (problem.cone[p].is_cylinder())
+          {
+            s_n[p] += bulk * e[p][0];
+            x[p].tail<2>() +=
+              scaling[p].tangential() * omega[p] * e[p].tail<2>();
+          }
+        else
+          x[p] += scaling[p].square * omega[p] * e[p];
+      evaluate();
+    }
+
+    BoundSolution
+    Solver::solve()
+    {
+      BoundSolution solution;
+      start();
+      double largest = 0.;
+      for (unsigned int iteration = 0;; ++iteration)
+        {
+          evaluate();
+          if (!std::isfinite(gap + load + flow + equilibrium))
+            {
+              solution.reason = "the iterates are not finite";
+              break;
+            }
+          if (gap < options.tolerance * std::abs(load) &&
+              flow < options.flow_tolerance &&
+              equilibrium < options.equilibrium_tolerance &&
+              std::abs(r_g) < options.tolerance)
+            {
+              solution.converged = true;
+              break;
+            }
+          largest = std::max(largest, std::abs(load));
+          if (iteration == options.max_iterations)
+            {
+              solution.reason =
+                format("the gap is %.1e of the load, the residuals are %.1e "
+                       "(equilibrium) and %.1e (flow) after %u iterations",
+                       gap / std::max(std::abs(load), 1e-300),
+                       equilibrium,
+                       flow,
+                       iteration);
+              break;
+            }
+
+          scaling.clear();
+          CellMatrix::PointBlocks blocks(n);
+          Points                  l(n);
+          for (unsigned int p = 0; p < n; ++p)
+            {
+              scaling.emplace_back(x[p], z[p]);
+              l[p]      = scaling[p].W * z[p];
+              blocks[p] = omega[p] * scaling[p].square;
+              if (problem.cone[p].is_cylinder())
+                {
+                  blocks[p].setZero();
+                  blocks[p](0, 0) = bulk;
+                  blocks[p].block<2, 2>(1, 1) =
+                    omega[p] * scaling[p].tangential();
+                }
+              blocks[p] *= problem.volume[p];
+            }
+          if (!matrix.factorise(blocks))
+            {
+              solution.reason =
+                "the matrix is singular: some velocities have no resistance";
+              break;
+            }
+          if (problem.has_factor())
+            x_2 = matrix.solve(problem.live);
+
+          const auto largest_steps = [&]() {
+            std::array<double, 2> steps = {{1. / 0.99, 1. / 0.99}};
+            for (unsigned int p = 0; p < n; ++p)
+              {
+                steps[0] = std::min(
+                  steps[0], step_in_cone(l[p], scaling[p].inverse * dx[p]));
+                steps[1] =
+                  std::min(steps[1], step_in_cone(l[p], scaling[p].W * dz[p]));
+              }
+            return steps;
+          };
+          Points d(n);
+          for (unsigned int p = 0; p < n; ++p)
+            d[p] = -l[p];
+          direction(d);
+          auto         steps  = largest_steps();
+          double       affine = 0.;
+          const double a_x    = std::min(1., steps[0]),
+                       a_z    = std::min(1., steps[1]);
+          for (unsigned int p = 0; p < n; ++p)
+            affine += (x[p] + a_x * dx[p]).dot(z[p] + a_z * dz[p]);
+          affine /= 2. * n;
+          const double centre = std::pow(std::max(affine, 0.) / mu, 3);
+          for (unsigned int p = 0; p < n; ++p)
+            {
+              Vector3d c =
+                -product(scaling[p].inverse * dx[p], scaling[p].W * dz[p]);
+              c[0] += centre * mu;
+              d[p] = -l[p] + divide(l[p], c);
+            }
+          direction(d);
+          steps            = largest_steps();
+          const double b_x = std::min(1., 0.99 * steps[0]),
+                       b_z = std::min(1., 0.99 * steps[1]);
+          for (unsigned int p = 0; p < n; ++p)
+            {
+              x[p] += b_x * dx[p];
+              z[p] += b_z * dz[p];
+            }
+          s_n += b_x * ds_n;
+          lambda += b_x * d_lambda;
+          q += b_z * dq;
+        }
+      // To rounding, where it stops to fall.
+      if (solution.converged && !scaling.empty())
+        for (double before = 1.; equilibrium < before / 2.;)
+          {
+            before = equilibrium;
+            polish();
+          }
+      solution.q = q;
+      solution.s = stresses();
+      for (unsigned int p = 0; p < n; ++p) // s_n of cones: (x_0 - k)/a
+        if (!problem.cone[p].is_cylinder())
+          solution.s[p][0] /= problem.cone[p].a;
+      solution.load           = load;
+      solution.equilibrium    = equilibrium;
+      solution.flow           = flow;
+      solution.inner_gap      = gap / std::max(std::abs(load), 1e-300);
+      solution.factorisations = matrix.n_factorisations;
+      return solution;
+    }
+  } // namespace
+
+  BoundSolution
+  InteriorPoint::solve(const BoundProblem &problem, const Options &options)
+  {
+    return Solver(problem, options).solve();
+  }
+} // namespace geocone

@@ -1,0 +1,202 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/limit_analysis/limit_output.h>
+#include <geocone/materials/second_order_cone.h>
+
+#include <algorithm>
+
+namespace geocone
+{
+  void
+  BoundLevel::state(StateRow &row)
+  {
+    row(cells, unknowns_upper, unknowns_lower, lower, upper, gap);
+    row(lower_certified, upper_certified, iterations_lower, iterations_upper);
+    row(violation_lower, violation_upper, error_lower, error_upper);
+    row(gap_share, cpu_seconds, mesh_seconds);
+  }
+
+  LimitOutput::LimitOutput(const MPI_Comm comm, Log &log)
+    : OutputBase(comm, log)
+  {}
+
+  void
+  LimitOutput::prepare(const RunOptions           &options,
+                       const std::string          &unit,
+                       const std::optional<double> reference)
+  {
+    if (reference)
+      reference_case.set_default("bounds/middle", *reference);
+    make_folder(options);
+    fields =
+      std::make_unique<FieldFiles>("bounds", FieldsFormat(fields_format));
+    statistics.open(path + "/bounds.csv",
+                    {"level (-)",
+                     "triangles (-)",
+                     "lower bound (" + unit + ")",
+                     "upper bound (" + unit + ")",
+                     "gap (-)",
+                     "certified (-)",
+                     "unknowns of the lower bound (-)",
+                     "unknowns of the upper bound (-)",
+                     "factorisations of the lower bound (-)",
+                     "factorisations of the upper bound (-)",
+                     "CPU time (s)",
+                     "CPU time of the mesh (s)"},
+                    resumes);
+  }
+
+  void
+  LimitOutput::add_level(const unsigned int number, const BoundLevel &level)
+  {
+    statistics.add_line({static_cast<double>(number),
+                         static_cast<double>(level.cells),
+                         level.lower,
+                         level.upper,
+                         level.gap,
+                         static_cast<double>(level.certified()),
+                         static_cast<double>(level.unknowns_lower),
+                         static_cast<double>(level.unknowns_upper),
+                         static_cast<double>(level.iterations_lower),
+                         static_cast<double>(level.iterations_upper),
+                         level.cpu_seconds,
+                         level.mesh_seconds});
+  }
+
+  void
+  LimitOutput::write_fields(const double               number,
+                            const Triangles           &triangles,
+                            const BoundUnits          &units,
+                            const Bound               &upper,
+                            const Bound               &lower,
+                            const std::vector<double> &gap)
+  {
+    if (!with_fields)
+      return;
+    const unsigned int n_cells = triangles.cells.size();
+    FieldTable         table;
+    table.cell      = FieldTable::Cell::triangle;
+    table.n_nodes   = 3 * n_cells;
+    const auto each = [&](const auto &value) {
+      return [&triangles, value](std::vector<double> &to) {
+        for (std::size_t p = 0; p < to.size(); ++p)
+          to[p] = value(p, triangles.cells[p / 3][p % 3]);
+      };
+    };
+    const auto vectors = [&](const auto &value) {
+      return [&triangles, value](std::vector<double> &to) {
+        for (std::size_t i = 0; i < to.size(); ++i)
+          to[i] =
+            value(i / dim, triangles.cells[i / dim / 3][i / dim % 3], i % dim);
+      };
+    };
+    using Index     = unsigned int;
+    table.positions = vectors([&](const Index, const Index v, const Index d) {
+      return triangles.vertices[v][d];
+    });
+    table.columns.push_back(
+      {"velocity", dim, vectors([&](const Index, const Index v, const Index d) {
+         return upper.q.size() > 0 ? upper.q[dim * v + d] : 0.;
+       })});
+    const auto stress = [&](const Index p, const Index i) {
+      const Mandel s = from_cone_axes(Mandel(lower.s[p]));
+      return units.stress * (i == 2 ? s[2] / sqrt2 : s[i]);
+    };
+    const char *const names[] = {"stress_xx", "stress_yy", "stress_xy"};
+    for (Index i = 0; i < 3; ++i)
+      table.columns.push_back(
+        {names[i], 1, each([=](const Index p, const Index) {
+           return stress(p, i);
+         })});
+    // The part of a triangle in the gap, over its part of the area.
+    double total = 0., area = 0.;
+    for (Index c = 0; c < n_cells; ++c)
+      {
+        total += std::max(gap[c], 0.);
+        area += triangles.area(c);
+      }
+    table.columns.push_back(
+      {"gap_density", 1, each([&, total, area](const Index p, const Index) {
+         return total > 0. ? gap[p / 3] / total / (triangles.area(p / 3) / area)
+                           : 0.;
+       })});
+    table.columns.push_back(
+      {"material", 1, each([&](const Index p, const Index) {
+         return static_cast<double>(triangles.material[p / 3]);
+       })});
+    fields->write(table, path, number, comm);
+  }
+
+  void
+  LimitOutput::write_summary(const std::string             &status,
+                             const std::vector<BoundLevel> &levels,
+                             const Json                    &others)
+  {
+    summary = {{"name", name}, {"status", status}};
+    for (const auto &[topic, value] : others.items())
+      summary[topic] = value;
+    if (!levels.empty())
+      {
+        const BoundLevel &last       = levels.back();
+        double            seconds    = 0.;
+        unsigned int      iterations = 0, most = 0;
+        for (const BoundLevel &level : levels)
+          {
+            seconds += level.cpu_seconds + level.mesh_seconds;
+            iterations += level.iterations_lower + level.iterations_upper;
+            most =
+              std::max({most, level.iterations_lower, level.iterations_upper});
+          }
+        Json bounds      = {{"lower", nullptr}, {"upper", nullptr}};
+        bounds["gap"]    = nullptr;
+        bounds["middle"] = nullptr;
+        // A bound that is not certified is none.
+        if (last.lower_certified)
+          bounds["lower"] = last.lower;
+        if (last.upper_certified)
+          bounds["upper"] = last.upper;
+        if (last.certified())
+          {
+            bounds["gap"]    = last.gap;
+            bounds["middle"] = (last.lower + last.upper) / 2.;
+          }
+        bounds["certified"]           = last.certified();
+        bounds["cells"]               = last.cells;
+        bounds["iterations"]          = iterations;
+        bounds["iterations_max"]      = most;
+        bounds["seconds"]             = seconds;
+        bounds["levels"]              = levels.size();
+        bounds["unknowns_lower"]      = last.unknowns_lower;
+        bounds["unknowns_upper"]      = last.unknowns_upper;
+        bounds["violation_lower"]     = last.violation_lower;
+        bounds["violation_upper"]     = last.violation_upper;
+        bounds["error_lower"]         = last.error_lower;
+        bounds["error_upper"]         = last.error_upper;
+        bounds["sum_of_cells_to_gap"] = last.gap_share;
+        summary["bounds"]             = bounds;
+      }
+    write_summary_file();
+  }
+
+  void
+  LimitOutput::report() const
+  {
+    if (report_for_tests == Report::none)
+      return;
+    std::string text;
+    if (report_for_tests == Report::results)
+      text = format("%.4g %.4g %d\n",
+                    summary["bounds"]["lower"].get<double>(),
+                    summary["bounds"]["upper"].get<double>(),
+                    int(summary["bounds"]["certified"].get<bool>()));
+    write_file("output", [&](std::ostream &out) { out << text; });
+  }
+
+  void
+  LimitOutput::state_of_run(StateRow &row)
+  {
+    OutputBase::state_of_run(row);
+    fields->state(row);
+  }
+} // namespace geocone
