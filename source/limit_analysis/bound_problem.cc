@@ -18,6 +18,41 @@ namespace geocone
   using dealii::Point;
   using dealii::Tensor;
 
+  namespace
+  {
+    /** Parts of an edge that are rounding. */
+    constexpr double rounding = 1e-6;
+
+    /** The part of the edge from a to b that is in the box of a condition. */
+    double
+    part_in_box(const BoundaryCondition &condition,
+                const Point<dim>        &a,
+                const Point<dim>        &b)
+    {
+      const auto corners = condition.box_corners();
+      if (!corners)
+        return 1.;
+      double       from = 0., to = 1.;
+      const double tolerance =
+        1e-9 * (1. + (*corners)[0].distance((*corners)[1]));
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double low   = (*corners)[0][d] - tolerance - a[d],
+                       high  = (*corners)[1][d] + tolerance - a[d],
+                       along = b[d] - a[d];
+          if (std::abs(along) < tolerance)
+            {
+              if (low > 0. || high < 0.)
+                return 0.;
+              continue;
+            }
+          from = std::max(from, std::min(low / along, high / along));
+          to   = std::min(to, std::max(low / along, high / along));
+        }
+      return std::max(0., to - from);
+    }
+  } // namespace
+
   Triangles::Triangles(const CoarseMesh &mesh)
     : vertices(mesh.points)
     , sides(mesh.sides)
@@ -66,21 +101,21 @@ namespace geocone
             continue;
           const Point<dim> &a = vertices[edge.vertices[0]],
                            &b = vertices[edge.vertices[1]];
-          if (!condition.in_box(a + (b - a) / 2.))
+          const double part   = part_in_box(condition, a, b);
+          if (part < rounding)
             continue;
-          for (const Point<dim> &x : {a, b})
-            if (!condition.in_box(x))
-              throw InputError(
-                condition.parameter("Box"),
-                condition.part(),
-                "a box that ends at vertices of the mesh",
-                format("the edge from (%g, %g) to (%g, %g) is partly in it, "
-                       "but a bound needs the exact part; add the ends of the "
-                       "box to 'Mesh/Grading points'",
-                       a[0],
-                       a[1],
-                       b[0],
-                       b[1]));
+          if (part < 1. - rounding)
+            throw InputError(
+              condition.parameter("Box"),
+              condition.part(),
+              "a box that ends at vertices of the mesh",
+              format("the edge from (%g, %g) to (%g, %g) is partly in it, "
+                     "but a bound needs the exact part; add the ends of the "
+                     "box to 'Mesh/Grading points'",
+                     a[0],
+                     a[1],
+                     b[0],
+                     b[1]));
           held.push_back({edges_of_cell[c][i], c, i});
         }
     condition.check_selection(held.size());

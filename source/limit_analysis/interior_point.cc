@@ -411,15 +411,23 @@ namespace geocone
     {
       BoundSolution solution;
       start();
-      double largest = 0.;
+      double most = 0.; // largest stress of the last iterate
       for (unsigned int iteration = 0;; ++iteration)
         {
           evaluate();
+          double stress = 0., strength = 0.;
+          for (unsigned int p = 0; p < n; ++p)
+            {
+              stress   = std::max({stress, x[p][0], std::abs(s_n[p])});
+              strength = std::max(strength, problem.cone[p].k);
+            }
           if (!std::isfinite(gap + load + flow + equilibrium))
             {
               solution.reason = "the iterates are not finite";
+              solution.grows  = most > 1e5;
               break;
             }
+          most = stress / std::max(strength, 1.);
           if (gap < options.tolerance * std::abs(load) &&
               flow < options.flow_tolerance &&
               equilibrium < options.equilibrium_tolerance &&
@@ -428,7 +436,6 @@ namespace geocone
               solution.converged = true;
               break;
             }
-          largest = std::max(largest, std::abs(load));
           if (iteration == options.max_iterations)
             {
               solution.reason =

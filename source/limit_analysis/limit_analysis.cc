@@ -122,8 +122,9 @@ namespace geocone
     triangles.emplace(fitted_mesh(mesh_parameters, scene, method, comm));
     choose_factor();
     choose_units();
-    const BoundScene   bound   = bound_scene(*triangles);
-    const BoundProblem problem = lower_problem(bound); // checks the sides
+    const BoundScene bound = bound_scene(*triangles);
+    check_supports(upper_problem(bound));
+    const BoundProblem problem = lower_problem(bound);
     if (factor != LoadFactor::velocity && !problem.has_factor())
       throw InputError("Analysis/Load factor of",
                        asked_factor.word(),
@@ -144,6 +145,51 @@ namespace geocone
                          "those of this mesh; give a box or a polygon, or set "
                          "Analysis/Maximum levels = 1");
     return warnings;
+  }
+
+  void
+  LimitAnalysis::check_supports(const BoundProblem &problem) const
+  {
+    // Rigid motions in the dofs that are prescribed: translations and a rotation.
+    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+    const auto      add = [&](const unsigned int node, const Point<dim> &x) {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (problem.is_prescribed[dim * node + d])
+          {
+            Eigen::Vector3d row = Eigen::Vector3d::Zero();
+            row[d]              = 1.;
+            row[2]              = (d == 0 ? -x[1] : x[0]) / units.length;
+            squares += row * row.transpose();
+          }
+    };
+    std::vector<bool> is_used(triangles->vertices.size(), false);
+    for (const auto &cell : triangles->cells)
+      for (const unsigned int v : cell)
+        is_used[v] = true;
+    for (unsigned int v = 0; v < triangles->vertices.size(); ++v)
+      if (is_used[v])
+        add(v, triangles->vertices[v]);
+    for (unsigned int e = 0; e < triangles->edges.size(); ++e)
+      {
+        const auto       &ends = triangles->edges[e].vertices;
+        const Point<dim> &a    = triangles->vertices[ends[0]],
+                         &b    = triangles->vertices[ends[1]];
+        add(triangles->vertices.size() + e, Point<dim>(a + (b - a) / 2.));
+      }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares);
+    if (solver.eigenvalues()[0] > 1e-10 * solver.eigenvalues()[2])
+      return;
+    const Eigen::Vector3d free = solver.eigenvectors().col(0);
+    throw InputError(
+      "Boundary conditions/Names",
+      "conditions that leave a rigid motion free",
+      "supports that hold the body against translation and rotation",
+      std::string("nothing resists a ") +
+        (std::abs(free[2]) > 0.1   ? "rotation"
+         : std::abs(free[0]) > 0.7 ? "translation along x"
+         : std::abs(free[1]) > 0.7 ? "translation along y"
+                                   : "translation") +
+        " of the body, so no load has a limit: hold another side");
   }
 
   void
@@ -370,6 +416,7 @@ namespace geocone
     level.upper            = load_unit * upper.load;
     level.lower            = load_unit * lower.load;
     level.gap              = (upper.load - lower.load) / std::abs(lower.load);
+    no_limit               = statical.grows || kinematic.grows;
     level.upper_certified  = upper.certified;
     level.lower_certified  = lower.certified;
     level.iterations_upper = kinematic.factorisations;
@@ -462,16 +509,25 @@ namespace geocone
     levels.push_back(level);
     place.time = levels.size();
 
+    if (factor != LoadFactor::velocity && level.upper_certified &&
+        level.upper <= 0.)
+      throw StepFailure(
+        "no factor of the load is carried: its certified upper bound is not "
+        "above "
+        "zero, so the dead loads alone make the body fail\n  remedy:  check "
+        "the "
+        "dead loads (what 'Analysis/Load factor of' does not name), the "
+        "strengths and the supports");
+    if (no_limit)
+      throw StepFailure(
+        "the load seems unbounded: stresses in equilibrium with it grow beyond "
+        "all bounds within the strength\n  remedy:  check that the body can "
+        "fail: supports around it, or a side of the mesh too near, may confine "
+        "it");
     if (!std::isfinite(level.upper + level.lower))
       throw StepFailure(
-        "the bounds of the limit load are not finite\n  remedy:  " +
-        (factor == LoadFactor::velocity
-           ? std::string(
-               "check the conditions: what is pushed may move without "
-               "resistance")
-           : std::string(
-               "check the supports and the strengths: the load may be "
-               "unbounded, or no factor of it be carried")));
+        "the bounds of the limit load are not finite\n  remedy:  check the "
+        "supports, the strengths and the loads, or take other cells");
     const bool is_narrow = level.certified() && level.gap < gap_tolerance;
     const bool is_last   = is_narrow ||
                          growth * level.cells > 1.15 * most_cells ||
@@ -489,19 +545,19 @@ namespace geocone
     if (limit_output.verbosity >= 1)
       {
         const BoundLevel &level = levels.back();
-        log.print(format("level %zu: %u triangles: %.6g <= load <= %.6g %s, "
-                         "gap %.3g %%%s, %u + "
-                         "%u factorisations, %.2g s",
-                         levels.size(),
-                         level.cells,
-                         level.lower,
-                         level.upper,
-                         unit.c_str(),
-                         100. * level.gap,
-                         level.certified() ? "" : " (not certified)",
-                         level.iterations_lower,
-                         level.iterations_upper,
-                         level.cpu_seconds));
+        const auto        shown = [](const double value, const bool certified) {
+          return certified ? format("%.6g", value) : std::string("?");
+        };
+        log.print(
+          format("level %zu: %u triangles: ", levels.size(), level.cells) +
+          shown(level.lower, level.lower_certified) +
+          " <= load <= " + shown(level.upper, level.upper_certified) +
+          (factor == LoadFactor::velocity ? " " + unit : "") +
+          (level.certified() ? format(", gap %.3g %%", 100. * level.gap) : "") +
+          format(", %u + %u factorisations, %.2g s",
+                 level.iterations_lower,
+                 level.iterations_upper,
+                 level.cpu_seconds));
       }
   }
 
@@ -585,13 +641,12 @@ namespace geocone
           unit.c_str()));
       }
     write_summary("finished");
-    log.print(format("%.6g <= load <= %.6g %s (middle %.6g, gap %.3g %%)%s",
-                     last.lower,
-                     last.upper,
-                     unit.c_str(),
-                     (last.lower + last.upper) / 2.,
-                     100. * last.gap,
-                     last.certified() ? ", certified" : ", NOT certified"));
+    if (last.certified())
+      log.print(format("%.6g <= load <= %.6g", last.lower, last.upper) +
+                (factor == LoadFactor::velocity ? " " + unit : "") +
+                format(", certified; middle %.6g, gap %.3g %%",
+                       (last.lower + last.upper) / 2.,
+                       100. * last.gap));
     limit_output.report();
   }
 

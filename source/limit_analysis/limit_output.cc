@@ -5,6 +5,7 @@
 #include <geocone/materials/second_order_cone.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace geocone
 {
@@ -50,11 +51,13 @@ namespace geocone
   void
   LimitOutput::add_level(const unsigned int number, const BoundLevel &level)
   {
+    // A bound that is not certified is none.
+    const double none = std::numeric_limits<double>::quiet_NaN();
     statistics.add_line({static_cast<double>(number),
                          static_cast<double>(level.cells),
-                         level.lower,
-                         level.upper,
-                         level.gap,
+                         level.lower_certified ? level.lower : none,
+                         level.upper_certified ? level.upper : none,
+                         level.certified() ? level.gap : none,
                          static_cast<double>(level.certified()),
                          static_cast<double>(level.unknowns_lower),
                          static_cast<double>(level.unknowns_upper),
@@ -109,17 +112,13 @@ namespace geocone
         {names[i], 1, each([=](const Index p, const Index) {
            return stress(p, i);
          })});
-    // The part of a triangle in the gap, over its part of the area.
-    double total = 0., area = 0.;
-    for (Index c = 0; c < n_cells; ++c)
-      {
-        total += std::max(gap[c], 0.);
-        area += triangles.area(c);
-      }
+    // The part of a triangle in the gap, over the mean.
+    double total = 0.;
+    for (const double part : gap)
+      total += std::max(part, 0.);
     table.columns.push_back(
-      {"gap_density", 1, each([&, total, area](const Index p, const Index) {
-         return total > 0. ? gap[p / 3] / total / (triangles.area(p / 3) / area)
-                           : 0.;
+      {"part_of_gap", 1, each([&, total](const Index p, const Index) {
+         return total > 0. ? gap[p / 3] / total * n_cells : 0.;
        })});
     table.columns.push_back(
       {"material", 1, each([&](const Index p, const Index) {

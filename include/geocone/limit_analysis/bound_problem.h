@@ -36,7 +36,7 @@ namespace geocone
 
     std::map<std::string, dealii::types::boundary_id> sides;
 
-    /** The edges of the boundary that a condition holds, as its middle tells.
+    /** The edges of the boundary that a condition holds.
      *  @throws InputError if there is none, or one is partly in its box */
     struct HeldEdge
     {

@@ -20,6 +20,8 @@ namespace geocone
     unsigned int                 factorisations = 0;
     bool                         converged      = false;
     std::string                  reason; ///< why it did not converge
+    bool                         grows =
+      false; ///< with stresses beyond all bounds: no load is the limit
 
     /** Relative residuals at the end: of equilibrium, and of -B q in K*. */
     double equilibrium = 0., flow = 0.;

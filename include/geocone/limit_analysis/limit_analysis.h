@@ -86,6 +86,10 @@ namespace geocone
     void
     choose_units();
 
+    /** @throws InputError if a rigid motion of the body is free */
+    void
+    check_supports(const BoundProblem &problem) const;
+
     BoundSolution
     solve_upper(const BoundProblem &problem) const;
     BoundSolution
@@ -139,6 +143,7 @@ namespace geocone
     Bound                    upper, lower;
     std::vector<double>      gap;
     Json                     davis;
+    bool no_limit = false; ///< its stresses grow beyond all bounds
     /** @} */
   };
 } // namespace geocone

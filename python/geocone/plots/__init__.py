@@ -36,6 +36,9 @@ def pictures_of(run, times=None):
     if run.method == "point":
         from geocone.plots import element
         return element.pictures(run)
+    if run.method == "limit load":
+        from geocone.plots import bounds
+        return bounds.pictures(run)
     if run.method == "explicit MPM":
         from geocone.plots import explicit
         return explicit.pictures(run, times)

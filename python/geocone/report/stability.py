@@ -51,7 +51,9 @@ def verdict(row):
                 ("reported", f"ended: {first}"))
     if must_fail:
         return "garbage", "**not refused**"
-    if max(table["residual (-)"]) > TOLERANCE:
+    # Rounding in the stresses may be larger than the tolerance (theory.md, section 7).
+    at_floor = leaves(row["summary"]).get("newton/steps_at_rounding_floor", 0)
+    if np.count_nonzero(table["residual (-)"] > TOLERANCE) > at_floor:
         return "unsolved", "**finished, but a residual is above 1e-10**"
     if max(table["natural-map error (-)"]) > LAW:
         return "unsolved", f"**finished, but a natural-map error is above {LAW:g}**"
