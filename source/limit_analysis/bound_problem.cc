@@ -20,10 +20,8 @@ namespace geocone
 
   namespace
   {
-    /** Parts of an edge that are rounding. */
-    constexpr double rounding = 1e-6;
-
-    /** The part of the edge from a to b that is in the box of a condition. */
+    /** The part of the edge from a to b that is in the box of a condition; all or
+     *  nothing if it is but for a rounding. */
     double
     part_in_box(const BoundaryCondition &condition,
                 const Point<dim>        &a,
@@ -49,7 +47,9 @@ namespace geocone
           from = std::max(from, std::min(low / along, high / along));
           to   = std::min(to, std::max(low / along, high / along));
         }
-      return std::max(0., to - from);
+      const double part     = std::max(0., to - from);
+      const double rounding = 1e-6 + 3. * tolerance / a.distance(b);
+      return part < rounding ? 0. : part > 1. - rounding ? 1. : part;
     }
   } // namespace
 
@@ -102,9 +102,9 @@ namespace geocone
           const Point<dim> &a = vertices[edge.vertices[0]],
                            &b = vertices[edge.vertices[1]];
           const double part   = part_in_box(condition, a, b);
-          if (part < rounding)
+          if (part == 0.)
             continue;
-          if (part < 1. - rounding)
+          if (part < 1.)
             throw InputError(
               condition.parameter("Box"),
               condition.part(),

@@ -448,9 +448,23 @@ namespace geocone
         size[c] = std::sqrt(4. / std::sqrt(3.) * triangles->area(c));
         least   = std::max(least, gap[c]);
       }
+    // The mean with the cells around: a coarse one beside others that are refined
+    // would have to wait for the next mesh.
+    std::vector<double>       at_vertex(triangles->vertices.size(), 0.);
+    std::vector<unsigned int> n_cells(at_vertex.size(), 0);
+    for (unsigned int c = 0; c < n; ++c)
+      for (const unsigned int v : triangles->cells[c])
+        {
+          at_vertex[v] += std::max(gap[c], 0.);
+          ++n_cells[v];
+        }
+    std::vector<double> smooth(n, 0.);
+    for (unsigned int c = 0; c < n; ++c)
+      for (const unsigned int v : triangles->cells[c])
+        smooth[c] += at_vertex[v] / n_cells[v] / 3.;
     least *= 1e-12;
     for (unsigned int c = 0; c < n; ++c)
-      wish[c] = std::pow(std::max(gap[c], least), -1. / 3.);
+      wish[c] = std::pow(std::max(smooth[c], least), -1. / 3.);
     // The gap falls like one over the number of cells: the last mesh need not be
     // larger than it has to.
     const BoundLevel &last = levels.back();
@@ -528,7 +542,8 @@ namespace geocone
       throw StepFailure(
         "the bounds of the limit load are not finite\n  remedy:  check the "
         "supports, the strengths and the loads, or take other cells");
-    const bool is_narrow = level.certified() && level.gap < gap_tolerance;
+    const auto best      = Bracket(levels).gap();
+    const bool is_narrow = best && *best < gap_tolerance;
     const bool is_last   = is_narrow ||
                          growth * level.cells > 1.15 * most_cells ||
                          scene.geometry.shape == Geometry::Shape::file ||
@@ -620,15 +635,16 @@ namespace geocone
   void
   LimitAnalysis::finish(const double)
   {
-    const BoundLevel &last = levels.back();
-    if (!last.certified())
+    const Bracket best(levels);
+    const auto    gap = best.gap();
+    if (!gap)
       log.warn(std::string("not certified: ") +
-               (last.lower_certified ? "the upper bound: " + upper.objection
-                                     : "the lower bound: " + lower.objection));
-    else if (!(last.gap < gap_tolerance))
+               (best.lower ? "the upper bound: " + upper.objection
+                           : "the lower bound: " + lower.objection));
+    else if (!(*gap < gap_tolerance))
       log.warn(format("the gap is %.3g %%, more than 'Analysis/Gap tolerance'; "
                       "raise 'Analysis/Maximum cells' or 'Maximum levels'",
-                      100. * last.gap));
+                      100. * *gap));
     if (non_associated)
       {
         davis = davis_estimate();
@@ -641,12 +657,12 @@ namespace geocone
           unit.c_str()));
       }
     write_summary("finished");
-    if (last.certified())
-      log.print(format("%.6g <= load <= %.6g", last.lower, last.upper) +
+    if (gap)
+      log.print(format("%.6g <= load <= %.6g", *best.lower, *best.upper) +
                 (factor == LoadFactor::velocity ? " " + unit : "") +
                 format(", certified; middle %.6g, gap %.3g %%",
-                       (last.lower + last.upper) / 2.,
-                       100. * last.gap));
+                       (*best.lower + *best.upper) / 2.,
+                       100. * *gap));
     limit_output.report();
   }
 

@@ -18,6 +18,25 @@ namespace geocone
     row(gap_share, cpu_seconds, mesh_seconds);
   }
 
+  Bracket::Bracket(const std::vector<BoundLevel> &levels)
+  {
+    for (const BoundLevel &level : levels)
+      {
+        if (level.lower_certified && (!lower || level.lower > *lower))
+          lower = level.lower;
+        if (level.upper_certified && (!upper || level.upper < *upper))
+          upper = level.upper;
+      }
+  }
+
+  std::optional<double>
+  Bracket::gap() const
+  {
+    if (!lower || !upper)
+      return std::nullopt;
+    return (*upper - *lower) / std::abs(*lower);
+  }
+
   LimitOutput::LimitOutput(const MPI_Comm comm, Log &log)
     : OutputBase(comm, log)
   {}
@@ -147,20 +166,21 @@ namespace geocone
             most =
               std::max({most, level.iterations_lower, level.iterations_upper});
           }
-        Json bounds      = {{"lower", nullptr}, {"upper", nullptr}};
-        bounds["gap"]    = nullptr;
-        bounds["middle"] = nullptr;
-        // A bound that is not certified is none.
-        if (last.lower_certified)
-          bounds["lower"] = last.lower;
-        if (last.upper_certified)
-          bounds["upper"] = last.upper;
-        if (last.certified())
+        const Bracket best(levels);
+        Json          bounds = {{"lower", nullptr},
+                                {"upper", nullptr},
+                                {"gap", nullptr},
+                                {"middle", nullptr}};
+        if (best.lower)
+          bounds["lower"] = *best.lower;
+        if (best.upper)
+          bounds["upper"] = *best.upper;
+        if (const auto gap = best.gap())
           {
-            bounds["gap"]    = last.gap;
-            bounds["middle"] = (last.lower + last.upper) / 2.;
+            bounds["gap"]    = *gap;
+            bounds["middle"] = (*best.lower + *best.upper) / 2.;
           }
-        bounds["certified"]           = last.certified();
+        bounds["certified"]           = best.gap().has_value();
         bounds["cells"]               = last.cells;
         bounds["iterations"]          = iterations;
         bounds["iterations_max"]      = most;

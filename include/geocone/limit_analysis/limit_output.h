@@ -37,6 +37,19 @@ namespace geocone
     state(StateRow &row);
   };
 
+  /** The best certified bounds of some levels: those of every mesh hold for the
+   *  body. What none has certified is nothing. */
+  struct Bracket
+  {
+    explicit Bracket(const std::vector<BoundLevel> &levels);
+
+    std::optional<double> lower, upper;
+
+    /** upper/lower - 1, if there are both. */
+    std::optional<double>
+    gap() const;
+  };
+
   /** What is written of a limit analysis: bounds.csv, a line per level, the fields
    *  of the levels, and the summary. */
   class LimitOutput : public OutputBase
