@@ -24,12 +24,12 @@ namespace geocone
                   memory_text,
                   "Time (s) in which the strength follows the normal stress, "
                   ">= 0; it makes flow with little dilatancy well-posed. 0: at "
-                  "once, the exact law. Automatic: 0, but for FEM and a soil "
-                  "with theta below about phi/2 and sin(phi) - sin(theta) > "
-                  "0.2 that a part of the boundary is pushed into: B/1000 over "
-                  "its speed, B its length (twice that with 'Observation/"
-                  "Factor' = -2 or 2); and with 'Time stepping/Friction' = "
-                  "exact it is 0 always.");
+                  "once, the exact law. Automatic: 0, but for FEM (for MPM if "
+                  "nu > 0.49) and a soil with theta below about phi/2 and "
+                  "sin(phi) - sin(theta) > 0.2 that a part of the boundary is "
+                  "pushed into: B/1000 over its speed, B its length (twice "
+                  "that with 'Observation/Factor' = -2 or 2); and with 'Time "
+                  "stepping/Friction' = exact it is 0 always.");
   }
 
   MohrCoulomb::MohrCoulomb(const std::string &section, const WithoutFriction &)

@@ -50,6 +50,19 @@ namespace geocone
              "strength";
     }
 
+    /** Whether a material that flows with little dilatancy has nu > 0.49. */
+    bool
+    is_nearly_incompressible(const Materials &materials)
+    {
+      for (unsigned int m = 0; m < materials.size(); ++m)
+        if (const Elasticity &elastic = materials[m].elasticity();
+            materials[m].non_associativity() > Material::hard_flow &&
+            elastic.normal_stiffness() >
+              50. * elastic.stiffness()(2, 2)) // 1/(1 - 2 nu)
+          return true;
+      return false;
+    }
+
     /** What friction with memory makes of the steps, for the estimate.
      *  @throws InputError if it makes too many of them */
     std::string
@@ -119,7 +132,9 @@ namespace geocone
     scene.materials.check_closed_form(method.name());
     for (const auto &stage : scene.loading.stages)
       stage->check_implicit();
-    if (!method.is_mpm() && !newton.wants_exact_friction())
+    // The exact law is easy for particles, unless volume hardly changes at all.
+    if ((!method.is_mpm() || is_nearly_incompressible(scene.materials)) &&
+        !newton.wants_exact_friction())
       scene.materials.set_friction_memory(scene.time_of_small_motion());
     newton.prepare();
     step_control.prepare();
