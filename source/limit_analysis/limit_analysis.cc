@@ -585,7 +585,8 @@ namespace geocone
   void
   LimitAnalysis::write_fields(const double t)
   {
-    if (!levels.empty())
+    // Not between two meshes, where a run was stopped.
+    if (lower.s.size() == 3 * triangles->cells.size() && !lower.s.empty())
       limit_output.write_fields(t, *triangles, units, upper, lower, gap);
   }
 
