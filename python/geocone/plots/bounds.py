@@ -78,10 +78,19 @@ def draw_mechanism(run, path):
                     "triangles")
     add_bar(first, mesh, "part of the gap, over the mean", extend="min")
     speed = np.linalg.norm(field.data["velocity"], axis=1)
-    drawn = second.tripcolor(*field.points.T, field.cells, speed / speed.max(),
+    # Sand at the corner of a footing may be shot out: two hundredths of the whole
+    # area may be faster than the colours tell.
+    corners = field.points[field.cells]
+    (ax, ay), (bx, by) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] -
+                                                             corners[:, 0]).T
+    mean = speed[field.cells].mean(axis=1)
+    order = np.argsort(mean)
+    area = np.cumsum(np.abs(ax * by - ay * bx)[order])
+    most = mean[order][np.searchsorted(area, 0.98 * area[-1])]
+    drawn = second.tripcolor(*field.points.T, field.cells, speed / most,
                              shading="gouraud", cmap=STRAINS, vmin=0., vmax=1.)
     second.set_title("speed of the mechanism of the upper bound")
-    add_bar(second, drawn, "speed over the largest")
+    add_bar(second, drawn, "speed over the largest shown", extend="max")
     save(figure, run, path, cropped=True)
 
 
