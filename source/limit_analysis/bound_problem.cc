@@ -2,153 +2,72 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
-#include <geocone/base/log.h>
-#include <geocone/discretisation/fitted_mesh.h>
 #include <geocone/limit_analysis/bound_problem.h>
 #include <geocone/materials/second_order_cone.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <set>
+#include <vector>
 
 namespace geocone
 {
   using dealii::Point;
   using dealii::Tensor;
 
-  namespace
+  bool
+  BoundProblem::has_cylinders() const
   {
-    /** The part of the edge from a to b that is in the box of a condition; all or
-     *  nothing if it is but for a rounding. */
-    double
-    part_in_box(const BoundaryCondition &condition,
-                const Point<dim>        &a,
-                const Point<dim>        &b)
-    {
-      const auto corners = condition.box_corners();
-      if (!corners)
-        return 1.;
-      double       from = 0., to = 1.;
-      const double tolerance =
-        1e-9 * (1. + (*corners)[0].distance((*corners)[1]));
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          const double low   = (*corners)[0][d] - tolerance - a[d],
-                       high  = (*corners)[1][d] + tolerance - a[d],
-                       along = b[d] - a[d];
-          if (std::abs(along) < tolerance)
-            {
-              if (low > 0. || high < 0.)
-                return 0.;
-              continue;
-            }
-          from = std::max(from, std::min(low / along, high / along));
-          to   = std::min(to, std::max(low / along, high / along));
-        }
-      const double part     = std::max(0., to - from);
-      const double rounding = 1e-6 + 3. * tolerance / a.distance(b);
-      return part < rounding ? 0. : part > 1. - rounding ? 1. : part;
-    }
-  } // namespace
-
-  Triangles::Triangles(const CoarseMesh &mesh)
-    : vertices(mesh.points)
-    , sides(mesh.sides)
-  {
-    std::map<std::array<unsigned int, 2>, unsigned int> number;
-    const auto sorted = [](const unsigned int a, const unsigned int b) {
-      return std::array<unsigned int, 2>{{std::min(a, b), std::max(a, b)}};
-    };
-    for (const auto &cell : mesh.cells)
-      {
-        cells.push_back(
-          {{cell.vertices[0], cell.vertices[1], cell.vertices[2]}});
-        if (area(cells.size() - 1) < 0.)
-          std::swap(cells.back()[1], cells.back()[2]);
-        material.push_back(cell.material_id);
-        edges_of_cell.emplace_back();
-        for (unsigned int i = 0; i < 3; ++i)
-          {
-            const auto ends =
-              sorted(cells.back()[(i + 1) % 3], cells.back()[(i + 2) % 3]);
-            const auto [entry, is_new] = number.emplace(ends, edges.size());
-            if (is_new)
-              edges.push_back({ends, -1});
-            edges_of_cell.back()[i] = entry->second;
-          }
-      }
-    for (const auto &line : mesh.boundary.boundary_lines)
-      edges[number.at(sorted(line.vertices[0], line.vertices[1]))].side =
-        line.boundary_id;
-  }
-
-  std::vector<Triangles::HeldEdge>
-  Triangles::held_edges(const BoundaryCondition &condition) const
-  {
-    std::set<dealii::types::boundary_id> all;
-    for (const Edge &edge : edges)
-      if (edge.side >= 0)
-        all.insert(edge.side);
-    const auto ids = side_ids(condition, sides, {all.begin(), all.end()});
-    std::vector<HeldEdge> held;
-    for (unsigned int c = 0; c < cells.size(); ++c)
-      for (unsigned int i = 0; i < 3; ++i)
-        {
-          const Edge &edge = edges[edges_of_cell[c][i]];
-          if (edge.side < 0 || ids.count(edge.side) == 0)
-            continue;
-          const Point<dim> &a = vertices[edge.vertices[0]],
-                           &b = vertices[edge.vertices[1]];
-          const double part   = part_in_box(condition, a, b);
-          if (part == 0.)
-            continue;
-          if (part < 1.)
-            throw InputError(
-              condition.parameter("Box"),
-              condition.part(),
-              "a box that ends at vertices of the mesh",
-              format("the edge from (%g, %g) to (%g, %g) is partly in it, "
-                     "but a bound needs the exact part; add the ends of the "
-                     "box to 'Mesh/Grading points'",
-                     a[0],
-                     a[1],
-                     b[0],
-                     b[1]));
-          held.push_back({edges_of_cell[c][i], c, i});
-        }
-    condition.check_selection(held.size());
-    return held;
-  }
-
-  double
-  Triangles::area(const unsigned int cell) const
-  {
-    const auto &[i, j, k]  = cells[cell];
-    const Tensor<1, dim> a = vertices[j] - vertices[i],
-                         b = vertices[k] - vertices[i];
-    return (a[0] * b[1] - a[1] * b[0]) / 2.;
-  }
-
-  std::array<Tensor<1, dim>, 3>
-  Triangles::gradients(const unsigned int cell) const
-  {
-    std::array<Tensor<1, dim>, 3> g;
-    const double                  twice = 2. * area(cell);
-    for (unsigned int i = 0; i < 3; ++i)
-      {
-        const Tensor<1, dim> along = vertices[cells[cell][(i + 2) % 3]] -
-                                     vertices[cells[cell][(i + 1) % 3]];
-        g[i] = Tensor<1, dim>({-along[1], along[0]}) / twice;
-      }
-    return g;
+    return std::any_of(cone.begin(), cone.end(), [](const PointCone &one) {
+      return one.is_cylinder();
+    });
   }
 
   unsigned int
   BoundProblem::n_unknowns() const
   {
     return std::count(is_prescribed.begin(), is_prescribed.end(), false);
+  }
+
+  std::vector<Eigen::Vector3d>
+  strain_rates(const BoundProblem                       &problem,
+               const std::vector<BoundProblem::Strains> &strains,
+               const Eigen::VectorXd                    &q)
+  {
+    std::vector<Eigen::Vector3d> all(problem.n_points());
+    const unsigned int           n = problem.n_local;
+    Eigen::VectorXd              own(n);
+    Eigen::Matrix<double, 9, 1>  e;
+    for (unsigned int c = 0; c < problem.n_cells(); ++c)
+      {
+        for (unsigned int i = 0; i < n; ++i)
+          own[i] = q[problem.dofs[n * c + i]];
+        e.noalias() = strains[c] * own;
+        for (unsigned int i = 0; i < 3; ++i)
+          all[3 * c + i] = e.segment<3>(3 * i);
+      }
+    return all;
+  }
+
+  Eigen::VectorXd
+  internal_forces(const BoundProblem                       &problem,
+                  const std::vector<BoundProblem::Strains> &strains,
+                  const std::vector<Eigen::Vector3d>       &s)
+  {
+    Eigen::VectorXd             f = Eigen::VectorXd::Zero(problem.n_dofs());
+    const unsigned int          n = problem.n_local;
+    Eigen::VectorXd             own(n);
+    Eigen::Matrix<double, 9, 1> weighted;
+    for (unsigned int c = 0; c < problem.n_cells(); ++c)
+      {
+        for (unsigned int i = 0; i < 3; ++i)
+          weighted.segment<3>(3 * i) = problem.volume[3 * c + i] * s[3 * c + i];
+        own.noalias() = strains[c].transpose() * weighted;
+        for (unsigned int i = 0; i < n; ++i)
+          f[problem.dofs[n * c + i]] += own[i];
+      }
+    return f;
   }
 
   namespace
@@ -226,19 +145,6 @@ namespace geocone
                        "prescribe both components, or turn the scene");
     }
 
-    /** Calls f(condition, edge, its cell, the vertex opposite to it) for all
-     *  edges that conditions of a list hold, in its order. */
-    template <typename Function>
-    void
-    for_each_held_edge(const BoundaryConditions &conditions,
-                       const Triangles          &triangles,
-                       const Function           &f)
-    {
-      for (const auto &condition : conditions.list)
-        for (const auto &held : triangles.held_edges(*condition))
-          f(*condition, held.edge, held.cell, held.opposite_vertex);
-    }
-
     /** Calls f(component, value) for what a condition prescribes at x. */
     template <typename Function>
     void
@@ -271,33 +177,85 @@ namespace geocone
           t[d] += load.components[d]->value(x, 0.);
       return t / unit;
     }
-  } // namespace
 
-  BoundProblem::Strains
-  strains_of_quadratic(const Triangles &triangles, const unsigned int cell)
-  {
-    const auto            g = triangles.gradients(cell);
-    BoundProblem::Strains B = BoundProblem::Strains::Zero(9, 12);
-    for (unsigned int i = 0; i < 3; ++i) // at vertex i
-      for (unsigned int f = 0; f < 6; ++f)
-        {
-          // Of the function of vertex f, or of the edge opposite to vertex f - 3.
-          Tensor<1, dim> gradient;
-          if (f < 3)
-            gradient = f == i ? 3. * g[f] : -1. * g[f];
-          else
-            {
-              const unsigned int j = (f - 3 + 1) % 3, k = (f - 3 + 2) % 3;
-              if (i == j)
-                gradient = 4. * g[k];
-              else if (i == k)
-                gradient = 4. * g[j];
-            }
-          for (unsigned int d = 0; d < dim; ++d)
-            B.block<3, 1>(3 * i, dim * f + d) = symmetric_part(d, gradient);
-        }
-    return B;
-  }
+    /** A node of an edge of the boundary. */
+    struct EdgeNode
+    {
+      unsigned int dof;                      ///< of its x component; y follows
+      Point<dim>   of_velocity, of_traction; ///< where these are taken
+      double       part;                     ///< of the edge's length
+    };
+
+    /** Prescribes velocities and adds tractions.
+     *  @param nodes_of (edge) -> its EdgeNodes */
+    template <typename NodesOfEdge>
+    void
+    apply_conditions(const BoundScene  &bound,
+                     const NodesOfEdge &nodes_of,
+                     BoundProblem      &problem)
+    {
+      const Triangles &triangles = bound.triangles;
+      for (const auto &condition : bound.scene.dirichlet.list)
+        for (const auto &held : triangles.held_edges(*condition))
+          for (const EdgeNode &node : nodes_of(held.edge))
+            prescribe(
+              *condition,
+              node.of_velocity,
+              outward_normal(triangles, held.cell, held.opposite_vertex),
+              bound.units.velocity,
+              [&](const unsigned int d, const double value) {
+                problem.is_prescribed[node.dof + d] = true;
+                problem.prescribed[node.dof + d]    = value;
+              });
+      Eigen::VectorXd &F = loads(problem, bound, LoadFactor::tractions);
+      for (const auto &load : bound.scene.tractions.list)
+        for (const auto &held : triangles.held_edges(*load))
+          {
+            const auto  &ends   = triangles.edges[held.edge].vertices;
+            const double length = triangles.vertices[ends[0]].distance(
+                                    triangles.vertices[ends[1]]) /
+                                  bound.units.length;
+            for (const EdgeNode &node : nodes_of(held.edge))
+              {
+                const Tensor<1, dim> t = traction(
+                  *load,
+                  node.of_traction,
+                  outward_normal(triangles, held.cell, held.opposite_vertex),
+                  bound.units.stress);
+                for (unsigned int d = 0; d < dim; ++d)
+                  F[node.dof + d] += node.part * length * t[d];
+              }
+          }
+    }
+
+    /** Strains at the vertices of a cell of quadratic velocities, in cone axes. */
+    BoundProblem::Strains
+    strains_of_quadratic(const Triangles &triangles, const unsigned int cell)
+    {
+      const auto            g = triangles.gradients(cell);
+      BoundProblem::Strains B = BoundProblem::Strains::Zero(9, 12);
+      for (unsigned int i = 0; i < 3; ++i) // at vertex i
+        for (unsigned int f = 0; f < 6; ++f)
+          {
+            // Of the function of vertex f, or of the edge opposite to vertex f - 3.
+            Tensor<1, dim> gradient;
+            if (f < 3)
+              gradient = f == i ? 3. * g[f] : -1. * g[f];
+            else
+              {
+                const unsigned int j = (f - 3 + 1) % 3, k = (f - 3 + 2) % 3;
+                if (i == j)
+                  gradient = 4. * g[k];
+                else if (i == k)
+                  gradient = 4. * g[j];
+              }
+            for (unsigned int d = 0; d < dim; ++d)
+              B.block<3, 1>(3 * i, dim * f + d) = symmetric_part(d, gradient);
+          }
+      return B;
+    }
+
+  } // namespace
 
   BoundProblem
   upper_problem(const BoundScene &bound)
@@ -328,59 +286,24 @@ namespace geocone
               w[d] * problem.volume[3 * c];
       }
     for (unsigned int v = 0; v < n_vertices; ++v)
-      if (!is_used[v]) // of another mesh level
+      if (!is_used[v]) // gmsh keeps points of the outline that no cell has
         for (unsigned int d = 0; d < dim; ++d)
           problem.is_prescribed[dim * v + d] = true;
 
-    const auto on_edge = [&](const unsigned int e, const auto &f) {
-      const auto       &ends = triangles.edges[e].vertices;
-      const Point<dim> &a    = triangles.vertices[ends[0]],
-                       &b    = triangles.vertices[ends[1]];
-      f(ends[0], a, 1. / 6.);
-      f(ends[1], b, 1. / 6.);
-      f(n_vertices + e, Point<dim>(a + (b - a) / 2.), 2. / 3.);
-    };
-    for_each_held_edge(
-      bound.scene.dirichlet,
-      triangles,
-      [&](const BoundaryCondition &condition,
-          const unsigned int       e,
-          const unsigned int       c,
-          const unsigned int       i) {
-        const Tensor<1, dim> n = outward_normal(triangles, c, i);
-        on_edge(
-          e, [&](const unsigned int node, const Point<dim> &x, const double) {
-            prescribe(condition,
-                      x,
-                      n,
-                      bound.units.velocity,
-                      [&](const unsigned int d, const double value) {
-                        problem.is_prescribed[dim * node + d] = true;
-                        problem.prescribed[dim * node + d]    = value;
-                      });
-          });
-      });
     // Simpson's rule is exact for linear tractions.
-    for_each_held_edge(
-      bound.scene.tractions,
-      triangles,
-      [&](const BoundaryCondition &load,
-          const unsigned int       e,
-          const unsigned int       c,
-          const unsigned int       i) {
-        const Tensor<1, dim> n    = outward_normal(triangles, c, i);
-        const auto          &ends = triangles.edges[e].vertices;
-        const double         length =
-          triangles.vertices[ends[0]].distance(triangles.vertices[ends[1]]) / L;
-        Eigen::VectorXd &F = loads(problem, bound, LoadFactor::tractions);
-        on_edge(
-          e,
-          [&](const unsigned int node, const Point<dim> &x, const double part) {
-            const Tensor<1, dim> t = traction(load, x, n, bound.units.stress);
-            for (unsigned int d = 0; d < dim; ++d)
-              F[dim * node + d] += part * length * t[d];
-          });
-      });
+    apply_conditions(
+      bound,
+      [&](const unsigned int edge) {
+        const auto       &ends = triangles.edges[edge].vertices;
+        const Point<dim> &a    = triangles.vertices[ends[0]],
+                         &b    = triangles.vertices[ends[1]];
+        const Point<dim> middle(a + (b - a) / 2.);
+        return std::array<EdgeNode, 3>{
+          {{dim * ends[0], a, a, 1. / 6.},
+           {dim * ends[1], b, b, 1. / 6.},
+           {dim * (n_vertices + edge), middle, middle, 2. / 3.}}};
+      },
+      problem);
     return problem;
   }
 
@@ -429,50 +352,25 @@ namespace geocone
           F[dim * c + d] += w[d] * 3. * problem.volume[3 * c];
       }
 
-    for_each_held_edge(
-      bound.scene.dirichlet,
-      triangles,
-      [&](const BoundaryCondition &condition,
-          const unsigned int       e,
-          const unsigned int       c,
-          const unsigned int       i) {
-        const auto &ends = triangles.edges[e].vertices;
-        for (const unsigned int v : ends)
+    // w is the value of a linear velocity at the third point that is nearer to the
+    // end; the integral of its function with a linear traction is that of the end.
+    apply_conditions(
+      bound,
+      [&](const unsigned int edge) {
+        const auto             &ends = triangles.edges[edge].vertices;
+        std::array<EdgeNode, 2> nodes;
+        for (unsigned int end = 0; end < 2; ++end)
           {
-            // w is the value at the third point of a linear velocity.
-            const Point<dim> &a = triangles.vertices[v],
-                             &b = triangles.vertices[ends[0] + ends[1] - v];
-            prescribe(condition,
-                      Point<dim>(a + (b - a) / 3.),
-                      outward_normal(triangles, c, i),
-                      bound.units.velocity,
-                      [&](const unsigned int d, const double value) {
-                        problem.is_prescribed[end_dof(e, v, d)] = true;
-                        problem.prescribed[end_dof(e, v, d)]    = value;
-                      });
+            const Point<dim> &a = triangles.vertices[ends[end]],
+                             &b = triangles.vertices[ends[1 - end]];
+            nodes[end]          = {end_dof(edge, ends[end], 0),
+                                   Point<dim>(a + (b - a) / 3.),
+                                   a,
+                                   1. / 2.};
           }
-      });
-    for_each_held_edge(
-      bound.scene.tractions,
-      triangles,
-      [&](const BoundaryCondition &load,
-          const unsigned int       e,
-          const unsigned int       c,
-          const unsigned int       i) {
-        const auto  &ends = triangles.edges[e].vertices;
-        const double length =
-          triangles.vertices[ends[0]].distance(triangles.vertices[ends[1]]) / L;
-        Eigen::VectorXd &F = loads(problem, bound, LoadFactor::tractions);
-        for (const unsigned int v : ends)
-          {
-            const Tensor<1, dim> t = traction(load,
-                                              triangles.vertices[v],
-                                              outward_normal(triangles, c, i),
-                                              bound.units.stress);
-            for (unsigned int d = 0; d < dim; ++d)
-              F[end_dof(e, v, d)] += length / 2. * t[d];
-          }
-      });
+        return nodes;
+      },
+      problem);
     return problem;
   }
 } // namespace geocone

@@ -46,40 +46,14 @@ namespace geocone
         {x[0] * n[0] + x[2] / sqrt2 * n[1], x[2] / sqrt2 * n[0] + x[1] * n[1]});
     }
 
-    /**
-     * The largest error of equilibrium, from the fields alone, over the largest
-     * stress: |div s + body force| times the length of the unit, and jumps of
-     * tractions at both ends of all edges, boundary values included.
-     */
-    double
-    equilibrium_error(const BoundScene            &bound,
-                      const BoundProblem          &problem,
-                      const std::vector<Vector3d> &s,
-                      const double                 lambda)
+    /** The sum of the tractions of the cells on both sides at each end of each
+     *  edge. */
+    std::vector<Tensor<1, dim>>
+    tractions_at_ends(const Triangles             &triangles,
+                      const std::vector<Vector3d> &s)
     {
-      const Triangles   &triangles = bound.triangles;
-      const unsigned int n_cells   = triangles.cells.size();
-      const double       L         = bound.units.length;
-      const VectorXd     F         = problem.dead + lambda * problem.live;
-      double largest = std::numeric_limits<double>::min(), error = 0.;
-      for (const Vector3d &one : s)
-        largest = std::max(largest, one.norm());
-      for (unsigned int c = 0; c < n_cells; ++c)
-        {
-          const auto     g = triangles.gradients(c);
-          Tensor<1, dim> divergence;
-          for (unsigned int i = 0; i < 3; ++i)
-            divergence += traction(s[3 * c + i], g[i]);
-          for (unsigned int d = 0; d < dim; ++d)
-            error =
-              std::max(error,
-                       std::abs(L * divergence[d] +
-                                F[dim * c + d] / (3. * problem.volume[3 * c])) *
-                         std::sqrt(triangles.area(c)) / L);
-        }
-      // The sum of the tractions of both cells at each end of each edge.
       std::vector<Tensor<1, dim>> sum(2 * triangles.edges.size());
-      for (unsigned int c = 0; c < n_cells; ++c)
+      for (unsigned int c = 0; c < triangles.cells.size(); ++c)
         {
           const auto g = triangles.gradients(c);
           for (unsigned int e = 0; e < 3; ++e)
@@ -94,23 +68,69 @@ namespace geocone
                   traction(s[3 * c + i], -1. * g[e] / g[e].norm());
               }
         }
+      return sum;
+    }
+
+    /** What linear stresses have to do with the loads of a lower problem. */
+    struct Statics
+    {
+      double power = 0.; ///< of the reactions to prescribed velocities
+      double error = 0.; ///< of equilibrium, over the largest stress
+    };
+
+    /**
+     * From the fields alone: |div s + body force| times the cell's size, jumps of
+     * tractions at both ends of all edges, boundary values included, and the
+     * tractions where velocities are prescribed.
+     */
+    Statics
+    statics(const BoundScene            &bound,
+            const BoundProblem          &problem,
+            const std::vector<Vector3d> &s,
+            const double                 lambda)
+    {
+      const Triangles   &triangles = bound.triangles;
+      const unsigned int n_cells   = triangles.cells.size();
+      const double       L         = bound.units.length;
+      const VectorXd     F         = problem.dead + lambda * problem.live;
+      Statics            result;
+      double             largest = std::numeric_limits<double>::min();
+      for (const Vector3d &one : s)
+        largest = std::max(largest, one.norm());
+      for (unsigned int c = 0; c < n_cells; ++c)
+        {
+          const auto     g = triangles.gradients(c);
+          Tensor<1, dim> divergence;
+          for (unsigned int i = 0; i < 3; ++i)
+            divergence += traction(s[3 * c + i], g[i]);
+          for (unsigned int d = 0; d < dim; ++d)
+            result.error =
+              std::max(result.error,
+                       std::abs(L * divergence[d] +
+                                F[dim * c + d] / (3. * problem.volume[3 * c])) *
+                         std::sqrt(triangles.area(c)) / L);
+        }
+      const auto tractions = tractions_at_ends(triangles, s);
       for (unsigned int e = 0; e < triangles.edges.size(); ++e)
         {
           const auto  &ends = triangles.edges[e].vertices;
-          const double length =
+          const double half =
             triangles.vertices[ends[0]].distance(triangles.vertices[ends[1]]) /
-            L;
+            (2. * L);
           for (unsigned int end = 0; end < 2; ++end)
             for (unsigned int d = 0; d < dim; ++d)
               {
                 const unsigned int dof = dim * (n_cells + 2 * e + end) + d;
-                if (!problem.is_prescribed[dof])
-                  error = std::max(
-                    error,
-                    std::abs(sum[2 * e + end][d] - F[dof] / (length / 2.)));
+                const double       t   = tractions[2 * e + end][d];
+                if (problem.is_prescribed[dof])
+                  result.power += (t * half - F[dof]) * problem.prescribed[dof];
+                else
+                  result.error =
+                    std::max(result.error, std::abs(t - F[dof] / half));
               }
         }
-      return error / largest;
+      result.error /= largest;
+      return result;
     }
 
     /** Makes cylinders incompressible: the velocity that is nearest in the metric
@@ -134,23 +154,13 @@ namespace geocone
       VectorXd       multiplier = VectorXd::Zero(n);
       for (unsigned int i = 0; i < 6; ++i)
         {
-          const auto e           = strain_rates(problem, q),
-                     e_0         = strain_rates(problem, q_0);
-          VectorXd           rhs = VectorXd::Zero(problem.n_dofs());
-          const unsigned int m   = problem.n_local;
+          auto       s = strain_rates(problem, problem.B, VectorXd(q - q_0));
+          const auto e = strain_rates(problem, problem.B, q);
           for (unsigned int p = 0; p < n; ++p)
-            {
-              Vector3d s = e[p] - e_0[p];
-              if (problem.cone[p].is_cylinder())
-                s[0] += multiplier[p] + penalty * e[p][0];
-              const VectorXd f =
-                problem.B[p / 3].middleRows<3>(3 * (p % 3)).transpose() *
-                (problem.volume[p] * s);
-              for (unsigned int j = 0; j < m; ++j)
-                rhs[problem.dofs[m * (p / 3) + j]] -= f[j];
-            }
-          q += matrix.solve(rhs);
-          const auto next = strain_rates(problem, q);
+            if (problem.cone[p].is_cylinder())
+              s[p][0] += multiplier[p] + penalty * e[p][0];
+          q -= matrix.solve(internal_forces(problem, problem.B, s));
+          const auto next = strain_rates(problem, problem.B, q);
           for (unsigned int p = 0; p < n; ++p)
             if (problem.cone[p].is_cylinder())
               multiplier[p] += penalty * next[p][0];
@@ -189,22 +199,6 @@ namespace geocone
                               : -cone.k / cone.a * rate[0];
   }
 
-  std::vector<Vector3d>
-  strain_rates(const BoundProblem &problem, const VectorXd &q)
-  {
-    std::vector<Vector3d> all(problem.n_points());
-    const unsigned int    n = problem.n_local;
-    VectorXd              own(n);
-    for (unsigned int c = 0; c < problem.n_cells(); ++c)
-      {
-        for (unsigned int i = 0; i < n; ++i)
-          own[i] = q[problem.dofs[n * c + i]];
-        for (unsigned int i = 0; i < 3; ++i)
-          all[3 * c + i] = problem.B[c].middleRows<3>(3 * i) * own;
-      }
-    return all;
-  }
-
   Bound
   certify_lower(const BoundScene    &bound,
                 const BoundProblem  &problem,
@@ -227,8 +221,9 @@ namespace geocone
     const bool is_scaled = problem.dead.squaredNorm() == 0. && theta > 0.;
     if (!is_scaled)
       theta = 1.;
-    result.error = equilibrium_error(bound, problem, result.s, solution.load);
-    result.load  = theta * solution.load;
+    const Statics found = statics(bound, problem, result.s, solution.load);
+    result.error        = found.error;
+    result.load = theta * (problem.has_factor() ? solution.load : found.power);
     for (Vector3d &one : result.s)
       one *= theta;
     if (!std::isfinite(result.load + result.error))
@@ -254,11 +249,8 @@ namespace geocone
                 const BoundSolution &solution)
   {
     Bound result;
-    result.q = solution.q;
-    const bool cylinder =
-      std::any_of(problem.cone.begin(),
-                  problem.cone.end(),
-                  [](const PointCone &cone) { return cone.is_cylinder(); });
+    result.q            = solution.q;
+    const bool cylinder = problem.has_cylinders();
     if (!solution.q.allFinite())
       {
         result.objection = "it is not a number";
@@ -268,7 +260,7 @@ namespace geocone
       result.objection = "incompressible velocities were not found";
 
     double     largest = std::numeric_limits<double>::min();
-    const auto rates   = strain_rates(problem, result.q);
+    const auto rates   = strain_rates(problem, problem.B, result.q);
     for (unsigned int p = 0; p < problem.n_points(); ++p)
       {
         largest = std::max(largest, rates[p].norm());
@@ -307,7 +299,7 @@ namespace geocone
             scale = 1. + delta * slope;
           }
       }
-    const auto repaired = strain_rates(problem, result.q);
+    const auto repaired = strain_rates(problem, problem.B, result.q);
     double     left = 0., power = -problem.dead.dot(result.q);
     for (unsigned int p = 0; p < problem.n_points(); ++p)
       {
@@ -343,7 +335,7 @@ namespace geocone
                const Bound        &upper,
                const Bound        &lower)
   {
-    const auto          e = strain_rates(problem, upper.q);
+    const auto          e = strain_rates(problem, problem.B, upper.q);
     std::vector<double> gap(problem.n_cells(), 0.);
     for (unsigned int c = 0; c < problem.n_cells(); ++c)
       for (unsigned int i = 0; i < 3; ++i)

@@ -138,7 +138,8 @@ namespace geocone
         : problem(problem)
         , options(options)
         , n(problem.n_points())
-        , matrix(problem, strains = scaled_strains(problem))
+        , strains(scaled_strains(problem))
+        , matrix(problem, strains)
       {
         const double mean =
           std::accumulate(problem.volume.begin(), problem.volume.end(), 0.) / n;
@@ -160,42 +161,16 @@ namespace geocone
         return all;
       }
 
-      /** Bs q of all points. */
       Points
-      rates(const VectorXd &q) const
+      rates(const VectorXd &velocities) const
       {
-        Points                      all(n);
-        const unsigned int          m = problem.n_local;
-        VectorXd                    own(m);
-        Eigen::Matrix<double, 9, 1> e;
-        for (unsigned int c = 0; c < problem.n_cells(); ++c)
-          {
-            for (unsigned int i = 0; i < m; ++i)
-              own[i] = q[problem.dofs[m * c + i]];
-            e.noalias() = strains[c] * own;
-            for (unsigned int i = 0; i < 3; ++i)
-              all[3 * c + i] = e.segment<3>(3 * i);
-          }
-        return all;
+        return strain_rates(problem, strains, velocities);
       }
 
-      /** sum V Bs' s in all dofs. */
       VectorXd
       forces(const Points &s) const
       {
-        VectorXd           f = VectorXd::Zero(problem.n_dofs());
-        const unsigned int m = problem.n_local;
-        VectorXd           own(m);
-        for (unsigned int c = 0; c < problem.n_cells(); ++c)
-          {
-            own.setZero();
-            for (unsigned int i = 0; i < 3; ++i)
-              own.noalias() += strains[c].middleRows<3>(3 * i).transpose() *
-                               (problem.volume[3 * c + i] * s[3 * c + i]);
-            for (unsigned int i = 0; i < m; ++i)
-              f[problem.dofs[m * c + i]] += own[i];
-          }
-        return f;
+        return internal_forces(problem, strains, s);
       }
 
       /** x - o, or of a cylinder s_n and s_t: stresses with Bs. */
@@ -313,22 +288,17 @@ namespace geocone
       r_d = only_free(all - lambda * problem.live - problem.dead);
       r_g = problem.has_factor() ? 1. - problem.live.dot(q) : 0.;
       r_p.resize(n);
-      double product = 0., miss = 0., size = 0., stress = 0.;
+      double product = 0., miss = 0., size = 0.;
       gap = 0.;
       for (unsigned int p = 0; p < n; ++p)
         {
-          r_p[p]     = z[p] + omega[p] * rate[p];
-          Vector3d e = rate[p];
+          r_p[p] = z[p] + omega[p] * rate[p];
+          if (problem.cone[p].is_cylinder()) // its normal rate is to vanish
+            r_p[p][0] = omega[p] * rate[p][0];
+          miss += problem.volume[p] * (r_p[p] / omega[p]).squaredNorm();
           if (problem.cone[p].is_cylinder())
-            {
-              r_p[p][0] = omega[p] * rate[p][0];
-              miss += problem.volume[p] * (r_p[p] / omega[p]).squaredNorm();
-              r_p[p][0] = 0.;
-            }
-          else
-            miss += problem.volume[p] * (r_p[p] / omega[p]).squaredNorm();
-          size += problem.volume[p] * e.squaredNorm();
-          stress += problem.volume[p] * s[p].squaredNorm();
+            r_p[p][0] = 0.;
+          size += problem.volume[p] * rate[p].squaredNorm();
           product += x[p].dot(z[p]);
           gap += problem.volume[p] * x[p].dot(z[p]) / omega[p];
         }
@@ -530,9 +500,6 @@ namespace geocone
         if (!problem.cone[p].is_cylinder())
           solution.s[p][0] /= problem.cone[p].a;
       solution.load           = load;
-      solution.equilibrium    = equilibrium;
-      solution.flow           = flow;
-      solution.inner_gap      = gap / std::max(std::abs(load), 1e-300);
       solution.factorisations = matrix.n_factorisations;
       return solution;
     }

@@ -213,6 +213,12 @@ namespace geocone
                                           const double          t,
                                           Multipliers          &rows) const
   {
+    const auto &conditions = scene.dirichlet.list;
+    if (std::none_of(
+          conditions.begin(), conditions.end(), [](const auto &condition) {
+            return condition->holds() == Imposition::On::particles;
+          }))
+      return;
     const std::vector<unsigned int>      n_held = count_held(points);
     std::vector<types::global_dof_index> nodes;
     for (unsigned int c = 0; c < points.n_cells(); ++c)
@@ -225,7 +231,7 @@ namespace geocone
           if (const unsigned int held = points.held_by[p]; held > 0)
             {
               const Imposition::Share share =
-                scene.dirichlet.list[held - 1]->imposition.get()->share(
+                conditions[held - 1]->imposition.get()->share(
                   {points.id[p],
                    static_cast<unsigned int>(
                      points.cells[c]->global_active_cell_index()),

@@ -4,55 +4,15 @@
 #ifndef geocone_limit_analysis_bound_problem_h
 #define geocone_limit_analysis_bound_problem_h
 
-#include <geocone/discretisation/coarse_mesh.h>
+#include <geocone/limit_analysis/triangles.h>
 #include <geocone/scene/scene.h>
 
 #include <Eigen/Dense>
 
-#include <array>
-#include <map>
-#include <string>
 #include <vector>
 
 namespace geocone
 {
-  /** The triangles of a mesh as plain arrays. */
-  struct Triangles
-  {
-    explicit Triangles(const CoarseMesh &mesh);
-
-    struct Edge
-    {
-      std::array<unsigned int, 2> vertices;
-      int                         side = -1; ///< boundary id, or -1 inside
-    };
-
-    std::vector<dealii::Point<dim>>          vertices;
-    std::vector<std::array<unsigned int, 3>> cells; ///< counterclockwise
-    std::vector<unsigned int>                material;
-    std::vector<std::array<unsigned int, 3>>
-                      edges_of_cell; ///< edge i is opposite to vertex i
-    std::vector<Edge> edges;
-
-    std::map<std::string, dealii::types::boundary_id> sides;
-
-    /** The edges of the boundary that a condition holds.
-     *  @throws InputError if there is none, or one is partly in its box */
-    struct HeldEdge
-    {
-      unsigned int edge, cell, opposite_vertex;
-    };
-    std::vector<HeldEdge>
-    held_edges(const BoundaryCondition &condition) const;
-
-    double
-    area(const unsigned int cell) const;
-
-    /** The gradients of the barycentric coordinates of a cell (1/m). */
-    std::array<dealii::Tensor<1, dim>, 3>
-    gradients(const unsigned int cell) const;
-  };
-
   /** What the load factor of a limit analysis multiplies. */
   enum class LoadFactor
   {
@@ -129,6 +89,8 @@ namespace geocone
     {
       return live.squaredNorm() > 0.;
     }
+    bool
+    has_cylinders() const;
     unsigned int
     n_unknowns() const;
   };
@@ -164,9 +126,18 @@ namespace geocone
   BoundProblem
   lower_problem(const BoundScene &scene);
 
-  /** Strains at the vertices of a cell of quadratic velocities, in cone axes. */
-  BoundProblem::Strains
-  strains_of_quadratic(const Triangles &triangles, const unsigned int cell);
+  /** Strain rates B q of all points.
+   *  @param strains B of each cell, or scaled ones */
+  std::vector<Eigen::Vector3d>
+  strain_rates(const BoundProblem                       &problem,
+               const std::vector<BoundProblem::Strains> &strains,
+               const Eigen::VectorXd                    &q);
+
+  /** sum_p V_p B_p' s_p in all dofs. */
+  Eigen::VectorXd
+  internal_forces(const BoundProblem                       &problem,
+                  const std::vector<BoundProblem::Strains> &strains,
+                  const std::vector<Eigen::Vector3d>       &s);
 } // namespace geocone
 
 #endif

@@ -72,10 +72,6 @@ namespace geocone
   /** The dissipation of a point at a strain rate in cone axes, per volume. */
   double
   dissipation(const PointCone &cone, const Eigen::Vector3d &rate);
-
-  /** Strain rates of the points in cone axes. */
-  std::vector<Eigen::Vector3d>
-  strain_rates(const BoundProblem &problem, const Eigen::VectorXd &q);
 } // namespace geocone
 
 #endif

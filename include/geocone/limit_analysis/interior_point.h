@@ -22,10 +22,6 @@ namespace geocone
     std::string                  reason; ///< why it did not converge
     bool                         grows =
       false; ///< with stresses beyond all bounds: no load is the limit
-
-    /** Relative residuals at the end: of equilibrium, and of -B q in K*. */
-    double equilibrium = 0., flow = 0.;
-    double inner_gap = 0.; ///< relative gap to the optimum of the mesh
   };
 
   /**

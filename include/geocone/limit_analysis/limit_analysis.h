@@ -4,7 +4,8 @@
 #ifndef geocone_limit_analysis_limit_analysis_h
 #define geocone_limit_analysis_limit_analysis_h
 
-#include <geocone/discretisation/fitted_mesh.h>
+#include <geocone/limit_analysis/bounded_load.h>
+#include <geocone/limit_analysis/certified_bounds.h>
 #include <geocone/limit_analysis/limit_output.h>
 #include <geocone/run/simulation.h>
 
@@ -74,76 +75,29 @@ namespace geocone
     void
     load(const Archive &archive) override;
 
-    /** The strengths of the materials. @throws InputError for laws without */
-    void
-    take_cones();
-
-    /** What the load factor multiplies, and the velocity of the loaded part.
-     *  @throws InputError if there is nothing to be bounded, or too much */
-    void
-    choose_factor();
-
-    void
-    choose_units();
-
-    /** @throws InputError if a rigid motion of the body is free */
-    void
-    check_supports(const BoundProblem &problem) const;
-
-    BoundSolution
-    solve_upper(const BoundProblem &problem) const;
-    BoundSolution
-    solve_lower(const BoundProblem &problem) const;
-
-    /** Solves both problems of a mesh. */
-    BoundLevel
-    solve(const Triangles &triangles);
-
-    /** Sizes for the next mesh, by the parts of the cells in the gap. */
-    CellSizes
-    next_sizes() const;
-
-    /** Both bounds for the strength of Davis (1968) on the last mesh. */
-    Json
-    davis_estimate() const;
-
-    BoundScene
-    bound_scene(const Triangles &triangles) const;
-
     Scene          scene;
     Method         method;
     MeshParameters mesh_parameters;
     LimitOutput    limit_output;
+    BoundedLoad    bounded_load;
 
     Choice<AnalysisKind> analysis = {
       {{"steps", AnalysisKind::steps},
        {"limit load", AnalysisKind::limit_load}}};
-    Choice<LoadFactor> asked_factor  = {{{"automatic", LoadFactor::automatic},
-                                         {"velocity", LoadFactor::velocity},
-                                         {"weight", LoadFactor::weight},
-                                         {"tractions", LoadFactor::tractions}}};
-    double             gap_tolerance = 0.01;
-    double             growth        = 2.;
-    unsigned int       most_cells    = 20000;
-    unsigned int       most_levels   = 12;
-    double             tolerance     = 1e-4;
+    double       gap_tolerance = 0.01;
+    double       growth        = 2.;
+    unsigned int most_cells    = 20000;
+    unsigned int most_levels   = 12;
+    double       tolerance     = 1e-4;
 
-    LoadFactor               factor    = LoadFactor::automatic;
-    double                   load_unit = 1.; ///< load of a problem's 1
-    std::string              unit      = "-";
-    BoundUnits               units;
-    std::vector<FlowCone>    flow_cones;
-    bool                     non_associated = false;
     std::optional<CellSizes> sizes; ///< of the next mesh
     std::vector<BoundLevel>  levels;
 
     /** @name The last level */
     /** @{ */
     std::optional<Triangles> triangles;
-    Bound                    upper, lower;
-    std::vector<double>      gap;
+    CertifiedBounds          bounds;
     Json                     davis;
-    bool no_limit = false; ///< its stresses grow beyond all bounds
     /** @} */
   };
 } // namespace geocone

@@ -1,0 +1,50 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_limit_analysis_certified_bounds_h
+#define geocone_limit_analysis_certified_bounds_h
+
+#include <geocone/discretisation/fitted_mesh.h>
+#include <geocone/limit_analysis/certificate.h>
+
+#include <vector>
+
+namespace geocone
+{
+  /** Both bounds of the load on a mesh, in units of the problem. */
+  struct CertifiedBounds
+  {
+    struct Side
+    {
+      BoundSolution solution;
+      Bound         bound;
+      unsigned int  n_unknowns = 0;
+    };
+    Side upper, lower;
+
+    /** The part of each triangle in the gap, see gap_of_cells(). */
+    std::vector<double> gap;
+
+    /** Their sum over the gap of the bounds; 1 where both fields are exact. */
+    double gap_share = 0.;
+  };
+
+  /** Solves both problems of a mesh and certifies what is found.
+   *  @param tolerance of the interior-point method, relative to the load */
+  CertifiedBounds
+  certified_bounds(const BoundScene &bound, const double tolerance);
+
+  /**
+   * Sizes that make the parts of the gap equal on the next mesh, where a part falls
+   * with the size to the power 3: its mean with the cells around counts, as a coarse
+   * cell beside others that are refined would have to wait for one more mesh.
+   * @param gap part of each triangle
+   * @param n_wanted about so many triangles
+   */
+  CellSizes
+  sizes_by_gap(const Triangles           &triangles,
+               const std::vector<double> &gap,
+               const double               n_wanted);
+} // namespace geocone
+
+#endif

@@ -1,0 +1,55 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_limit_analysis_triangles_h
+#define geocone_limit_analysis_triangles_h
+
+#include <geocone/discretisation/coarse_mesh.h>
+#include <geocone/scene/boundary_conditions.h>
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /** The triangles of a mesh as plain arrays. */
+  struct Triangles
+  {
+    explicit Triangles(const CoarseMesh &mesh);
+
+    struct Edge
+    {
+      std::array<unsigned int, 2> vertices;
+      int                         side = -1; ///< boundary id, or -1 inside
+    };
+
+    std::vector<dealii::Point<dim>>          vertices;
+    std::vector<std::array<unsigned int, 3>> cells; ///< counterclockwise
+    std::vector<unsigned int>                material;
+    std::vector<std::array<unsigned int, 3>>
+                      edges_of_cell; ///< edge i is opposite to vertex i
+    std::vector<Edge> edges;
+
+    std::map<std::string, dealii::types::boundary_id> sides;
+
+    /** The edges of the boundary that a condition holds.
+     *  @throws InputError if there is none, or one is partly in its box */
+    struct HeldEdge
+    {
+      unsigned int edge, cell, opposite_vertex;
+    };
+    std::vector<HeldEdge>
+    held_edges(const BoundaryCondition &condition) const;
+
+    double
+    area(const unsigned int cell) const;
+
+    /** The gradients of the barycentric coordinates of a cell (1/m). */
+    std::array<dealii::Tensor<1, dim>, 3>
+    gradients(const unsigned int cell) const;
+  };
+} // namespace geocone
+
+#endif

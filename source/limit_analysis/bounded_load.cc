@@ -1,0 +1,267 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/limit_analysis/bounded_load.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace geocone
+{
+  using dealii::Point;
+  using dealii::Tensor;
+
+  namespace
+  {
+    /** @throws InputError if a rigid motion of the body is free
+     *  @param problem of quadratic velocities */
+    void
+    check_supports(const BoundScene &bound, const BoundProblem &problem)
+    {
+      // Rigid motions in the dofs that are prescribed: translations and a rotation.
+      Eigen::Matrix3d  squares   = Eigen::Matrix3d::Zero();
+      const Triangles &triangles = bound.triangles;
+      const auto       add = [&](const unsigned int node, const Point<dim> &x) {
+        for (unsigned int d = 0; d < dim; ++d)
+          if (problem.is_prescribed[dim * node + d])
+            {
+              Eigen::Vector3d row = Eigen::Vector3d::Zero();
+              row[d]              = 1.;
+              row[2] = (d == 0 ? -x[1] : x[0]) / bound.units.length;
+              squares += row * row.transpose();
+            }
+      };
+      std::vector<bool> is_used(triangles.vertices.size(), false);
+      for (const auto &cell : triangles.cells)
+        for (const unsigned int v : cell)
+          is_used[v] = true;
+      for (unsigned int v = 0; v < triangles.vertices.size(); ++v)
+        if (is_used[v])
+          add(v, triangles.vertices[v]);
+      for (unsigned int e = 0; e < triangles.edges.size(); ++e)
+        {
+          const auto       &ends = triangles.edges[e].vertices;
+          const Point<dim> &a    = triangles.vertices[ends[0]],
+                           &b    = triangles.vertices[ends[1]];
+          add(triangles.vertices.size() + e, Point<dim>(a + (b - a) / 2.));
+        }
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares);
+      if (solver.eigenvalues()[0] > 1e-10 * solver.eigenvalues()[2])
+        return;
+      const Eigen::Vector3d free = solver.eigenvectors().col(0);
+      throw InputError(
+        "Boundary conditions/Names",
+        "conditions that leave a rigid motion free",
+        "supports that hold the body against translation and rotation",
+        std::string("nothing resists a ") +
+          (std::abs(free[2]) > 0.1   ? "rotation"
+           : std::abs(free[0]) > 0.7 ? "translation along x"
+           : std::abs(free[1]) > 0.7 ? "translation along y"
+                                     : "translation") +
+          " of the body, so no load has a limit: hold another side");
+    }
+  } // namespace
+
+  void
+  BoundedLoad::declare(dealii::ParameterAcceptor &section)
+  {
+    asked.declare(
+      section,
+      "Load factor of",
+      ". What the bounded factor multiplies; other loads are dead. Velocity: "
+      "the "
+      "bounded load is the reaction to the prescribed velocities, which are "
+      "those "
+      "at t = 0. Automatic: velocity if some is not zero, else weight, else "
+      "tractions.");
+  }
+
+  void
+  BoundedLoad::prepare(const Scene &scene, const Triangles &triangles)
+  {
+    take_cones(scene);
+    choose_factor(scene, triangles);
+    choose_units(scene, triangles);
+    const BoundScene   bound   = on(scene, triangles);
+    const BoundProblem problem = upper_problem(bound);
+    check_supports(bound, problem);
+    if (chosen != LoadFactor::velocity && !problem.has_factor())
+      throw InputError("Analysis/Load factor of",
+                       asked.word(),
+                       "a load that is not zero",
+                       chosen == LoadFactor::weight
+                         ? "give 'Gravity/Acceleration' and densities"
+                         : "give 'Tractions' that are not zero at t = 0");
+  }
+
+  void
+  BoundedLoad::take_cones(const Scene &scene)
+  {
+    scene.materials.check_closed_form("limit load");
+    flow_cones.clear();
+    for (unsigned int m = 0; m < scene.materials.size(); ++m)
+      {
+        const auto        cone = scene.materials[m].initial_cone();
+        const std::string parameter =
+          "Materials/" + scene.materials.name(m) + "/Type";
+        if (!cone)
+          throw InputError(parameter,
+                           "a law without strength",
+                           "Mohr-Coulomb | Tresca with 'Analysis/Kind' = limit "
+                           "load",
+                           "what cannot yield bears any load: give it a "
+                           "strength, or leave it out of the domain");
+        if (cone->hardening != 0.)
+          throw InputError(parameter,
+                           "a law that hardens",
+                           "Mohr-Coulomb | Tresca with 'Analysis/Kind' = limit "
+                           "load",
+                           "take the strength that counts, initial or final");
+        flow_cones.push_back(*cone);
+        less_dilatant = less_dilatant || cone->b < cone->a * (1. - 1e-12);
+      }
+  }
+
+  void
+  BoundedLoad::choose_factor(const Scene &scene, const Triangles &triangles)
+  {
+    // The velocity that is prescribed, where it is not zero.
+    std::optional<Tensor<1, dim>> velocity;
+    double                        speed = 0.;
+    for (const auto &condition : scene.dirichlet.list)
+      for (const auto &held : triangles.held_edges(*condition))
+        for (const unsigned int v : triangles.edges[held.edge].vertices)
+          {
+            const Point<dim> &x = triangles.vertices[v];
+            Tensor<1, dim>    here;
+            for (unsigned int d = 0; d < dim; ++d)
+              if (condition->components[d])
+                here[d] = condition->components[d]->value(x, 0.);
+            if (condition->normal && condition->normal->value(x, 0.) != 0.)
+              throw InputError(condition->parameter("Velocity normal"),
+                               condition->formula(dim),
+                               "0 with 'Analysis/Kind' = limit load",
+                               "push by Velocity x or y");
+            if (here.norm() == 0.)
+              continue;
+            speed = std::max(speed, here.norm());
+            if (velocity && (*velocity - here).norm() > 1e-9 * here.norm())
+              throw InputError(
+                condition->parameter(here[1] != 0. ? "Velocity y"
+                                                   : "Velocity x"),
+                condition->formula(here[1] != 0. ? 1 : 0),
+                "one velocity for all that is pushed, with 'Analysis/Kind' = "
+                "limit load",
+                "the bounded load is the reaction to one translation");
+            velocity = here;
+          }
+    chosen = asked;
+    if (chosen == LoadFactor::automatic)
+      chosen = velocity               ? LoadFactor::velocity
+               : scene.gravity.acts() ? LoadFactor::weight
+                                      : LoadFactor::tractions;
+    if (chosen == LoadFactor::velocity && !velocity)
+      throw InputError(
+        "Analysis/Load factor of",
+        "velocity",
+        "a prescribed velocity that is not zero at t = 0",
+        "push a part of the boundary, or bound the weight or the "
+        "tractions");
+    if (chosen != LoadFactor::velocity && velocity)
+      throw InputError("Analysis/Load factor of",
+                       asked.word(),
+                       "velocity where a velocity is prescribed that is not "
+                       "zero",
+                       "set it to 0, or bound its reaction");
+    units.velocity = velocity ? speed : 1.;
+  }
+
+  void
+  BoundedLoad::choose_units(const Scene &scene, const Triangles &triangles)
+  {
+    double area = 0., height = 0.;
+    double lowest = std::numeric_limits<double>::max(), highest = -lowest;
+    for (unsigned int c = 0; c < triangles.cells.size(); ++c)
+      {
+        area += triangles.area(c);
+        for (const unsigned int v : triangles.cells[c])
+          {
+            lowest  = std::min(lowest, triangles.vertices[v][1]);
+            highest = std::max(highest, triangles.vertices[v][1]);
+          }
+      }
+    height       = highest - lowest;
+    units.length = std::sqrt(area) / 8.;
+    units.stress = 0.;
+    for (const FlowCone &cone : flow_cones)
+      units.stress = std::max(units.stress, cone.k);
+    double dead = 0.; // what there is to bear
+    for (unsigned int m = 0; m < scene.materials.size(); ++m)
+      dead =
+        std::max(dead,
+                 height * scene.materials.law(m).density() *
+                   scene.gravity.at(std::numeric_limits<double>::max()).norm());
+    for (const auto &load : scene.tractions.list)
+      for (const auto &held : triangles.held_edges(*load))
+        for (const unsigned int v : triangles.edges[held.edge].vertices)
+          {
+            const Point<dim> &x = triangles.vertices[v];
+            for (unsigned int d = 0; d < dim; ++d)
+              if (load->components[d])
+                dead =
+                  std::max(dead, std::abs(load->components[d]->value(x, 0.)));
+            for (const auto *along : {&load->normal, &load->tangential})
+              if (*along)
+                dead = std::max(dead, std::abs((*along)->value(x, 0.)));
+          }
+    if (units.stress == 0.)
+      {
+        if (dead == 0.)
+          throw InputError("Materials/" + scene.materials.name(0) + "/Cohesion",
+                           0,
+                           "> 0 Pa where there is no weight or load",
+                           "nothing resists in this scene");
+        units.stress = dead / 8.;
+      }
+    if (chosen == LoadFactor::velocity)
+      load_unit =
+        units.stress * units.length * std::abs(scene.observation.factor);
+  }
+
+  BoundScene
+  BoundedLoad::on(const Scene &scene, const Triangles &triangles) const
+  {
+    BoundScene bound = {scene, triangles, chosen, units, {}};
+    for (const FlowCone &cone : flow_cones)
+      bound.cones.push_back({cone.a, cone.k / units.stress});
+    return bound;
+  }
+
+  BoundScene
+  BoundedLoad::by_davis(const Scene &scene, const Triangles &triangles) const
+  {
+    BoundScene bound = on(scene, triangles);
+    for (unsigned int m = 0; m < flow_cones.size(); ++m)
+      {
+        const FlowCone &cone      = flow_cones[m];
+        const double    cos_theta = std::sqrt(1. - cone.b * cone.b),
+                     reduction    = cos_theta / (1. - cone.a * cone.b),
+                     tan_phi      = reduction * cone.a,
+                     cos_phi      = 1. / std::sqrt(1. + tan_phi * tan_phi);
+        bound.cones[m]            = {tan_phi * cos_phi,
+                                     cone.k / units.stress * reduction * cos_phi};
+      }
+    return bound;
+  }
+
+  std::string
+  BoundedLoad::word() const
+  {
+    return chosen == LoadFactor::velocity ? "velocity"
+           : chosen == LoadFactor::weight ? "weight"
+                                          : "tractions";
+  }
+} // namespace geocone

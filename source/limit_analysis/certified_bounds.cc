@@ -1,0 +1,108 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/limit_analysis/certified_bounds.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace geocone
+{
+  using Eigen::VectorXd;
+
+  CertifiedBounds
+  certified_bounds(const BoundScene &bound, const double tolerance)
+  {
+    CertifiedBounds        bounds;
+    InteriorPoint::Options options;
+    options.tolerance = tolerance;
+
+    const BoundProblem above      = upper_problem(bound);
+    options.equilibrium_tolerance = tolerance;
+    // What is missed is repaired, which is dear; a projection takes care of phi = 0.
+    options.flow_tolerance  = above.has_cylinders() ? 1e-6 : 1e-8;
+    bounds.upper.solution   = InteriorPoint::solve(above, options);
+    bounds.upper.n_unknowns = above.n_unknowns();
+    bounds.upper.bound = certify_upper(bound, above, bounds.upper.solution);
+
+    const BoundProblem below      = lower_problem(bound);
+    options.flow_tolerance        = tolerance;
+    options.equilibrium_tolerance = 1e-7; // the repair may leave the cone
+    bounds.lower.solution         = InteriorPoint::solve(below, options);
+    bounds.lower.n_unknowns       = below.n_unknowns();
+    bounds.lower.bound = certify_lower(bound, below, bounds.lower.solution);
+
+    bounds.gap = gap_of_cells(above, bounds.upper.bound, bounds.lower.bound);
+    const double work =
+      above.has_factor() ? above.live.dot(bounds.upper.bound.q) : 1.;
+    bounds.gap_share =
+      std::accumulate(bounds.gap.begin(), bounds.gap.end(), 0.) /
+      ((bounds.upper.bound.load - bounds.lower.bound.load) * work);
+    return bounds;
+  }
+
+  CellSizes
+  sizes_by_gap(const Triangles           &triangles,
+               const std::vector<double> &gap,
+               const double               n_wanted)
+  {
+    const unsigned int n = triangles.cells.size();
+    // The means at the vertices of a number of the cells.
+    const auto at_vertices = [&](const auto &of_cell) {
+      std::vector<double>       mean(triangles.vertices.size(), 0.);
+      std::vector<unsigned int> n_cells(mean.size(), 0);
+      for (unsigned int c = 0; c < n; ++c)
+        for (const unsigned int v : triangles.cells[c])
+          {
+            mean[v] += of_cell(c);
+            ++n_cells[v];
+          }
+      for (unsigned int v = 0; v < mean.size(); ++v)
+        mean[v] /= std::max(n_cells[v], 1u);
+      return mean;
+    };
+    const std::vector<double> gap_around =
+      at_vertices([&](const unsigned int c) { return std::max(gap[c], 0.); });
+    const double least =
+      1e-12 * std::max(0., *std::max_element(gap.begin(), gap.end()));
+    std::vector<double> wish(n);
+    for (unsigned int c = 0; c < n; ++c)
+      {
+        double smooth = 0.;
+        for (const unsigned int v : triangles.cells[c])
+          smooth += gap_around[v] / 3.;
+        wish[c] = std::pow(std::max(smooth, least), -1. / 3.);
+      }
+    // The factor that gives the mesh as many cells as it is to have.
+    const auto ratio = [&](const double factor, const unsigned int c) {
+      return std::clamp(factor * wish[c], 0.3, 1.6);
+    };
+    double lower_factor = 1e-30, upper_factor = 1e30;
+    for (unsigned int i = 0; i < 200; ++i)
+      {
+        const double middle = std::sqrt(lower_factor * upper_factor);
+        double       cells  = 0.;
+        for (unsigned int c = 0; c < n; ++c)
+          cells += 1. / (ratio(middle, c) * ratio(middle, c));
+        (cells > n_wanted ? lower_factor : upper_factor) = middle;
+      }
+    const std::vector<double> size = at_vertices([&](const unsigned int c) {
+      // That of an equilateral triangle of this area.
+      return ratio(upper_factor, c) *
+             std::sqrt(4. / std::sqrt(3.) * triangles.area(c));
+    });
+    CellSizes                 sizes;
+    for (const auto &cell : triangles.cells)
+      {
+        sizes.triangles.emplace_back();
+        sizes.sizes.emplace_back();
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            sizes.triangles.back()[i] = triangles.vertices[cell[i]];
+            sizes.sizes.back()[i]     = size[cell[i]];
+          }
+      }
+    return sizes;
+  }
+} // namespace geocone

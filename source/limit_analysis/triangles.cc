@@ -1,0 +1,144 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/discretisation/fitted_mesh.h>
+#include <geocone/limit_analysis/triangles.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace geocone
+{
+  using dealii::Point;
+  using dealii::Tensor;
+
+  namespace
+  {
+    /** The part of the edge from a to b that is in the box of a condition; all or
+     *  nothing if it is but for a rounding. */
+    double
+    part_in_box(const BoundaryCondition &condition,
+                const Point<dim>        &a,
+                const Point<dim>        &b)
+    {
+      const auto corners = condition.box_corners();
+      if (!corners)
+        return 1.;
+      double       from = 0., to = 1.;
+      const double tolerance =
+        1e-9 * (1. + (*corners)[0].distance((*corners)[1]));
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double low   = (*corners)[0][d] - tolerance - a[d],
+                       high  = (*corners)[1][d] + tolerance - a[d],
+                       along = b[d] - a[d];
+          if (std::abs(along) < tolerance)
+            {
+              if (low > 0. || high < 0.)
+                return 0.;
+              continue;
+            }
+          from = std::max(from, std::min(low / along, high / along));
+          to   = std::min(to, std::max(low / along, high / along));
+        }
+      const double part     = std::max(0., to - from);
+      const double rounding = 1e-6 + 3. * tolerance / a.distance(b);
+      return part < rounding ? 0. : part > 1. - rounding ? 1. : part;
+    }
+  } // namespace
+
+  Triangles::Triangles(const CoarseMesh &mesh)
+    : vertices(mesh.points)
+    , sides(mesh.sides)
+  {
+    std::map<std::array<unsigned int, 2>, unsigned int> number;
+    const auto sorted = [](const unsigned int a, const unsigned int b) {
+      return std::array<unsigned int, 2>{{std::min(a, b), std::max(a, b)}};
+    };
+    for (const auto &cell : mesh.cells)
+      {
+        cells.push_back(
+          {{cell.vertices[0], cell.vertices[1], cell.vertices[2]}});
+        if (area(cells.size() - 1) < 0.)
+          std::swap(cells.back()[1], cells.back()[2]);
+        material.push_back(cell.material_id);
+        edges_of_cell.emplace_back();
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            const auto ends =
+              sorted(cells.back()[(i + 1) % 3], cells.back()[(i + 2) % 3]);
+            const auto [entry, is_new] = number.emplace(ends, edges.size());
+            if (is_new)
+              edges.push_back({ends, -1});
+            edges_of_cell.back()[i] = entry->second;
+          }
+      }
+    for (const auto &line : mesh.boundary.boundary_lines)
+      edges[number.at(sorted(line.vertices[0], line.vertices[1]))].side =
+        line.boundary_id;
+  }
+
+  std::vector<Triangles::HeldEdge>
+  Triangles::held_edges(const BoundaryCondition &condition) const
+  {
+    std::set<dealii::types::boundary_id> all;
+    for (const Edge &edge : edges)
+      if (edge.side >= 0)
+        all.insert(edge.side);
+    const auto ids = side_ids(condition, sides, {all.begin(), all.end()});
+    std::vector<HeldEdge> held;
+    for (unsigned int c = 0; c < cells.size(); ++c)
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          const Edge &edge = edges[edges_of_cell[c][i]];
+          if (edge.side < 0 || ids.count(edge.side) == 0)
+            continue;
+          const Point<dim> &a = vertices[edge.vertices[0]],
+                           &b = vertices[edge.vertices[1]];
+          const double part   = part_in_box(condition, a, b);
+          if (part == 0.)
+            continue;
+          if (part < 1.)
+            throw InputError(
+              condition.parameter("Box"),
+              condition.part(),
+              "a box that ends at vertices of the mesh",
+              format("the edge from (%g, %g) to (%g, %g) is partly in it, "
+                     "but a bound needs the exact part; add the ends of the "
+                     "box to 'Mesh/Grading points'",
+                     a[0],
+                     a[1],
+                     b[0],
+                     b[1]));
+          held.push_back({edges_of_cell[c][i], c, i});
+        }
+    condition.check_selection(held.size());
+    return held;
+  }
+
+  double
+  Triangles::area(const unsigned int cell) const
+  {
+    const auto &[i, j, k]  = cells[cell];
+    const Tensor<1, dim> a = vertices[j] - vertices[i],
+                         b = vertices[k] - vertices[i];
+    return (a[0] * b[1] - a[1] * b[0]) / 2.;
+  }
+
+  std::array<Tensor<1, dim>, 3>
+  Triangles::gradients(const unsigned int cell) const
+  {
+    std::array<Tensor<1, dim>, 3> g;
+    const double                  twice = 2. * area(cell);
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        const Tensor<1, dim> along = vertices[cells[cell][(i + 2) % 3]] -
+                                     vertices[cells[cell][(i + 1) % 3]];
+        g[i] = Tensor<1, dim>({-along[1], along[0]}) / twice;
+      }
+    return g;
+  }
+} // namespace geocone
