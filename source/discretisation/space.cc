@@ -286,6 +286,23 @@ namespace geocone
       }
   }
 
+  std::vector<double>
+  Space::spline_integrals() const
+  {
+    std::vector<double>                  integral(n_local_nodes(), 0.);
+    std::vector<types::global_dof_index> nodes;
+    for (const auto &cell : mesh->own_cells())
+      {
+        cell_nodes(cell, nodes);
+        const auto place = mesh->place_in_grid(cell);
+        for (unsigned int i = 0; i < n_nodes_per_cell; ++i)
+          integral[local_node(nodes[i])] =
+            splines[0].integral(place[0] + lattice[i][0]) *
+            splines[1].integral(place[1] + lattice[i][1]);
+      }
+    return integral;
+  }
+
   std::vector<unsigned int>
   Space::nodes_on_sides(const std::set<types::boundary_id> &ids) const
   {

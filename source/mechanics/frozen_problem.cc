@@ -148,6 +148,18 @@ namespace geocone
     frozen.prescribed = gather(owned(prescribed), comm);
     frozen.start      = gather(owned(start), comm);
 
+    for (const GhostStencil &stencil : ghost.stencils())
+      {
+        for (const unsigned int node : stencil.node)
+          frozen.ghost_nodes.push_back(layout->local_to_global(dim * node) /
+                                       dim);
+        for (const double c : stencil.coefficient)
+          frozen.ghost_values.push_back(c);
+        frozen.ghost_values.push_back(stencil.stiffness);
+      }
+    frozen.ghost_nodes  = gather(frozen.ghost_nodes, comm);
+    frozen.ghost_values = gather(frozen.ghost_values, comm);
+
     const Multipliers &rows = unknowns.multipliers;
     for (const unsigned int dof : rows.dofs())
       frozen.constrained_dofs.push_back(layout->local_to_global(dof));
@@ -191,6 +203,8 @@ namespace geocone
     file.write("dofs/velocity_L", velocity_L);
     file.write("dofs/prescribed", prescribed);
     file.write("dofs/start", start);
+    file.write("ghosts/nodes", ghost_nodes);
+    file.write("ghosts/values", ghost_values);
     file.write("constraints/dofs", constrained_dofs);
     file.write("constraints/coefficients",
                std::vector<double>(H.data(), H.data() + H.size()));
@@ -256,6 +270,11 @@ namespace geocone
     const auto x      = doubles("points/position");
     if (file.has("points/history")) // older files lack it
       p.history = doubles("points/history");
+    if (file.has("ghosts/nodes"))
+      {
+        frozen.ghost_nodes  = file.read_integers("ghosts/nodes");
+        frozen.ghost_values = doubles("ghosts/values");
+      }
     frozen.kind             = file.read_integers("dofs/kind");
     frozen.mass             = doubles("dofs/mass");
     frozen.force            = doubles("dofs/force");
@@ -294,6 +313,14 @@ namespace geocone
     check(n_dofs % dim == 0, "it has half a node");
     for (const std::size_t node : p.nodes)
       check(dim * node + dim <= n_dofs, "it has cells without nodes");
+    check(frozen.ghost_nodes.size() % 3 == 0 &&
+            frozen.ghost_values.size() == frozen.ghost_nodes.size() / 3 * 4,
+          "its ghost stiffness differs in length");
+    for (const int node : frozen.ghost_nodes)
+      check(node >= 0 && dim * std::size_t(node) + dim <= n_dofs,
+            "its ghost stiffness is of nodes that it lacks");
+    for (std::size_t i = 3; i < frozen.ghost_values.size(); i += 4)
+      check(frozen.ghost_values[i] >= 0., "its ghost stiffness is negative");
     for (const int kind : frozen.kind)
       check(
         kind == 0 || kind == Unknowns::prescribed_row ||
@@ -412,13 +439,26 @@ namespace geocone
                          "' has one\n  remedy:  freeze the step again "
                          "('Output/Freeze steps')");
       }
+    std::vector<GhostStencil> ghosts;
+    for (std::size_t i = 0; 3 * i < frozen.ghost_nodes.size(); ++i)
+      {
+        GhostStencil stencil;
+        for (unsigned int j = 0; j < 3; ++j)
+          {
+            stencil.node[j]        = frozen.ghost_nodes[3 * i + j];
+            stencil.coefficient[j] = frozen.ghost_values[4 * i + j];
+          }
+        stencil.stiffness = frozen.ghost_values[4 * i + 3];
+        ghosts.push_back(stencil);
+      }
     incremental_problem = std::make_unique<IncrementalProblem>(
       points,
       materials,
       unknowns,
       layout,
       frozen.mass.empty() ? nullptr : &mass,
-      frozen.consistent_part);
+      frozen.consistent_part,
+      std::move(ghosts));
     incremental_problem->begin_step(frozen.h,
                                     frozen.force.empty() ? nullptr : &force,
                                     vector(frozen.velocity_L),

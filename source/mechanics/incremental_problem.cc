@@ -17,18 +17,24 @@ namespace geocone
     const Unknowns                                           &unknowns,
     const std::shared_ptr<const Utilities::MPI::Partitioner> &layout,
     const Vector                                             *lumped_mass,
-    const double                                              consistent_part)
+    const double                                              consistent_part,
+    std::vector<GhostStencil>                                 ghosts)
     : points(points)
     , materials(materials)
     , unknowns(unknowns)
     , layout(layout)
     , internal(points, materials, unknowns, layout->get_mpi_communicator())
+    , ghost(std::move(ghosts), unknowns)
     , terms{&internal, &external}
     , part(layout)
   {
     if (lumped_mass != nullptr)
       terms.push_back(
         &inertia.emplace(points, unknowns, *lumped_mass, consistent_part));
+    if (points_move() &&
+        Utilities::MPI::max(ghost.stencils().size(),
+                            layout->get_mpi_communicator()) > 0)
+      terms.push_back(&ghost);
   }
 
   void
@@ -44,6 +50,7 @@ namespace geocone
     external.begin_step(external_force);
     if (inertia)
       inertia->begin_step(h, velocity_L);
+    ghost.begin_step(h);
     elastic_diagonal.reinit(0);
     row_factors = Multipliers::Factors();
   }
@@ -124,8 +131,12 @@ namespace geocone
   {
     Assert(!one_triangle || is_symmetric(), ExcInternalError());
     SparseMatrix matrix;
-    pattern = JacobianPattern(
-      points, unknowns, layout->get_mpi_communicator(), one_triangle, matrix);
+    pattern = JacobianPattern(points,
+                              unknowns,
+                              layout->get_mpi_communicator(),
+                              ghost.node_groups(),
+                              one_triangle,
+                              matrix);
     return matrix;
   }
 

@@ -7,11 +7,13 @@
 
 namespace geocone
 {
-  JacobianPattern::JacobianPattern(const MaterialPoints &points,
-                                   const Unknowns       &unknowns,
-                                   const MPI_Comm        comm,
-                                   const bool            one_triangle,
-                                   SparseMatrix         &matrix)
+  JacobianPattern::JacobianPattern(
+    const MaterialPoints                           &points,
+    const Unknowns                                 &unknowns,
+    const MPI_Comm                                  comm,
+    const std::vector<std::array<unsigned int, 3>> &groups,
+    const bool                                      one_triangle,
+    SparseMatrix                                   &matrix)
     : one_triangle(one_triangle)
   {
     const unsigned int      n      = points.n_nodes;
@@ -35,6 +37,10 @@ namespace geocone
           list.insert(
             list.end(), &points.nodes[c * n], &points.nodes[c * n] + n);
         }
+    for (const auto &group : groups)
+      for (const unsigned int node : group)
+        neighbours[node].insert(
+          neighbours[node].end(), group.begin(), group.end());
     for (unsigned int node = 0; node < n_local_nodes; ++node)
       {
         auto &list = neighbours[node];

@@ -333,6 +333,63 @@ namespace geocone
     return Utilities::MPI::sum(sum, comm);
   }
 
+  Multipliers::LightShare
+  Multipliers::light_share(const Vector &v,
+                           const Vector &mass,
+                           const Space  &space) const
+  {
+    const unsigned int  n = n_rows();
+    std::vector<double> heaviest(n, 0.);
+    for (unsigned int r = 0; r < n; ++r)
+      for (unsigned int j = 0; j < touched.size(); ++j)
+        if (H(r, j) != 0.)
+          heaviest[r] = std::max(heaviest[r], mass.local_element(touched[j]));
+    dealii::Utilities::MPI::max(heaviest, comm, heaviest);
+    std::vector<double>             light(n, 0.), most(n, 0.);
+    std::vector<dealii::Point<dim>> place(n);
+    for (unsigned int r = 0; r < n; ++r)
+      for (unsigned int j = 0; j < touched.size(); ++j)
+        {
+          const double part = H(r, j) * v.local_element(touched[j]);
+          if (!(mass.local_element(touched[j]) < 1e-3 * heaviest[r]))
+            continue;
+          light[r] += part;
+          if (std::abs(part) > most[r])
+            {
+              most[r]  = std::abs(part);
+              place[r] = space.node_positions()[touched[j] / dim];
+            }
+        }
+    dealii::Utilities::MPI::sum(light, comm, light);
+    LightShare   share;
+    unsigned int worst = 0;
+    // What is held along one axis and pushed along the other is compared with the
+    // push.
+    for (unsigned int r = 0; r < n; ++r)
+      {
+        const unsigned int c = keys[r].condition;
+        const double       push =
+          std::abs(row_sum[r]) *
+          std::max(std::abs(mean_target(c, 0)), std::abs(mean_target(c, 1)));
+        if (std::abs(light[r]) > share.largest * push && push > 0.)
+          {
+            share.largest = std::abs(light[r]) / push;
+            worst         = r;
+          }
+      }
+    if (share.largest > 0.)
+      {
+        share.condition       = keys[worst].condition;
+        const double all_most = dealii::Utilities::MPI::max(most[worst], comm);
+        for (unsigned int d = 0; d < dim; ++d)
+          share.place[d] = dealii::Utilities::MPI::max(
+            most[worst] == all_most ? place[worst][d]
+                                    : std::numeric_limits<double>::lowest(),
+            comm);
+      }
+    return share;
+  }
+
   double
   Multipliers::mean_target(const unsigned int condition,
                            const unsigned int component) const

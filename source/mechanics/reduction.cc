@@ -35,6 +35,10 @@ namespace geocone
       refuse("another one with a consistent mass",
              "set Material point method/Consistent mass part = 0, or take "
              "automatic");
+    if (!problem.ghost.stencils().empty())
+      refuse(
+        "another one with ghost stiffness",
+        "set Material point method/Ghost stiffness = 0, or take automatic");
     if (points.n_points() > max_cones)
       refuse(format("another one for more than %u points, and there are %u",
                     max_cones,

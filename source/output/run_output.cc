@@ -16,9 +16,12 @@ namespace geocone
   {}
 
   void
-  RunOutput::prepare(const RunOptions &options, const Scene &scene_)
+  RunOutput::prepare(const RunOptions &options,
+                     const Scene      &scene_,
+                     const bool        points_move_)
   {
-    scene = &scene_;
+    scene       = &scene_;
+    points_move = points_move_;
     make_folder(options);
     if (const auto &load = scene->observation.reference)
       reference_case.set_default("limit_load/value", *load);
@@ -82,6 +85,9 @@ namespace geocone
     if (remembers())
       add("work of friction memory (J/m)",
           [this](const Record &) { return memory_work; });
+    if (points_move)
+      add("work of ghost stiffness (J/m)",
+          [this](const Record &) { return ghost_work; });
     add("energy identity error (-)",
         [](const Record &r) { return r.last.identity_error; });
     add_observations(
@@ -123,6 +129,7 @@ namespace geocone
         loss,
         least_loss,
         memory_work,
+        ghost_work,
         energy_n,
         initial,
         n_load_jumps,
@@ -182,6 +189,7 @@ namespace geocone
     work += e.external_work;
     dissipation += e.dissipation;
     memory_work += e.memory_work;
+    ghost_work += e.ghost_work;
     loss += step_loss;
     least_loss                     = std::min(least_loss, step_loss);
     const std::vector<double> line = table.line(record);
@@ -278,6 +286,34 @@ namespace geocone
             {"work_relative",
              dissipation > 0. ? Json(memory_work / dissipation) : Json()},
             {"load_delay_relative", delay}};
+  }
+
+  Json
+  RunOutput::motion() const
+  {
+    Motion worst;
+    for (const StepRecord &record : records)
+      worst.take_worse(record.last.motion);
+    // Steps whose load is more than 5 % below those before and after, while what
+    // presses moves on.
+    unsigned int n_drops = 0;
+    for (std::size_t i = 1; i + 1 < records.size(); ++i)
+      {
+        const StepRecord &a = records[i - 1], &b = records[i],
+                         &c   = records[i + 1];
+        const double moved_ab = b.displacement - a.displacement,
+                     moved_bc = c.displacement - b.displacement;
+        n_drops += !b.resets && !c.resets && moved_ab * moved_bc > 0. &&
+                   std::abs(b.load) <
+                     0.95 * std::min(std::abs(a.load), std::abs(c.load));
+      }
+    return {
+      {"load_drops", n_drops},
+      {"points_behind", worst.points_behind},
+      {"empty_functions", worst.light_functions},
+      {"light_share_max", worst.light_share},
+      {"ghost_work_J_per_m", ghost_work},
+      {"ghost_work_relative", work > 0. ? Json(ghost_work / work) : Json()}};
   }
 
   void
@@ -379,6 +415,8 @@ namespace geocone
       {"friction_lag_max", lag}};
     if (remembers())
       json["friction_memory"] = friction_memory();
+    if (points_move)
+      json["motion"] = motion();
     json["quality"] = {{"natural_map_error_max", quality.natural_map},
                        {"complementarity_max", quality.complementarity},
                        {"cone_violation_max", quality.cone_violation},

@@ -173,7 +173,7 @@ namespace geocone
   void
   ImplicitSimulation::prepare_output(const RunOptions &options)
   {
-    run_output.prepare(options, scene);
+    run_output.prepare(options, scene, stepper->has_moving_points());
     freezer.prepare(run_output.folder());
     run_output.set_initial_energy(
       stepper->state_energies(kinematics, points, 0.));
@@ -287,6 +287,8 @@ namespace geocone
         report.energies.external_work += present.last.energies.external_work;
         report.energies.dissipation += present.last.energies.dissipation;
         report.energies.memory_work += present.last.energies.memory_work;
+        report.energies.ghost_work += present.last.energies.ghost_work;
+        report.motion.take_worse(present.last.motion);
         report.identity_error =
           std::max(report.identity_error, present.last.identity_error);
         report.quality.take_worse(present.last.quality);

@@ -158,6 +158,10 @@ namespace geocone
       return positions;
     }
 
+    /** Of splines: the integrals of the functions of the locally known nodes (m^2). */
+    std::vector<double>
+    spline_integrals() const;
+
     /**
      * The local nodes whose functions do not vanish on the boundary sides @p ids,
      * sorted. Includes ghosts, so that every rank agrees on the nodes it shares.

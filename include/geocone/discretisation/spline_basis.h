@@ -34,6 +34,13 @@ namespace geocone
     double
     greville(const unsigned int function) const;
 
+    /** Integral of a function over the line (m). */
+    double
+    integral(const unsigned int function) const
+    {
+      return (knots[function + p + 1] - knots[function]) / (p + 1);
+    }
+
     /**
      * The p + 1 functions of an interval and their derivatives.
      * @param xi place in the interval, 0 to 1

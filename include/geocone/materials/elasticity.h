@@ -29,6 +29,13 @@ namespace geocone
       , two_G(young_modulus / (1. + poisson_ratio))
     {}
 
+    /** E (Pa). */
+    double
+    young_modulus() const
+    {
+      return two_G * (3. * lambda + two_G) / (2. * lambda + two_G);
+    }
+
     /** In-plane bulk stiffness K = 2(lambda + G) of the cone's axis (Pa). */
     double
     normal_stiffness() const

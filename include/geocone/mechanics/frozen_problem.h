@@ -40,6 +40,10 @@ namespace geocone
     std::vector<double> start;      ///< where the solver began (m/s)
     /** @} */
 
+    /** GhostStencil by stencil: three nodes; three coefficients and k. */
+    std::vector<int>    ghost_nodes;
+    std::vector<double> ghost_values;
+
     /** Rows H v = q over these dofs. */
     std::vector<int> constrained_dofs;
     Eigen::MatrixXd  H;

@@ -5,6 +5,7 @@
 #define geocone_mechanics_incremental_problem_h
 
 #include <geocone/mechanics/external_forces.h>
+#include <geocone/mechanics/ghost_stiffness.h>
 #include <geocone/mechanics/inertia.h>
 #include <geocone/mechanics/internal_forces.h>
 
@@ -33,8 +34,8 @@ namespace geocone
    * One implicit step as a root-finding problem for the velocities v of the free
    * dofs (backward Euler):
    *   R(v) = M (v - vL)/h + sum_p V_p B_p' s_p(v) - F - H' lambda,   H v = q.
-   * It is a sum of terms (Inertia, InternalForces, ExternalForces) and of the
-   * reactions of linear constraints; prescribed velocities are eliminated. The
+   * It is a sum of terms (Inertia, InternalForces, ExternalForces, GhostStiffness)
+   * and of the reactions of linear constraints; prescribed velocities are eliminated. The
    * multipliers are functions of v: those that leave the least residual in the
    * metric of scale(), which at the solution are the multipliers. It knows points,
    * weights, gradients and constraints, and never asks whether they are FEM or MPM.
@@ -49,14 +50,16 @@ namespace geocone
      * problem
      * @param consistent_part c of Inertia, not zero only for points with N and
      * mass
+     * @param ghosts stencils of GhostStiffness
      */
     IncrementalProblem(
       const MaterialPoints &points,
       const Materials      &materials,
       const Unknowns       &unknowns,
       const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &layout,
-      const Vector *lumped_mass,
-      const double  consistent_part = 0.);
+      const Vector             *lumped_mass,
+      const double              consistent_part = 0.,
+      std::vector<GhostStencil> ghosts          = {});
 
     /** Its terms refer to each other's data. */
     IncrementalProblem(const IncrementalProblem &) = delete;
@@ -171,6 +174,12 @@ namespace geocone
       return *inertia;
     }
 
+    const GhostStiffness &
+    ghost_stiffness() const
+    {
+      return ghost;
+    }
+
     /** The points with their trial states. */
     const InternalForces &
     internal_forces() const
@@ -230,6 +239,7 @@ namespace geocone
     InternalForces         internal;
     ExternalForces         external;
     std::optional<Inertia> inertia;
+    GhostStiffness         ghost;
     std::vector<Term *>    terms; ///< all of them
 
     double h = 0.;

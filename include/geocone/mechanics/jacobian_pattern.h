@@ -8,6 +8,7 @@
 #include <geocone/discretisation/material_points.h>
 #include <geocone/mechanics/unknowns.h>
 
+#include <array>
 #include <vector>
 
 namespace geocone
@@ -23,15 +24,17 @@ namespace geocone
     JacobianPattern() = default;
 
     /**
+     * @param groups more nodes that meet
      * @param one_triangle whether the lower triangle of a symmetric matrix is
      * enough
      * @param[out] matrix with the pattern, and zero values
      */
-    JacobianPattern(const MaterialPoints &points,
-                    const Unknowns       &unknowns,
-                    const MPI_Comm        comm,
-                    const bool            one_triangle,
-                    SparseMatrix         &matrix);
+    JacobianPattern(const MaterialPoints                           &points,
+                    const Unknowns                                 &unknowns,
+                    const MPI_Comm                                  comm,
+                    const std::vector<std::array<unsigned int, 3>> &groups,
+                    const bool    one_triangle,
+                    SparseMatrix &matrix);
 
     /** Whether only the entries i <= j of a cell's matrix are taken. */
     bool
@@ -50,6 +53,18 @@ namespace geocone
         for (int j = one_triangle ? i : 0; j < 2 * n; ++j, ++place)
           if (*place >= 0)
             matrix.value[*place] += K[2 * n * i + j];
+    }
+
+    /** matrix += a value where two free rows meet; of the entries of a symmetric
+     *  matrix those of its other triangle are left out. */
+    void
+    add_entry(const int     row,
+              const int     column,
+              const double  value,
+              SparseMatrix &matrix) const
+    {
+      if (!one_triangle || column <= row)
+        matrix.value[matrix.entry(row, column)] += value;
     }
 
     /** matrix += a value on the diagonal of a free row. */

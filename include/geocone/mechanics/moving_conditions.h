@@ -54,6 +54,11 @@ namespace geocone
     void
     move(const Vector &v, const double h, const double t);
 
+    /** Points of all ranks that are more than a tenth of their own size beyond a
+     *  side that is held, where the body cannot be. Collective. */
+    unsigned int
+    n_behind(const MaterialPoints &points) const;
+
     /** The places of the sides, for a checkpoint. */
     void
     state(StateRow &row);

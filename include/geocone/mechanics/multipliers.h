@@ -147,6 +147,23 @@ namespace geocone
            const dealii::Point<dim> &centre,
            const Space              &space) const;
 
+    /** By how much a row rests on functions that hold hardly any mass. */
+    struct LightShare
+    {
+      double             largest   = 0.; ///< of the rows
+      unsigned int       condition = 0;  ///< its condition
+      dealii::Point<dim> place; ///< of the function with the largest part in it
+    };
+
+    /**
+     * |sum_light H_i v_i| of the worst row over sum_i H_i times the velocity that its
+     * condition asks for along x or y, light functions being those with less than
+     * 1e-3 of the largest mass in the row: 0.02 in sound steps, more than 1 where
+     * the row is fulfilled by a jet. Collective.
+     */
+    LightShare
+    light_share(const Vector &v, const Vector &mass, const Space &space) const;
+
     /** Mean of the velocities that a condition asks for, or 0. */
     double
     mean_target(const unsigned int condition,

@@ -75,10 +75,13 @@ namespace geocone
 
     /**
      * Makes the folder, or enters that of the run before.
+     * @param points_move through the mesh
      * @throws InputError if it exists and may not be used, or cannot be written
      */
     void
-    prepare(const RunOptions &options, const Scene &scene);
+    prepare(const RunOptions &options,
+            const Scene      &scene,
+            const bool        points_move);
 
     void
     state_of_run(StateRow &row) override;
@@ -143,6 +146,10 @@ namespace geocone
     Json
     friction_memory() const;
 
+    /** What shows whether particles that move are sound, for the summary. */
+    Json
+    motion() const;
+
     /** Warns if it has changed the result by more than about 1 %. */
     void
     warn_of_memory() const;
@@ -165,7 +172,8 @@ namespace geocone
 
     /** Sums since the start (J/m), and the least loss of a step. */
     double work = 0., dissipation = 0., loss = 0., least_loss = 0.,
-           memory_work = 0.;
+           memory_work = 0., ghost_work = 0.;
+    bool   points_move = false;
     double energy_n = 0.; ///< kinetic, elastic and potential, at the last step
     Energies initial;
 

@@ -73,6 +73,12 @@ namespace geocone
       return constraints->n_rows;
     }
 
+    bool
+    has_moving_points() const override
+    {
+      return advection != Advection::none;
+    }
+
     std::string
     linear_solver_name() const override
     {
@@ -143,6 +149,14 @@ namespace geocone
     /** Mass, vL, unknowns and pattern: all that depends on t_n only. */
     void
     begin(const MaterialPoints &points, dealii::TimerOutput &timer);
+
+    /** Stencils of ghost stiffness for the points as they are. Collective. */
+    std::vector<GhostStencil>
+    ghost_stencils(const MaterialPoints &points);
+
+    /** Why a step must not be taken, though it is solved; or nothing. */
+    std::string
+    objection(const Multipliers::LightShare &share) const;
 
     /** External forces at time t. */
     void
@@ -225,9 +239,12 @@ namespace geocone
                                   {"particle velocity", Start::particles}}};
 
     double consistent_mass = 0.;
+    double ghost_part      = 1e-3; ///< gamma of GhostStiffness
     double largest_move    = 3.;
 
     Particles particles;
+
+    unsigned int n_light = 0; ///< light functions of the present points
 
     const Scene          *scene = nullptr;
     const BackgroundMesh *mesh  = nullptr;
@@ -237,6 +254,7 @@ namespace geocone
 
     std::unique_ptr<MovingConditions>   moving;
     std::unique_ptr<Constraints>        constraints;
+    std::optional<GhostPlaces>          ghost_places; ///< of splines that move
     std::unique_ptr<IncrementalProblem> problem;
     std::unique_ptr<LinearSystem>       system;
     bool                                begun = false;

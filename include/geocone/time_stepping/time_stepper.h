@@ -36,6 +36,8 @@ namespace geocone
     /** Of the step: sum V |z_t| ||s_t| - a s_n - k|, the plastic work by which
      *  friction with memory is off the exact strength. */
     double memory_work = 0.;
+    double ghost_work =
+      0.; ///< of the step, of GhostStiffness; a part of the loss
 
     double
     state() const
@@ -46,8 +48,35 @@ namespace geocone
     void
     state(StateRow &row)
     {
-      row(
-        kinetic, elastic, potential, external_work, dissipation, memory_work);
+      row(kinetic,
+          elastic,
+          potential,
+          external_work,
+          dissipation,
+          memory_work,
+          ghost_work);
+    }
+  };
+
+  /** Whether particles that move are sound; nothing for points that stay. */
+  struct Motion
+  {
+    unsigned int light_functions = 0;  ///< see GhostPlaces::n_light()
+    unsigned int points_behind   = 0;  ///< see MovingConditions::n_behind()
+    double       light_share     = 0.; ///< see Multipliers::light_share()
+
+    void
+    take_worse(const Motion &other)
+    {
+      light_functions = std::max(light_functions, other.light_functions);
+      points_behind   = std::max(points_behind, other.points_behind);
+      light_share     = std::max(light_share, other.light_share);
+    }
+
+    void
+    state(StateRow &row)
+    {
+      row(light_functions, points_behind, light_share);
     }
   };
 
@@ -66,6 +95,9 @@ namespace geocone
     unsigned int unknowns    = 0;
     unsigned int multipliers = 0; ///< independent rows of H
     unsigned int rows        = 0; ///< rows of H that were given
+
+    /** What shows whether particles that move are sound. */
+    Motion motion;
 
     /** Largest cumulative plastic strain of all points. */
     double largest_plastic_strain = 0.;
@@ -88,6 +120,7 @@ namespace geocone
           unknowns,
           multipliers,
           rows,
+          motion,
           largest_plastic_strain,
           identity_error);
     }
@@ -196,6 +229,13 @@ namespace geocone
     /** Entries of the Jacobian on this rank. */
     virtual std::size_t
     n_nonzeros() const = 0;
+
+    /** Whether points move through the mesh. */
+    virtual bool
+    has_moving_points() const
+    {
+      return false;
+    }
 
     /** Points that left the mesh. */
     virtual unsigned int
