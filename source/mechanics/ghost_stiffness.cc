@@ -167,16 +167,18 @@ namespace geocone
   }
 
   std::vector<GhostStencil>
-  GhostPlaces::stencils(const Vector   &volume,
-                        const Unknowns &unknowns,
-                        const double    gamma) const
+  GhostPlaces::stencils(const Vector            &volume,
+                        const Unknowns          &unknowns,
+                        const std::vector<bool> &is_wanted,
+                        const double             gamma) const
   {
     std::vector<GhostStencil> list;
     for (const Triple &triple : triples)
       {
         const auto [n0, n1, n2] = triple.node;
         const double light      = fill(volume, n2);
-        if (!(light < least_fill) || !unknowns.has_mass(dim * n2))
+        if (!(light < least_fill) || !unknowns.has_mass(dim * n2) ||
+            !(is_wanted.empty() || is_wanted[n2]))
           continue;
         // Towards the material, not along its surface.
         if (!(fill(volume, n1) > light) || !(fill(volume, n0) > half_full) ||

@@ -31,8 +31,7 @@ namespace geocone
     if (lumped_mass != nullptr)
       terms.push_back(
         &inertia.emplace(points, unknowns, *lumped_mass, consistent_part));
-    if (points_move() &&
-        Utilities::MPI::max(ghost.stencils().size(),
+    if (Utilities::MPI::max(ghost.stencils().size(),
                             layout->get_mpi_communicator()) > 0)
       terms.push_back(&ghost);
   }

@@ -320,6 +320,29 @@ namespace geocone
       advect(side.boundary, v, h);
   }
 
+  std::vector<bool>
+  MovingConditions::loaded_nodes() const
+  {
+    if (supports.empty() && loads.empty())
+      return {};
+    Vector mark(space.partitioner());
+    for (const auto *sides : {&supports, &loads})
+      for (const Side &side : *sides)
+        for (const MovingBoundary::Line &line : side.boundary.lines)
+          for (const BoundaryPoint &point :
+               points_on_line(mesh, space, line.a, line.b))
+            for (unsigned int i = 0; i < point.nodes.size(); ++i)
+              if (point.values[i] > 0.)
+                mark.local_element(dim * space.local_node(point.nodes[i])) +=
+                  1.;
+    mark.compress(VectorOperation::add);
+    mark.update_ghost_values();
+    std::vector<bool> is_loaded(space.n_local_nodes());
+    for (unsigned int node = 0; node < is_loaded.size(); ++node)
+      is_loaded[node] = mark.local_element(dim * node) > 0.;
+    return is_loaded;
+  }
+
   unsigned int
   MovingConditions::n_behind(const MaterialPoints &points) const
   {

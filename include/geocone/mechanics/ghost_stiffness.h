@@ -113,12 +113,14 @@ namespace geocone
      * functions next to them are fuller.
      * @param volume at the dofs of each node sum_p V_p N_i (m^2) and
      * sum_p V_p E_p N_i (N), with ghosts
+     * @param is_wanted by local node; empty: all
      * @param gamma of the stiffness
      */
     std::vector<GhostStencil>
-    stencils(const Vector   &volume,
-             const Unknowns &unknowns,
-             const double    gamma) const;
+    stencils(const Vector            &volume,
+             const Unknowns          &unknowns,
+             const std::vector<bool> &is_wanted,
+             const double             gamma) const;
 
     /** Light functions with mass, of all ranks. Collective. */
     unsigned int

@@ -54,6 +54,11 @@ namespace geocone
     void
     move(const Vector &v, const double h, const double t);
 
+    /** Whether the function of each local node is not zero somewhere on a side that
+     *  is held or loaded; empty without such sides. Collective. */
+    std::vector<bool>
+    loaded_nodes() const;
+
     /** Points of all ranks that are more than a tenth of their own size beyond a
      *  side that is held, where the body cannot be. Collective. */
     unsigned int

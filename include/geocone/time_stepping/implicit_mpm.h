@@ -238,8 +238,17 @@ namespace geocone
                                   {"grid velocity", Start::nodes},
                                   {"particle velocity", Start::particles}}};
 
+    /** Which light functions have ghost stiffness. */
+    enum class Ghosts
+    {
+      loaded, ///< those that a side reaches that is held or loaded
+      all
+    };
+    Choice<Ghosts> ghosts = {
+      {{"loaded sides", Ghosts::loaded}, {"all", Ghosts::all}}};
+
     double consistent_mass = 0.;
-    double ghost_part      = 1e-3; ///< gamma of GhostStiffness
+    double ghost_part      = 1e-5; ///< gamma of GhostStiffness
     double largest_move    = 3.;
 
     Particles particles;
