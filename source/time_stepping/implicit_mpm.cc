@@ -108,6 +108,14 @@ namespace geocone
     if (!(largest_move > 0.))
       throw InputError(
         section + "Largest move", largest_move, "> 0 cells", "3 is usual");
+    if (ghosts == Ghosts::all && !space->is_spline())
+      throw InputError(
+        section + "Ghost stiffness of",
+        "all",
+        "loaded sides, or Discretisation/Element = B-spline 2 | "
+        "B-spline 3",
+        "only splines have ghost stiffness: leave it out, or take "
+        "splines");
     if (start_asked != Start::particles)
       starts.push_back(Start::nodes);
     if (start_asked != Start::nodes)
@@ -585,8 +593,7 @@ namespace geocone
     had_mass.resize(v.locally_owned_size());
     for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
       had_mass[i] = constraints->has_mass(i);
-    kinematics.velocity               = v;
-    const unsigned int n_light_before = n_light;
+    kinematics.velocity = v;
     particles.move(points);
     points = particles.collect(*mesh, *space);
     begun  = false;
@@ -598,7 +605,7 @@ namespace geocone
     report.energies.dissipation   = dissipation;
     report.energies.memory_work   = memory_work;
     report.energies.ghost_work    = ghost_work;
-    report.motion = {n_light_before, moving->n_behind(points), share.largest};
+    report.motion = {n_light, moving->n_behind(points), share.largest};
     return report;
   }
 
