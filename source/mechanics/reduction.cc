@@ -58,6 +58,13 @@ namespace geocone
   Reduction::Reduction(const IncrementalProblem &problem)
     : incremental(problem)
   {
+    // There may be none at the start, when check() sees the problem.
+    if (!problem.ghost.stencils().empty())
+      throw StepFailure(
+        "the formulation has no ghost stiffness, which functions "
+        "with hardly any material have now\n  remedy:  set "
+        "Material point method/Ghost stiffness = 0, or "
+        "Newton/Formulation = automatic");
     const MaterialPoints &points    = problem.points;
     const Materials      &materials = problem.materials;
     const Unknowns       &unknowns  = problem.unknowns;

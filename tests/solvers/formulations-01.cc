@@ -142,7 +142,8 @@ main(int argc, char **argv)
                        "Loading/push/Duration = 0.02",
                        "Loading/push/Step size = 0.004",
                        "Boundary conditions/footing/Velocity y = -0.2"};
-  const Strings mpm = {"Geometry/Box = -0.5, -0.4; 0.5, 0",
+  const Strings mpm = {"Material point method/Ghost stiffness = 0",
+                       "Geometry/Box = -0.5, -0.4; 0.5, 0",
                        "Mesh/Box = -0.5, -0.4; 0.5, 0.2",
                        "Loading/push/Duration = 0.02",
                        "Loading/push/First step size = 0.004",
@@ -169,4 +170,7 @@ main(int argc, char **argv)
          mpm,
          {"Newton/First iterate = Gauss-Seidel",
           "Material point method/Consistent mass part = 0.5"});
+  refuse("mpm/footing_coarse.prm",
+         mpm,
+         {reduced[0], "Material point method/Ghost stiffness = 1e-5"});
 }
