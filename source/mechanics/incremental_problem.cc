@@ -31,8 +31,12 @@ namespace geocone
     if (lumped_mass != nullptr)
       terms.push_back(
         &inertia.emplace(points, unknowns, *lumped_mass, consistent_part));
-    if (Utilities::MPI::max(ghost.stencils().size(),
-                            layout->get_mpi_communicator()) > 0)
+    // What any rank has counts for all: it decides on collective calls.
+    std::vector<unsigned int> any = {!points.values.empty(),
+                                     !ghost.stencils().empty()};
+    Utilities::MPI::max(any, layout->get_mpi_communicator(), any);
+    of_particles = any[0] > 0;
+    if (any[1] > 0)
       terms.push_back(&ghost);
   }
 

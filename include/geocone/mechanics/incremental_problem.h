@@ -105,11 +105,11 @@ namespace geocone
       return materials.yield_without_friction();
     }
 
-    /** Whether the points are particles. */
+    /** Whether the points are particles, also if this rank has none. */
     bool
     points_move() const
     {
-      return !points.values.empty();
+      return of_particles;
     }
 
     /** Whether the Jacobian is symmetric positive definite. */
@@ -241,6 +241,8 @@ namespace geocone
     std::optional<Inertia> inertia;
     GhostStiffness         ghost;
     std::vector<Term *>    terms; ///< all of them
+
+    bool of_particles = false;
 
     double h = 0.;
     Vector velocity_L;
