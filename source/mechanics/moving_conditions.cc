@@ -346,27 +346,28 @@ namespace geocone
   unsigned int
   MovingConditions::n_behind(const MaterialPoints &points) const
   {
+    if (supports.empty())
+      return 0;
     unsigned int n = 0;
-    if (!supports.empty())
-      for (unsigned int p = 0; p < points.n_points(); ++p)
-        {
-          bool behind = false;
-          for (const Side &side : supports)
-            for (const MovingBoundary::Line &line : side.boundary.lines)
-              {
-                const Tensor<1, dim> along = line.b - line.a,
-                                     to    = points.position[p] - line.a;
-                const double length        = along.norm(),
-                             s             = along * to / (length * length),
-                             beyond = (along[1] * to[0] - along[0] * to[1]) /
-                                      length; // to the right, outside
-                // Not far behind: there another part of the body may be.
-                const double size = std::sqrt(points.weight[p]);
-                behind = behind || (s > 0. && s < 1. && beyond > 0.1 * size &&
-                                    beyond < length);
-              }
-          n += behind;
-        }
+    for (unsigned int p = 0; p < points.n_points(); ++p)
+      {
+        bool behind = false;
+        for (const Side &side : supports)
+          for (const MovingBoundary::Line &line : side.boundary.lines)
+            {
+              const Tensor<1, dim> along = line.b - line.a,
+                                   to    = points.position[p] - line.a;
+              const double length        = along.norm(),
+                           s             = along * to / (length * length),
+                           beyond = (along[1] * to[0] - along[0] * to[1]) /
+                                    length; // to the right, outside
+              // Not far behind: there another part of the body may be.
+              const double size = std::sqrt(points.weight[p]);
+              behind = behind || (s > 0. && s < 1. && beyond > 0.1 * size &&
+                                  beyond < length);
+            }
+        n += behind;
+      }
     return Utilities::MPI::sum(n, mesh.triangulation().get_communicator());
   }
 

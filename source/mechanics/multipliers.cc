@@ -338,7 +338,9 @@ namespace geocone
                            const Vector &mass,
                            const Space  &space) const
   {
-    const unsigned int  n = n_rows();
+    const unsigned int n = n_rows();
+    if (n == 0)
+      return {};
     std::vector<double> heaviest(n, 0.);
     for (unsigned int r = 0; r < n; ++r)
       for (unsigned int j = 0; j < touched.size(); ++j)

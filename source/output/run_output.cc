@@ -201,6 +201,19 @@ namespace geocone
     warn_of_energy(record.time);
   }
 
+  namespace
+  {
+    /** Whether what presses moves on in one direction over three records. */
+    bool
+    moves_on(const StepRecord &a, const StepRecord &b, const StepRecord &c)
+    {
+      return !b.resets && !c.resets &&
+             (b.displacement - a.displacement) *
+                 (c.displacement - b.displacement) >
+               0.;
+    }
+  } // namespace
+
   void
   RunOutput::warn_of_jump()
   {
@@ -210,11 +223,9 @@ namespace geocone
     if (n < 3 || scene->observation.conditions.empty())
       return;
     const StepRecord &a = records[n - 3], &b = records[n - 2],
-                     &c   = records[n - 1];
-    const double moved_ab = b.displacement - a.displacement,
-                 moved_bc = c.displacement - b.displacement;
-    const double around   = (a.load + c.load) / 2.;
-    if (b.resets || c.resets || moved_ab * moved_bc <= 0. ||
+                     &c = records[n - 1];
+    const double around = (a.load + c.load) / 2.;
+    if (!moves_on(a, b, c) ||
         std::abs(c.load - a.load) > 0.25 * std::abs(around) ||
         std::abs(b.load - around) <= 0.5 * std::abs(around))
       return;
@@ -300,10 +311,8 @@ namespace geocone
     for (std::size_t i = 1; i + 1 < records.size(); ++i)
       {
         const StepRecord &a = records[i - 1], &b = records[i],
-                         &c   = records[i + 1];
-        const double moved_ab = b.displacement - a.displacement,
-                     moved_bc = c.displacement - b.displacement;
-        n_drops += !b.resets && !c.resets && moved_ab * moved_bc > 0. &&
+                         &c = records[i + 1];
+        n_drops += moves_on(a, b, c) &&
                    std::abs(b.load) <
                      0.95 * std::min(std::abs(a.load), std::abs(c.load));
       }

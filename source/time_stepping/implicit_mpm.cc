@@ -293,11 +293,15 @@ namespace geocone
     volume.compress(VectorOperation::add);
     volume.update_ghost_values();
     n_light = ghost_places->n_light(volume, *constraints);
-    std::vector<bool> is_wanted;
-    if (ghosts == Ghosts::loaded)
-      is_wanted = moving->loaded_nodes();
-    if (ghost_part == 0. || (ghosts == Ghosts::loaded && is_wanted.empty()))
+    if (ghost_part == 0.)
       return {};
+    std::vector<bool> is_wanted; // empty: all
+    if (ghosts == Ghosts::loaded)
+      {
+        is_wanted = moving->loaded_nodes();
+        if (is_wanted.empty())
+          return {};
+      }
     return ghost_places->stencils(volume, *constraints, is_wanted, ghost_part);
   }
 
@@ -568,13 +572,15 @@ namespace geocone
     report.quality                 = internal.quality();
     report.reactions               = constraints->reactions(
       residual, points, internal.trial_stress(), step.solved_at);
-    report.identity_error =
-      energy_identity_error(*problem,
-                            points,
-                            scene->materials,
-                            velocity_L,
-                            v,
-                            (work.of_weight + work.of_others) * (solved_h / h));
+    // What ghosts take of the work is not there for energies and dissipation.
+    const double ghost_work = problem->ghost_stiffness().work(v);
+    report.identity_error   = energy_identity_error(
+      *problem,
+      points,
+      scene->materials,
+      velocity_L,
+      v,
+      (work.of_weight + work.of_others) * (solved_h / h) - ghost_work);
     // Particles that stay keep their potential energy, whatever moves the nodes:
     // as with FEM, the work of the weight is that of an external force. Gravity
     // that changes works on points at rest.
@@ -583,8 +589,6 @@ namespace geocone
       work_of_changing_gravity(step, points);
     const double memory_work =
       (step.h / step.solved_h) * problem->internal_forces().memory_work();
-    const double ghost_work =
-      (step.h / step.solved_h) * problem->ghost_stiffness().work(v);
     const double dissipation = update_points(step, moved, points);
     update_supports(step, v, kinematics, report.reactions);
     if (advection != Advection::none)
@@ -604,7 +608,7 @@ namespace geocone
     report.energies.external_work = external_work;
     report.energies.dissipation   = dissipation;
     report.energies.memory_work   = memory_work;
-    report.energies.ghost_work    = ghost_work;
+    report.energies.ghost_work    = (step.h / step.solved_h) * ghost_work;
     report.motion = {n_light, moving->n_behind(points), share.largest};
     return report;
   }

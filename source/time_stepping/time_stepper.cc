@@ -107,7 +107,6 @@ namespace geocone
         problem.inertia_term().apply_mass(momentum, change);
         kinetic = v * momentum;
       }
-    const double ghost = problem.ghost_stiffness().work(v);
     // The elastic and the plastic term, and the elastic energy.
     const InternalForces &internal = problem.internal_forces();
     std::array<double, 3> sums     = {};
@@ -133,7 +132,7 @@ namespace geocone
                                      std::abs(sums[1]),
                                      std::abs(work),
                                      std::numeric_limits<double>::min()});
-    return std::abs(kinetic + sums[0] + sums[1] + ghost - work) / largest;
+    return std::abs(kinetic + sums[0] + sums[1] - work) / largest;
   }
 
   void
