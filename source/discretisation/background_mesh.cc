@@ -96,18 +96,10 @@ namespace geocone
   BackgroundMesh::prepare(const Scene &scene, const Method &method)
   {
     parameters.prepare(scene.geometry, method);
-    const CoarseMesh mesh = fitted_mesh(parameters, scene, method, comm);
-    sides                 = mesh.sides;
-    lines                 = mesh.grid;
-    simplicial            = mesh.has_triangles();
-    if (simplicial && method.is_mpm())
-      throw InputError("Geometry/File",
-                       scene.geometry.file,
-                       "quadrilaterals with MPM",
-                       "particles move through quadrilaterals only: recombine "
-                       "the triangles in gmsh, or set Discretisation/Method = "
-                       "FEM");
-
+    const CoarseMesh mesh      = fitted_mesh(parameters, scene, comm);
+    sides                      = mesh.sides;
+    lines                      = mesh.grid;
+    simplicial                 = mesh.has_triangles();
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
     if (simplicial && mesh.cells.size() > 0 &&
         std::any_of(mesh.cells.begin(), mesh.cells.end(), [](const auto &cell) {
@@ -142,6 +134,13 @@ namespace geocone
       map = std::make_unique<MappingFE<dim>>(FE_SimplexP<dim>(1));
     else
       map = std::make_unique<MappingQ1<dim>>();
+
+    // No cell is ever divided, so that each rank has all of them, in one order.
+    owners.assign(tria->n_active_cells(), 0);
+    for (const auto &cell : own_cells())
+      owners[cell->active_cell_index()] =
+        Utilities::MPI::this_mpi_process(comm);
+    Utilities::MPI::max(owners, comm, owners);
 
     // Parts connected through edges, by union of the vertices of cells that
     // share an edge: cells that touch in one vertex only can still rotate.
@@ -201,21 +200,22 @@ namespace geocone
   BackgroundMesh::inverse_jacobian(const Cell       &cell,
                                    const Point<dim> &unit) const
   {
-    // Vertices 0, 1 below and 2, 3 above; bilinear.
-    const Tensor<1, dim> along_x =
-                           (1. - unit[1]) *
-                             (cell->vertex(1) - cell->vertex(0)) +
-                           unit[1] * (cell->vertex(3) - cell->vertex(2)),
-                         along_y =
-                           (1. - unit[0]) *
-                             (cell->vertex(2) - cell->vertex(0)) +
-                           unit[0] * (cell->vertex(3) - cell->vertex(1));
+    Tensor<1, dim> along[dim];
+    if (simplicial)
+      for (unsigned int d = 0; d < dim; ++d)
+        along[d] = cell->vertex(1 + d) - cell->vertex(0);
+    else
+      {
+        // Vertices 0, 1 below and 2, 3 above; bilinear.
+        along[0] = (1. - unit[1]) * (cell->vertex(1) - cell->vertex(0)) +
+                   unit[1] * (cell->vertex(3) - cell->vertex(2));
+        along[1] = (1. - unit[0]) * (cell->vertex(2) - cell->vertex(0)) +
+                   unit[0] * (cell->vertex(3) - cell->vertex(1));
+      }
     Tensor<2, dim> jacobian;
     for (unsigned int c = 0; c < dim; ++c)
-      {
-        jacobian[c][0] = along_x[c];
-        jacobian[c][1] = along_y[c];
-      }
+      for (unsigned int d = 0; d < dim; ++d)
+        jacobian[c][d] = along[d][c];
     return invert(jacobian);
   }
 
@@ -235,6 +235,19 @@ namespace geocone
   BackgroundMesh::unit_point(const Cell &cell, const Point<dim> &x) const
   {
     Point<dim> unit;
+    if (simplicial)
+      {
+        // Affine; inside where the three area coordinates are not negative.
+        unit += inverse_jacobian(cell, unit) * (x - cell->vertex(0));
+        const double smallest =
+          std::min({unit[0], unit[1], 1. - unit[0] - unit[1]});
+        if (!(smallest >= -tolerance))
+          return std::nullopt;
+        for (unsigned int d = 0; d < dim; ++d)
+          unit[d] = std::max(0., unit[d]);
+        const double beyond = std::max(1., unit[0] + unit[1]);
+        return Point<dim>(unit / beyond);
+      }
     try
       {
         unit = map->transform_real_to_unit_cell(

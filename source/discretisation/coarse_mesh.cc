@@ -72,7 +72,9 @@ namespace geocone
                   box,
                   "MPM: lower left and upper right corner x, y; x, y (m) of "
                   "the background mesh; empty: the smallest box around the "
-                  "body. Leave room for what moves out of it.");
+                  "body, or the body itself for an unstructured mesh. Leave "
+                  "room for what moves out of it. An unstructured mesh has "
+                  "edges on the border of the body.");
     cells.declare(*this,
                   "Cells",
                   ". Automatic: triangles for FEM, quadrilaterals for MPM.");
@@ -111,12 +113,16 @@ namespace geocone
   void
   MeshParameters::choose_outline(const Geometry &geometry, const Method &method)
   {
-    if (!method.is_mpm())
+    fits_body =
+      !method.is_mpm() || (type == Type::unstructured && box.empty() &&
+                           geometry.shape != Geometry::Shape::discs);
+    if (fits_body)
       {
-        // The mesh fits the body: 'Mesh/Box' is not used.
         outline = geometry.outline;
         return;
       }
+    if (type == Type::unstructured)
+      body = geometry.outline;
     const auto [lower, upper] = geometry.bounding_box();
     if (box.empty())
       box = {lower, upper};
@@ -165,14 +171,6 @@ namespace geocone
                        "box | polygon | file with FEM",
                        "set Discretisation/Method = MPM, or mesh the discs "
                        "with gmsh");
-    if (method.is_mpm() &&
-        (type == Type::unstructured || cells != Cells::quadrilaterals) &&
-        geometry.shape != Geometry::Shape::file)
-      throw InputError(type == Type::unstructured ? "Mesh/Type" : "Mesh/Cells",
-                       type == Type::unstructured ? type.word() : cells.word(),
-                       "uniform | graded quadrilaterals with MPM",
-                       "particles move through a box of quadrilaterals: set "
-                       "Mesh/Type = uniform, Mesh/Cells = automatic");
     if (geometry.shape != Geometry::Shape::file)
       choose_outline(geometry, method);
     if (type != Type::unstructured && !method.is_mpm() &&

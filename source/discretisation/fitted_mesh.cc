@@ -36,7 +36,6 @@ namespace geocone
   CoarseMesh
   fitted_mesh(const MeshParameters &parameters,
               const Scene          &scene,
-              const Method         &method,
               const MPI_Comm        comm,
               const CellSizes      *sizes)
   {
@@ -50,7 +49,7 @@ namespace geocone
         : structured_mesh(parameters);
     for (auto &cell : mesh.cells)
       cell.material_id = scene.regions.material_at(mesh.centre(cell), -1);
-    mesh.sides = method.is_mpm() ? sides_of_box : scene.geometry.sides;
+    mesh.sides = parameters.fits_body ? scene.geometry.sides : sides_of_box;
     for (const auto &edge : mesh.outer_edges())
       {
         CellData<1> line(2);

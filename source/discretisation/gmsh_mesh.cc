@@ -326,10 +326,12 @@ namespace geocone
         return occ::addPlaneSurface({occ::addCurveLoop(lines)});
       };
 
-      // The domain is fragmented by the materials' borders and by the grading
-      // points, which so become edges and vertices of the mesh.
+      // The domain is fragmented by the borders of the body and the materials and
+      // by the grading points, which so become edges and vertices of the mesh.
       const gmsh::vectorpair domain = {{2, surface(parameters.outline)}};
       gmsh::vectorpair       tools;
+      if (!parameters.body.empty())
+        tools.emplace_back(2, surface(parameters.body));
       for (const Polygon &polygon : regions.polygons())
         tools.emplace_back(2, surface(polygon));
       for (const Point<dim> &x : parameters.grading_points)

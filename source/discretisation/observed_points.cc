@@ -3,9 +3,9 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/discretisation/cell_search.h>
 #include <geocone/discretisation/observed_points.h>
 
-#include <deal.II/base/geometry_info.h>
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
@@ -46,47 +46,24 @@ namespace geocone
     comm = mesh.triangulation().get_communicator();
     const std::vector<Point<dim>> &places = scene.observation.points;
     in_cell.resize(places.size());
-    // A place on the border of cells belongs to the first rank that has it.
-    std::vector<unsigned int> rank(places.size(),
-                                   Utilities::MPI::n_mpi_processes(comm));
-    const unsigned int this_rank = Utilities::MPI::this_mpi_process(comm);
-    constexpr double   tolerance = 1e-8;
-    for (unsigned int i = 0; i < places.size(); ++i)
-      for (const auto &cell : mesh.own_cells())
-        {
-          const Point<dim> &x = places[i];
-          if (rank[i] == this_rank ||
-              cell->center().distance(x) > cell->diameter())
-            continue;
-          Point<dim> unit;
-          try
-            {
-              unit = mesh.mapping().transform_real_to_unit_cell(cell, x);
-            }
-          catch (const Mapping<dim>::ExcTransformationFailed &)
-            {
-              continue; // far outside
-            }
-          if (!cell->reference_cell().contains_point(unit, tolerance))
-            continue;
-          rank[i] = this_rank;
-          std::vector<types::global_dof_index> nodes;
-          space.cell_nodes(cell, nodes);
-          in_cell[i].values.resize(nodes.size());
-          space.evaluate(cell, unit, in_cell[i].values.data(), nullptr);
-          for (const types::global_dof_index node : nodes)
-            in_cell[i].nodes.push_back(space.local_node(node));
-        }
+    const CellSearch                     cells(mesh);
+    std::vector<types::global_dof_index> nodes;
     for (unsigned int i = 0; i < places.size(); ++i)
       {
-        const unsigned int first = Utilities::MPI::min(rank[i], comm);
-        if (first == Utilities::MPI::n_mpi_processes(comm))
+        const auto place = cells.find(places[i]);
+        if (!place)
           throw InputError(parameter,
                            text(places[i]),
                            "places in the body, here in a cell of the mesh",
                            "move the point into the body");
-        if (first != this_rank)
-          in_cell[i] = InCell();
+        if (!place->cell->is_locally_owned())
+          continue;
+        space.cell_nodes(place->cell, nodes);
+        in_cell[i].values.resize(nodes.size());
+        space.evaluate(
+          place->cell, place->unit, in_cell[i].values.data(), nullptr);
+        for (const types::global_dof_index node : nodes)
+          in_cell[i].nodes.push_back(space.local_node(node));
       }
   }
 

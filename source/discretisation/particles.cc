@@ -8,6 +8,11 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <tuple>
+
 namespace geocone
 {
   using namespace dealii;
@@ -36,6 +41,19 @@ namespace geocone
     }
   } // namespace
 
+  Point<dim>
+  Particles::inside(const Point<dim> &unit) const
+  {
+    if (margin == 0.)
+      return unit;
+    Point<dim> moved;
+    for (unsigned int d = 0; d < dim; ++d)
+      moved[d] = std::clamp(unit[d], margin, 1. - margin);
+    if (search->mesh_is_simplicial() && moved[0] + moved[1] > 1. - margin)
+      moved *= (1. - margin) / (moved[0] + moved[1]);
+    return moved;
+  }
+
   Particles::Particles(const ParameterFile &file)
     : seeding(file)
   {}
@@ -49,32 +67,20 @@ namespace geocone
     seeding.prepare(scene);
     const std::vector<Seed> seeds = seeding.make(scene, mesh);
 
-    // What a particle has is one row of numbers: its state and, while it moves,
-    // how far it has still to go.
+    // What a particle has is one row of numbers.
     MaterialPoints one;
     one.n_history = n_history = scene.materials.n_history();
     one.resize(1, true);
     StateRow row;
     one.state(0, row);
     n_state = row.values().size();
-
-    handler = std::make_unique<dealii::Particles::ParticleHandler<dim>>(
-      mesh.triangulation(), mesh.mapping(), n_state + dim);
-    handler->signals.particle_lost.connect(
-      [this](const auto &particle, const auto &cell) {
-        const auto properties = particle->get_properties();
-        lost.push_back({static_cast<unsigned int>(particle->get_id()),
-                        particle->get_location(),
-                        {properties.begin(), properties.end()},
-                        cell});
-      });
+    search  = std::make_unique<CellSearch>(mesh);
+    margin  = space.is_spline() ? 0. : 1e-6;
 
     unsigned int       first = 0;
     const unsigned int n     = seeds.size();
     MPI_Exscan(&n, &first, 1, MPI_UNSIGNED, MPI_SUM, comm);
     const auto &conditions = scene.dirichlet.list;
-    // Any cell will do: sorting finds the right one.
-    const auto cells = mesh.own_cells();
     for (unsigned int i = 0; i < n; ++i)
       {
         const Seed            &seed = seeds[i];
@@ -92,24 +98,25 @@ namespace geocone
               in_first_row(
                 *conditions[c], scene.geometry, seed.position, seed.volume))
             one.held_by[0] = c + 1;
-        std::vector<double> properties(n_state + dim, 0.);
-        StateRow            row(properties.data(), false);
+        states.resize(states.size() + n_state);
+        StateRow row(&states[states.size() - n_state], false);
         one.state(0, row);
-        handler->insert_particle(seed.position,
-                                 Point<dim>(-1., -1.),
-                                 first + i,
-                                 *cells.begin(),
-                                 ArrayView<const double>(properties));
+        places.push_back({first + i, unknown_cell, seed.position, {}});
       }
-    handler->update_cached_numbers();
     sort();
 
-    if (space.degree() == 3 && !space.is_spline() &&
-        seeding.points_per_direction() > 0 &&
-        seeding.points_per_direction() < 3)
-      return "Q3 with fewer than 3 x 3 particles per cell: functions that no "
-             "particle sees move freely, loads come out far too low; take "
-             "'Particles/Points per direction' = 3, or B-splines";
+    const unsigned int k    = seeding.points_per_direction();
+    const unsigned int want = mesh.is_simplicial() ? 4 : 3;
+    if (space.degree() == 3 && !space.is_spline() && k > 0 && k < want)
+      return format("%s with fewer than %u x %u particles per cell: functions "
+                    "that no particle sees move freely, loads come out far too "
+                    "low; take 'Particles/Points per direction' = %u%s",
+                    space.element().c_str(),
+                    want,
+                    want,
+                    want,
+                    mesh.is_simplicial() ? " and 'Layout' = sub-cells"
+                                         : ", or B-splines");
     return "";
   }
 
@@ -117,7 +124,7 @@ namespace geocone
   Particles::collect(const BackgroundMesh &mesh, const Space &space) const
   {
     MaterialPoints     points;
-    const unsigned int n_points = handler->n_locally_owned_particles();
+    const unsigned int n_points = places.size();
     const unsigned int n        = space.nodes_per_cell();
     points.n_nodes              = n;
     points.n_history            = n_history;
@@ -127,36 +134,37 @@ namespace geocone
 
     std::vector<types::global_dof_index> nodes;
     std::vector<Tensor<1, dim>>          unit_gradient(n);
-    unsigned int                         p = 0;
-    for (const auto &cell : mesh.own_cells())
+    std::vector<double>                  state(n_state);
+    for (unsigned int p = 0; p < n_points; ++p)
       {
-        const auto particles = handler->particles_in_cell(cell);
-        if (particles.begin() == particles.end())
-          continue;
-        points.cells.push_back(cell);
-        space.cell_nodes(cell, nodes);
-        for (const types::global_dof_index node : nodes)
-          points.nodes.push_back(space.local_node(node));
-        for (auto &particle : particles)
+        const Place &place = places[p];
+        const auto   cell  = search->cell(place.cell);
+        if (p == 0 || place.cell != places[p - 1].cell)
           {
-            const Point<dim>    &unit    = particle.get_reference_location();
-            const Tensor<2, dim> inverse = mesh.inverse_jacobian(cell, unit);
-            space.evaluate(
-              cell, unit, &points.values[p * n], unit_gradient.data());
-            for (unsigned int i = 0; i < n; ++i)
-              {
-                const Tensor<1, dim> gradient = unit_gradient[i] * inverse;
-                for (unsigned int c = 0; c < dim; ++c)
-                  points.gradients[(p * dim + c) * n + i] = gradient[c];
-              }
-            points.position[p] = particle.get_location();
-            points.id[p]       = particle.get_id();
-            StateRow row(particle.get_properties().begin(), true);
-            points.state(p, row);
-            ++p;
+            if (p > 0)
+              points.first_point.push_back(p);
+            points.cells.push_back(cell);
+            space.cell_nodes(cell, nodes);
+            for (const types::global_dof_index node : nodes)
+              points.nodes.push_back(space.local_node(node));
           }
-        points.first_point.push_back(p);
+        const Tensor<2, dim> inverse = mesh.inverse_jacobian(cell, place.unit);
+        space.evaluate(
+          cell, place.unit, &points.values[p * n], unit_gradient.data());
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            const Tensor<1, dim> gradient = unit_gradient[i] * inverse;
+            for (unsigned int c = 0; c < dim; ++c)
+              points.gradients[(p * dim + c) * n + i] = gradient[c];
+          }
+        points.position[p] = place.position;
+        points.id[p]       = place.id;
+        std::copy_n(&states[p * n_state], n_state, state.begin());
+        StateRow row(state.data(), true);
+        points.state(p, row);
       }
+    if (n_points > 0)
+      points.first_point.push_back(n_points);
     if (space.has_b_bar())
       average_gradients(points);
     return points;
@@ -167,20 +175,25 @@ namespace geocone
   {
     CellRecord          cells;
     std::vector<double> values;
+    std::size_t         p = 0;
     for (const auto &cell : mesh.own_cells())
       {
-        cells.add(cell, handler->n_particles_in_cell(cell));
-        for (const auto &particle : handler->particles_in_cell(cell))
+        const std::size_t first = p;
+        for (; p < places.size() && places[p].cell == cell->active_cell_index();
+             ++p)
           {
-            values.push_back(particle.get_id());
+            const Place &place = places[p];
+            values.push_back(place.id);
             for (unsigned int d = 0; d < dim; ++d)
-              values.push_back(particle.get_location()[d]);
+              values.push_back(place.position[d]);
             // With all its digits, which a search would not give again.
             for (unsigned int d = 0; d < dim; ++d)
-              values.push_back(particle.get_reference_location()[d]);
-            const auto state = particle.get_properties();
-            values.insert(values.end(), state.begin(), state.end());
+              values.push_back(place.unit[d]);
+            values.insert(values.end(),
+                          &states[p * n_state],
+                          &states[p * n_state] + n_state);
           }
+        cells.add(cell, p - first);
       }
     archive.write("particles/cells", cells.numbers);
     archive.write("particles/state", values);
@@ -192,93 +205,118 @@ namespace geocone
   void
   Particles::load(const Archive &archive, const BackgroundMesh &mesh)
   {
-    const std::size_t         size   = 1 + 2 * dim + n_state + dim;
+    const std::size_t         size   = 1 + 2 * dim + n_state;
     const std::vector<double> values = archive.read("particles/state");
     const CellRecord          cells(archive.read("particles/cells"),
                            values.size() / size);
-    handler->clear_particles();
+    places.clear();
+    states.clear();
     for (const auto &cell : mesh.own_cells())
       {
         const auto [begin, end] = cells.range(cell);
         for (std::size_t i = begin; i < end; ++i)
           {
             const double *x = &values[i * size];
-            handler->insert_particle(
-              Point<dim>(x[1], x[2]),
-              Point<dim>(x[3], x[4]),
-              static_cast<unsigned int>(x[0]),
-              cell,
-              ArrayView<const double>(x + 1 + 2 * dim, n_state + dim));
+            places.push_back({static_cast<unsigned int>(x[0]),
+                              cell->active_cell_index(),
+                              Point<dim>(x[1], x[2]),
+                              Point<dim>(x[3], x[4])});
+            states.insert(states.end(), x + 1 + 2 * dim, x + size);
           }
       }
-    handler->update_cached_numbers();
     archive.read_row("particles/lost")(n_lost_all);
   }
 
-  void
+  std::vector<Particles::Place>
   Particles::sort()
   {
-    const std::vector<Lost> lost_before = std::move(lost);
-    lost.clear();
-    handler->sort_particles_into_subdomains_and_cells();
-    // A particle on a face may seem to lie outside of all cells, by rounding:
-    // those are tried again a little nearer to where they came from.
-    if (Utilities::MPI::sum(lost.size(), comm) > 0)
+    const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
+    std::map<unsigned int, std::vector<double>> leaving;
+    std::vector<Place>                          lost;
+    std::size_t                                 n = 0; // that stay
+    for (std::size_t p = 0; p < places.size(); ++p)
       {
-        const std::vector<Lost> again = std::move(lost);
-        lost.clear();
-        for (const Lost &particle : again)
-          handler->insert_particle(
-            particle.position +
-              1e-10 * (particle.last_cell->center() - particle.position),
-            Point<dim>(-1., -1.),
-            particle.id,
-            particle.last_cell,
-            ArrayView<const double>(particle.properties));
-        handler->update_cached_numbers();
-        handler->sort_particles_into_subdomains_and_cells();
+        Place       place = places[p];
+        const auto *state = &states[p * n_state];
+        const auto  found =
+          search->find(place.position,
+                       place.cell == unknown_cell ? BackgroundMesh::Cell()
+                                                  : search->cell(place.cell));
+        if (!found)
+          {
+            lost.push_back(place);
+            continue;
+          }
+        place.cell               = found->cell->active_cell_index();
+        place.unit               = inside(found->unit);
+        const unsigned int owner = search->owner(found->cell);
+        if (owner == rank)
+          {
+            places[n] = place;
+            std::copy(state, state + n_state, &states[n_state * n++]);
+            continue;
+          }
+        std::vector<double> &message = leaving[owner];
+        message.insert(message.end(),
+                       {double(place.id),
+                        double(place.cell),
+                        place.position[0],
+                        place.position[1],
+                        place.unit[0],
+                        place.unit[1]});
+        message.insert(message.end(), state, state + n_state);
       }
-    lost.insert(lost.begin(), lost_before.begin(), lost_before.end());
+    places.resize(n);
+    states.resize(n * n_state);
+    if (Utilities::MPI::logical_or(!leaving.empty(), comm))
+      for (const auto &[sender, message] :
+           Utilities::MPI::some_to_some(comm, leaving))
+        for (std::size_t i = 0; i < message.size(); i += 6 + n_state)
+          {
+            const double *x = &message[i];
+            places.push_back({static_cast<unsigned int>(x[0]),
+                              static_cast<unsigned int>(x[1]),
+                              Point<dim>(x[2], x[3]),
+                              Point<dim>(x[4], x[5])});
+            states.insert(states.end(), x + 6, x + 6 + n_state);
+          }
+
+    // By cell and number: an order that no history and no number of ranks changes.
+    std::vector<std::size_t> order(places.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](const auto a, const auto b) {
+      return std::tie(places[a].cell, places[a].id) <
+             std::tie(places[b].cell, places[b].id);
+    });
+    if (!std::is_sorted(order.begin(), order.end()))
+      {
+        std::vector<Place>  sorted_places;
+        std::vector<double> sorted_states;
+        sorted_places.reserve(places.size());
+        sorted_states.reserve(states.size());
+        for (const std::size_t p : order)
+          {
+            sorted_places.push_back(places[p]);
+            sorted_states.insert(sorted_states.end(),
+                                 &states[p * n_state],
+                                 &states[p * n_state] + n_state);
+          }
+        places = std::move(sorted_places);
+        states = std::move(sorted_states);
+      }
+    return lost;
   }
 
   void
   Particles::move(MaterialPoints &points)
   {
-    // The library finds a particle in the cells around its old one, which on
-    // several ranks may be all that is known: far moves go in parts.
-    unsigned int p = 0, n_parts = 1;
-    for (const auto &cell : points.cells)
-      for (auto &particle : handler->particles_in_cell(cell))
-        {
-          const auto           state = particle.get_properties();
-          const Tensor<1, dim> move =
-            points.position[p] - particle.get_location();
-          for (unsigned int c = 0; c < dim; ++c)
-            {
-              state[n_state + c] = move[c];
-              n_parts            = std::max<unsigned int>(
-                n_parts,
-                std::ceil(std::abs(move[c]) / cell->extent_in_direction(c)));
-            }
-          StateRow row(state.begin(), false);
-          points.state(p++, row);
-        }
-    lost.clear();
-    n_parts = Utilities::MPI::n_mpi_processes(comm) == 1
-                ? 1
-                : Utilities::MPI::max(n_parts, comm);
-    for (unsigned int part = 0; part < n_parts; ++part)
+    for (unsigned int p = 0; p < points.n_points(); ++p)
       {
-        for (auto &particle : *handler)
-          {
-            const auto state = particle.get_properties();
-            particle.set_location(
-              particle.get_location() +
-              Tensor<1, dim>(
-                {state[n_state] / n_parts, state[n_state + 1] / n_parts}));
-          }
-        sort();
+        places[p].position = points.position[p];
+        StateRow row(&states[p * n_state], false);
+        points.state(p, row);
       }
+    const std::vector<Place> lost = sort();
 
     const unsigned int n_now = Utilities::MPI::sum(lost.size(), comm);
     n_lost_all += n_now;

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/discretisation/cell_search.h>
 #include <geocone/discretisation/seeding.h>
 
 #include <deal.II/base/mpi.h>
@@ -10,10 +11,6 @@
 
 #include <deal.II/fe/fe_nothing.h>
 #include <deal.II/fe/fe_values.h>
-
-#include <deal.II/grid/grid_tools_cache.h>
-
-#include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
 #include <cmath>
@@ -45,46 +42,6 @@ namespace geocone
                         "\n  allowed: points in the mesh\n"
                         "  remedy:  enlarge 'Mesh/Box'");
     }
-
-    /** Finds out which of the seeds that all ranks have are in own cells. */
-    class OwnCells
-    {
-    public:
-      explicit OwnCells(const BackgroundMesh &mesh)
-        : mesh(mesh)
-        , comm(mesh.triangulation().get_communicator())
-        , rank(Utilities::MPI::this_mpi_process(comm))
-        , n_ranks(Utilities::MPI::n_mpi_processes(comm))
-        , cache(mesh.triangulation(), mesh.mapping())
-      {}
-
-      /** @return the owner of each (collective) */
-      std::vector<unsigned int>
-      owners(const std::vector<Seed> &seeds) const
-      {
-        const auto &cells = cache.get_locally_owned_cell_bounding_boxes_rtree();
-        std::vector<unsigned int> owner(seeds.size(), n_ranks);
-        namespace bgi = boost::geometry::index;
-        for (std::size_t i = 0; i < seeds.size(); ++i)
-          for (const auto &[box, cell] :
-               cells |
-                 bgi::adaptors::queried(bgi::intersects(seeds[i].position)))
-            if (mesh.unit_point(cell, seeds[i].position))
-              owner[i] = rank;
-        Utilities::MPI::min(owner, comm, owner);
-        for (std::size_t i = 0; i < seeds.size(); ++i)
-          if (owner[i] == n_ranks)
-            throw outside_mesh(seeds[i].position);
-        return owner;
-      }
-
-      const BackgroundMesh &mesh;
-      const MPI_Comm        comm;
-      const unsigned int    rank, n_ranks;
-
-    private:
-      const GridTools::Cache<dim> cache;
-    };
 
     /** @throws InputError if a material has no points, or if there are too many
      *  @param n by material, of all ranks */
@@ -120,6 +77,32 @@ namespace geocone
       return are_gauss_points ? Quadrature<1>(QGauss<1>(k))
                               : Quadrature<1>(QIterated<1>(QMidpoint<1>(), k));
     }
+
+    /** Most Gauss points per direction in a triangle, by the library's rules. */
+    constexpr unsigned int most_in_triangle = 5;
+
+    /**
+     * The same in the unit triangle: rules of degree 2 k - 1 (1, 3, 7, 15 and 19
+     * points; 3 of degree 2), or the centres of k^2 equal triangles.
+     */
+    Quadrature<dim>
+    places_in_triangle(const bool are_gauss_points, const unsigned int k)
+    {
+      if (are_gauss_points && k <= 2)
+        return QGaussSimplex<dim>(k);
+      if (are_gauss_points)
+        return QWitherdenVincentSimplex<dim>(k);
+      std::vector<Point<dim>> centres;
+      for (unsigned int j = 0; j < k; ++j)
+        for (unsigned int i = 0; i + j < k; ++i)
+          {
+            centres.emplace_back((i + 1. / 3.) / k, (j + 1. / 3.) / k);
+            if (i + j + 1 < k)
+              centres.emplace_back((i + 2. / 3.) / k, (j + 2. / 3.) / k);
+          }
+      return Quadrature<dim>(
+        centres, std::vector<double>(centres.size(), 0.5 / centres.size()));
+    }
   } // namespace
 
   Seeding::Seeding(const ParameterFile &parameter_file)
@@ -130,9 +113,11 @@ namespace geocone
                    "Layout",
                    ". Gauss: points of each cell. Sub-cells: their centres. "
                    "Lattice: squares, independent of the mesh.");
-    add_parameter("Points per direction",
-                  k,
-                  "Gauss and sub-cells: k for k x k points in each cell.");
+    add_parameter(
+      "Points per direction",
+      k,
+      "Gauss and sub-cells: k for k x k points in each cell; in "
+      "triangles k x k sub-cells, or 1, 3, 7, 15, 19 Gauss points.");
     add_parameter("Spacing", spacing, "lattice: distance of points (m).");
     add_parameter("Number", number, "random: number of points in the body.");
     add_parameter(
@@ -218,9 +203,8 @@ namespace geocone
   }
 
   double
-  Seeding::expected_number(const Scene                   &scene,
-                           const std::array<double, dim> &n_cells,
-                           const double                   area_of_mesh) const
+  Seeding::expected_number(const Scene                    &scene,
+                           const BackgroundMesh::Expected &mesh) const
   {
     if (layout == Layout::file)
       return ParticleFile::expected_number(file);
@@ -228,11 +212,14 @@ namespace geocone
       return number;
     // The cells of a file are the body, whatever their area.
     const bool   is_file = scene.geometry.shape == Geometry::Shape::file;
-    const double area    = is_file ? area_of_mesh : scene.geometry.area();
+    const double area    = is_file ? mesh.area : scene.geometry.area();
     if (layout == Layout::lattice)
       return area / (spacing * spacing);
-    return double(k) * k * n_cells[0] * n_cells[1] *
-           std::min(1., area / area_of_mesh);
+    const double per_cell =
+      !mesh.is_simplicial || layout == Layout::sub_cells
+        ? double(k) * k
+        : places_in_triangle(true, std::min(k, most_in_triangle)).size();
+    return per_cell * mesh.n_cells * std::min(1., area / mesh.area);
   }
 
   std::string
@@ -380,21 +367,36 @@ namespace geocone
   {
     if (points_per_direction() == 0)
       {
-        const OwnCells cells(mesh);
+        const CellSearch   cells(mesh);
+        const unsigned int rank = Utilities::MPI::this_mpi_process(
+          mesh.triangulation().get_communicator());
         visit_all(scene, [&](Block &block, const Given &given) {
-          const std::vector<unsigned int> owner = cells.owners(block);
-          for (std::size_t i = 0; i < block.size(); ++i)
-            if (owner[i] == cells.rank)
-              {
-                describe(block[i], scene, given, detail);
-                take(block[i]);
-              }
+          for (Seed &seed : block)
+            {
+              const auto place = cells.find(seed.position);
+              if (!place)
+                throw outside_mesh(seed.position);
+              if (cells.owner(place->cell) != rank)
+                continue;
+              describe(seed, scene, given, detail);
+              take(seed);
+            }
         });
         return;
       }
-    const Quadrature<dim> quadrature(
-      places_in_interval(layout == Layout::gauss, k));
-    const FE_Nothing<dim> nothing;
+    const bool simplicial = mesh.is_simplicial();
+    if (simplicial && layout == Layout::gauss && k > most_in_triangle)
+      throw InputError("Particles/Points per direction",
+                       k,
+                       "1 to " + std::to_string(most_in_triangle) +
+                         " for Gauss points of triangles",
+                       "set Particles/Layout = sub-cells");
+    const Quadrature<dim> quadrature =
+      simplicial
+        ? places_in_triangle(layout == Layout::gauss, k)
+        : Quadrature<dim>(places_in_interval(layout == Layout::gauss, k));
+    const FE_Nothing<dim> nothing(simplicial ? ReferenceCells::Triangle
+                                             : ReferenceCells::Quadrilateral);
     FEValues<dim>         values(mesh.mapping(),
                          nothing,
                          quadrature,

@@ -40,13 +40,13 @@ namespace geocone
       *this,
       "Element",
       ". P1 to P3 on triangles, Q1 to Q3 on quadrilaterals, B-splines on "
-      "uniform and graded grids of them. Automatic: P3 or Q3 for FEM, B-spline "
-      "3 for MPM, B-spline 2 for explicit MPM (Q1 where the mesh comes from a "
-      "file).");
+      "uniform and graded grids of them. Automatic: P3 or Q3 for FEM; for MPM "
+      "B-spline 3 on grids, P3 on triangles, Q1 on other meshes; for explicit "
+      "MPM B-spline 2, P1 or Q1.");
     basis.declare(*this,
                   "Basis",
-                  ", of Q2 and Q3. Automatic: Lagrange's for FEM, Bernstein's, "
-                  "which are not negative, for MPM.");
+                  ", of P2, P3, Q2 and Q3. Automatic: Lagrange's for FEM, "
+                  "Bernstein's, which are not negative, for MPM.");
     add_parameter("B-bar",
                   b_bar,
                   "For Q1: the volumetric strain of a cell is its mean over "
@@ -59,7 +59,7 @@ namespace geocone
                         const Method &method)
   {
     if (kind == Element::automatic)
-      kind = simplicial             ? Element::p3
+      kind = simplicial ? method.is_explicit() ? Element::p1 : Element::p3
              : !method.is_mpm()     ? Element::q3
              : !has_grid            ? Element::q1
              : method.is_explicit() ? Element::spline_2
@@ -74,12 +74,13 @@ namespace geocone
                          " on this mesh",
                        "choose one of them, or change the cells of the mesh");
     p = element().back() - '0';
-    if (method.is_explicit() && (kind == Element::q2 || kind == Element::q3))
+    if (method.is_explicit() && p > 1 && kind < Element::spline_2)
       throw InputError("Discretisation/Element",
                        element(),
-                       "Q1 | B-spline 2 | B-spline 3 with explicit MPM",
+                       "P1 | Q1 | B-spline 2 | B-spline 3 with explicit MPM",
                        "the stable step of elements of higher degree is very "
-                       "small: take splines, or Q1 on an unstructured mesh");
+                       "small: take splines, or P1 or Q1 on an unstructured "
+                       "mesh");
     if (method.is_explicit() && b_bar)
       throw InputError("Discretisation/B-bar",
                        "true",
@@ -138,7 +139,7 @@ namespace geocone
                 else
                   x = mesh->mapping().transform_unit_to_real_cell(
                     cell,
-                    basis == Basis::bernstein && !simplicial
+                    basis == Basis::bernstein
                       ? Point<dim>(1. * lattice[i][0] / p,
                                    1. * lattice[i][1] / p)
                       : fe->unit_support_point(i));
@@ -163,6 +164,10 @@ namespace geocone
       fe = std::make_unique<FE_SimplexP<dim>>(p);
     else
       fe = make_cubic_simplex();
+    if (mesh.is_simplicial())
+      for (const Point<dim> &x : fe->get_unit_support_points())
+        lattice.push_back({{static_cast<unsigned int>(std::lround(p * x[0])),
+                            static_cast<unsigned int>(std::lround(p * x[1]))}});
     dofs = std::make_unique<DoFHandler<dim>>(mesh.triangulation());
     dofs->distribute_dofs(*fe);
     return dofs->locally_owned_dofs();
@@ -179,18 +184,17 @@ namespace geocone
     // A node belongs to the rank of a cell in the middle of its support. The
     // ranks of all cells are needed: supports reach beyond the ghost cells.
     const MPI_Comm     comm    = mesh.triangulation().get_communicator();
-    const int          rank    = Utilities::MPI::this_mpi_process(comm);
+    const unsigned int rank    = Utilities::MPI::this_mpi_process(comm);
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
     const unsigned int nx      = mesh.grid()[0].size() - 1,
                        ny      = mesh.grid()[1].size() - 1;
-    std::vector<int> rank_of_cell(nx * ny, -1);
-    for (const auto &cell : mesh.own_cells())
+    std::vector<unsigned int> rank_of_cell(nx * ny);
+    for (const auto &cell : mesh.triangulation().active_cell_iterators())
       {
-        const auto place                       = mesh.place_in_grid(cell);
-        rank_of_cell[place[1] * nx + place[0]] = rank;
+        const auto place = mesh.place_in_grid(cell);
+        rank_of_cell[place[1] * nx + place[0]] =
+          mesh.owner_of_cell()[cell->active_cell_index()];
       }
-    Utilities::MPI::max(
-      ArrayView<const int>(rank_of_cell), comm, ArrayView<int>(rank_of_cell));
 
     const auto home = [&](const unsigned int function, const unsigned int n) {
       return std::min(n - 1, function - std::min(function, p / 2));
@@ -254,7 +258,7 @@ namespace geocone
                   double           *N,
                   Tensor<1, dim>   *gradient) const
   {
-    if (!is_spline() && (basis == Basis::lagrange || lattice.empty()))
+    if (!is_spline() && basis == Basis::lagrange)
       {
         for (unsigned int i = 0; i < n_nodes_per_cell; ++i)
           {
@@ -262,6 +266,11 @@ namespace geocone
             if (gradient != nullptr)
               gradient[i] = fe->shape_grad(i, unit);
           }
+        return;
+      }
+    if (mesh->is_simplicial())
+      {
+        bernstein_on_triangle(p, unit, lattice, N, gradient);
         return;
       }
     double value[dim][max_degree + 1], slope[dim][max_degree + 1];
@@ -307,11 +316,10 @@ namespace geocone
   Space::nodes_on_sides(const std::set<types::boundary_id> &ids) const
   {
     const auto on_face = [&](const unsigned int i, const unsigned int f) {
-      if (!lattice.empty())
-        return lattice[i][f / 2] == (f % 2 == 0 ? 0 : p);
-      const Point<dim> x           = fe->unit_support_point(i);
-      const double     distances[] = {x[1], 1. - x[0] - x[1], x[0]};
-      return std::abs(distances[f]) < 1e-10;
+      const auto &[a, b] = lattice[i];
+      if (mesh->is_simplicial())
+        return (f == 0 ? b : f == 1 ? p - a - b : a) == 0;
+      return lattice[i][f / 2] == (f % 2 == 0 ? 0 : p);
     };
     // The ghost cells are looked at as well: of a node that this rank has, the
     // boundary face may belong to a cell of another rank.

@@ -78,4 +78,42 @@ namespace geocone
     for (unsigned int r = 0; r <= p; ++r)
       dN[r] = p * ((r > 0 ? lower[r - 1] : 0.) - (r < p ? lower[r] : 0.));
   }
+
+  void
+  bernstein_on_triangle(
+    const unsigned int                                p,
+    const dealii::Point<dim>                         &x,
+    const std::vector<std::array<unsigned int, dim>> &lattice,
+    double                                           *N,
+    dealii::Tensor<1, dim>                           *gradient)
+  {
+    // l_j^k / k!
+    const double l[3] = {1. - x[0] - x[1], x[0], x[1]};
+    double       power[3][max_degree + 1], factorial = 1.;
+    for (unsigned int j = 0; j < 3; ++j)
+      {
+        power[j][0] = 1.;
+        for (unsigned int k = 1; k <= p; ++k)
+          power[j][k] = power[j][k - 1] * l[j] / k;
+      }
+    for (unsigned int k = 2; k <= p; ++k)
+      factorial *= k;
+    for (unsigned int i = 0; i < lattice.size(); ++i)
+      {
+        const auto [a, b]    = lattice[i];
+        const unsigned int k = p - a - b;
+        const auto at        = [&](const unsigned int n, const unsigned int j) {
+          return n == 0 ? 0. : power[j][n - 1]; // the derivative
+        };
+        N[i] = factorial * power[0][k] * power[1][a] * power[2][b];
+        if (gradient != nullptr)
+          {
+            const double slope_0 = at(k, 0) * power[1][a] * power[2][b];
+            gradient[i][0] =
+              factorial * (power[0][k] * at(a, 1) * power[2][b] - slope_0);
+            gradient[i][1] =
+              factorial * (power[0][k] * power[1][a] * at(b, 2) - slope_0);
+          }
+      }
+  }
 } // namespace geocone

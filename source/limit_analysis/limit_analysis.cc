@@ -137,7 +137,7 @@ namespace geocone
                        "quadrilaterals",
                        "triangles with 'Analysis/Kind' = limit load",
                        "set Mesh/Cells = triangles");
-    triangles.emplace(fitted_mesh(mesh_parameters, scene, method, comm));
+    triangles.emplace(fitted_mesh(mesh_parameters, scene, comm));
     bounded_load.prepare(scene, *triangles);
     if (options.dry_run)
       log.print(headline(options.name) +
@@ -184,8 +184,7 @@ namespace geocone
   {
     dealii::Timer mesh_time;
     if (sizes)
-      triangles.emplace(
-        fitted_mesh(mesh_parameters, scene, method, comm, &*sizes));
+      triangles.emplace(fitted_mesh(mesh_parameters, scene, comm, &*sizes));
     const double  in_mesh = mesh_time.cpu_time();
     dealii::Timer time;
     bounds = certified_bounds(bounded_load.on(scene, *triangles), tolerance);

@@ -6,20 +6,11 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <deal.II/grid/grid_tools.h>
-
-#include <deal.II/numerics/rtree.h>
-
 #include <map>
 
 namespace geocone
 {
   using namespace dealii;
-
-  namespace
-  {
-    using Field = PointArrays::Field;
-  } // namespace
 
   MeshTransfer::MeshTransfer(const Scene          &scene,
                              const BackgroundMesh &mesh,
@@ -28,37 +19,19 @@ namespace geocone
     , space(space)
     , comm(mesh.triangulation().get_communicator())
     , n(space.nodes_per_cell())
-    , cache(mesh.triangulation(), mesh.mapping())
+    , search(mesh)
     , exchanged(space.partitioner())
   {
     const auto &tria = mesh.triangulation();
-    cells.resize(tria.n_active_cells());
-    neighbours.resize(tria.n_active_cells());
     cell_nodes.assign(n * tria.n_active_cells(), numbers::invalid_unsigned_int);
-    smallest_cell              = std::numeric_limits<double>::max();
-    const auto cells_of_vertex = GridTools::vertex_to_cell_map(tria);
     std::vector<types::global_dof_index> nodes;
-    for (const auto &cell : tria.active_cell_iterators())
-      if (!cell->is_artificial())
-        {
-          const unsigned int c = cell->active_cell_index();
-          cells[c]             = cell;
-          smallest_cell =
-            std::min(smallest_cell, cell->minimum_vertex_distance());
-          std::set<Cell> around;
-          for (const unsigned int v : cell->vertex_indices())
-            for (const auto &other : cells_of_vertex[cell->vertex_index(v)])
-              if (other != cell && !other->is_artificial())
-                around.insert(other);
-          neighbours[c].assign(around.begin(), around.end());
-          if (cell->is_locally_owned())
-            {
-              space.cell_nodes(cell, nodes);
-              for (unsigned int i = 0; i < n; ++i)
-                cell_nodes[c * n + i] = space.local_node(nodes[i]);
-            }
-        }
-    smallest_cell = Utilities::MPI::min(smallest_cell, comm);
+    for (const auto &cell : mesh.own_cells())
+      {
+        space.cell_nodes(cell, nodes);
+        for (unsigned int i = 0; i < n; ++i)
+          cell_nodes[cell->active_cell_index() * n + i] =
+            space.local_node(nodes[i]);
+      }
 
     const std::size_t n_nodes = space.n_local_nodes();
     read.resize(4 * n_nodes);
@@ -77,50 +50,12 @@ namespace geocone
       centres.push_back(constraints.centre(c));
   }
 
-  bool
-  MeshTransfer::is_in(const Point<dim> &x, const Cell &cell, Place &place) const
-  {
-    const auto unit = mesh.unit_point(cell, x);
-    if (!unit)
-      return false;
-    place.unit = *unit;
-    place.cell = cell;
-    return true;
-  }
-
-  bool
-  MeshTransfer::find(const Point<dim> &x, const Cell &hint, Place &place) const
-  {
-    if (hint.state() == IteratorState::valid)
-      {
-        if (is_in(x, hint, place))
-          return true;
-        for (const Cell &cell : neighbours[hint->active_cell_index()])
-          if (is_in(x, cell, place))
-            return true;
-      }
-    namespace bgi = boost::geometry::index;
-    // Boxes a little larger, for points on the border of the mesh.
-    Point<dim> lower = x, upper = x;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        lower[d] -= BackgroundMesh::tolerance * smallest_cell;
-        upper[d] += BackgroundMesh::tolerance * smallest_cell;
-      }
-    const BoundingBox<dim> around({lower, upper});
-    for (const auto &[box, cell] :
-         cache.get_cell_bounding_boxes_rtree() |
-           bgi::adaptors::queried(bgi::intersects(around)))
-      if (!cell->is_artificial() && is_in(x, cell, place))
-        return true;
-    return false;
-  }
-
   void
   MeshTransfer::sort(std::vector<PointArrays> &groups)
   {
     lost.clear();
     functions.resize(groups.size());
+    const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
     for (unsigned int g = 0; g < groups.size(); ++g)
       {
         PointArrays &group = groups[g];
@@ -128,67 +63,57 @@ namespace geocone
         group.cell.resize(group.n_points(), numbers::invalid_unsigned_int);
 
         // Points in other ranks' cells go there, the others know their place.
-        std::vector<Place>                          places;
+        std::vector<CellSearch::Place>              places;
         std::map<unsigned int, std::vector<double>> leaving;
         std::vector<unsigned int>                   staying;
-        std::vector<unsigned int>                   lost_here;
         for (unsigned int p = 0; p < group.n_points(); ++p)
           {
-            const unsigned int c = group.cell[p];
-            Place              place;
-            const bool         found = find(
-              group.position(p), c < cells.size() ? cells[c] : Cell(), place);
-            if (found && !place.cell->is_locally_owned())
+            const unsigned int c     = group.cell[p];
+            auto               place = search.find(group.position(p),
+                                     c < mesh.triangulation().n_active_cells()
+                                                     ? search.cell(c)
+                                                     : Cell());
+            if (place && search.owner(place->cell) != rank)
               {
                 std::vector<double> &message =
-                  leaving[place.cell->subdomain_id()];
+                  leaving[search.owner(place->cell)];
                 for (unsigned int field = 0; field < group.n_fields(); ++field)
                   message.push_back(group[field][p]);
                 message.push_back(group.id[p]);
+                message.push_back(place->cell->active_cell_index());
+                for (unsigned int d = 0; d < dim; ++d)
+                  message.push_back(place->unit[d]);
                 continue;
               }
-            if (!found)
+            if (!place)
               {
-                lost_here.push_back(staying.size());
-                place.cell = *mesh.own_cells().begin();
-                place.unit = Point<dim>(0.5, 0.5);
+                lost.push_back(
+                  {{g, static_cast<unsigned int>(staying.size())}});
+                place = {*mesh.own_cells().begin(), Point<dim>(0.25, 0.25)};
               }
-            group.cell[p] = place.cell->active_cell_index();
+            group.cell[p] = place->cell->active_cell_index();
             staying.push_back(p);
-            places.push_back(place);
+            places.push_back(*place);
           }
         if (staying.size() < group.n_points())
           group.reorder(staying);
         if (Utilities::MPI::logical_or(!leaving.empty(), comm))
           {
-            const unsigned int size = group.n_fields() + 1;
+            const unsigned int n_fields = group.n_fields();
             for (const auto &[sender, message] :
                  Utilities::MPI::some_to_some(comm, leaving))
-              for (std::size_t i = 0; i < message.size(); i += size)
+              for (std::size_t i = 0; i < message.size();
+                   i += n_fields + 2 + dim)
                 {
-                  const Point<dim> x(message[i + Field::x],
-                                     message[i + Field::y]);
-                  Place            place;
-                  bool             found = find(x, Cell(), place);
-                  if (found && !place.cell->is_locally_owned())
-                    // On a border that both ranks take for the other's.
-                    found = find_own(x, place);
-                  if (!found)
-                    {
-                      lost_here.push_back(places.size());
-                      place.cell = *mesh.own_cells().begin();
-                      place.unit = Point<dim>(0.5, 0.5);
-                    }
-                  group.append(
-                    &message[i],
-                    static_cast<unsigned int>(message[i + size - 1]));
-                  group.cell.push_back(place.cell->active_cell_index());
-                  places.push_back(place);
+                  const double *const extra = &message[i + n_fields];
+                  group.append(&message[i],
+                               static_cast<unsigned int>(extra[0]));
+                  group.cell.push_back(static_cast<unsigned int>(extra[1]));
+                  places.push_back({search.cell(group.cell.back()),
+                                    Point<dim>(extra[2], extra[3])});
                 }
           }
         group.pad();
-        for (const unsigned int p : lost_here)
-          lost.push_back({{g, p}});
         evaluate(group, places, functions[g]);
       }
     write.fill(0.);
@@ -198,35 +123,15 @@ namespace geocone
   bool
   MeshTransfer::owns(const Point<dim> &x) const
   {
-    Place place;
-    return find(x, Cell(), place) &&
-           (place.cell->is_locally_owned() || find_own(x, place));
-  }
-
-  bool
-  MeshTransfer::find_own(const Point<dim> &x, Place &place) const
-  {
-    for (const auto &cell : mesh.own_cells())
-      if (cell->point_inside(x) && is_in(x, cell, place))
-        return true;
-    // Within the rounding of the search that has sent it here.
-    double nearest = std::numeric_limits<double>::max();
-    for (const auto &cell : mesh.own_cells())
-      {
-        const double distance = cell->center().distance_square(x);
-        if (distance < nearest)
-          {
-            nearest    = distance;
-            place.cell = cell;
-          }
-      }
-    return is_in(x, place.cell, place);
+    const auto place = search.find(x);
+    return place &&
+           search.owner(place->cell) == Utilities::MPI::this_mpi_process(comm);
   }
 
   void
-  MeshTransfer::evaluate(const PointArrays        &group,
-                         const std::vector<Place> &places,
-                         Functions                &at) const
+  MeshTransfer::evaluate(const PointArrays                    &group,
+                         const std::vector<CellSearch::Place> &places,
+                         Functions                            &at) const
   {
     const unsigned int padded = group.n_padded();
     at.nodes.resize(n * padded);
@@ -237,7 +142,7 @@ namespace geocone
     for (unsigned int p = 0; p < padded; ++p)
       {
         // Padding is at the place of the last point.
-        const Place &place =
+        const CellSearch::Place &place =
           places[std::min<std::size_t>(p, places.size() - 1)];
         space.evaluate(place.cell, place.unit, &at.N[p * n], gradient.data());
         const Tensor<2, dim> inverse =
@@ -289,7 +194,7 @@ namespace geocone
           read.data(),
           Point<dim>(points.x[k], points.y[k]),
           space.node_positions(),
-          smallest_cell);
+          cell_size());
         points.c_xx[k] = C[0][0];
         points.c_xy[k] = C[0][1];
         points.c_yx[k] = C[1][0];

@@ -35,6 +35,17 @@ namespace geocone
     {
       return Tensor<1, dim>({-x[1], x[0]});
     }
+
+    /** The vertices of a cell. */
+    std::vector<Point<dim>>
+    counterclockwise(const TriaAccessor<dim, dim, dim> &cell)
+    {
+      std::vector<Point<dim>> around = {cell.vertex(0), cell.vertex(1)};
+      if (cell.n_vertices() == 4)
+        around.push_back(cell.vertex(3));
+      around.push_back(cell.vertex(2));
+      return around;
+    }
   } // namespace
 
   std::vector<BoundaryPoint>
@@ -50,14 +61,13 @@ namespace geocone
     std::vector<BoundaryPoint> points;
     for (const auto &cell : mesh.own_cells())
       {
-        double from = 0., to = 1.;
-        // Around the cell, counterclockwise.
-        constexpr unsigned int around[] = {0, 1, 3, 2};
-        for (unsigned int i = 0; i < 4 && from < to; ++i)
+        double                        from = 0., to = 1.;
+        const std::vector<Point<dim>> around = counterclockwise(*cell);
+        for (unsigned int i = 0; i < around.size() && from < to; ++i)
           {
-            const Point<dim>    &v = cell->vertex(around[i]);
+            const Point<dim>    &v = around[i];
             const Tensor<1, dim> into =
-              left_of(cell->vertex(around[(i + 1) % 4]) - v);
+              left_of(around[(i + 1) % around.size()] - v);
             clip((start - v) * into, along * into, from, to);
           }
         if (!(to - from > 1e-12))
@@ -70,11 +80,10 @@ namespace geocone
             point.weight    = (to - from) * rule.weight(q);
             point.values.resize(space.nodes_per_cell());
             space.cell_nodes(cell, point.nodes);
-            space.evaluate(
-              cell,
-              mesh.mapping().transform_real_to_unit_cell(cell, point.position),
-              point.values.data(),
-              nullptr);
+            space.evaluate(cell,
+                           mesh.unit_point(cell, point.position).value(),
+                           point.values.data(),
+                           nullptr);
             points.push_back(point);
           }
       }

@@ -102,6 +102,8 @@ namespace geocone
       (element == "automatic" && method.is_mpm() && expected.is_grid);
     const unsigned int p = element != "automatic" ? element.back() - '0'
                            : !method.is_mpm()     ? 3
+                           : expected.is_simplicial
+                             ? (method.is_explicit() ? 1 : 3)
                            : !expected.is_grid    ? 1
                            : method.is_explicit() ? 2
                                                   : 3;
@@ -114,14 +116,13 @@ namespace geocone
       expected.is_simplicial ? (p + 1) * (p + 2) / 2. : (p + 1) * (p + 1.);
     const double nodes = e.cells * nodes_per_cell;
     e.unknowns         = dim * nodes;
-    e.points =
-      seeding != nullptr
-        ? seeding->expected_number(scene, expected.intervals, expected.area)
-        : e.cells * (!expected.is_simplicial ? (p + 1.) * (p + 1.)
-                     : p == 1                ? 1.
-                     : p == 2                ? 3.
-                                             : 7.);
-    double outputs = seeding != nullptr ? 1. : 0.;
+    e.points           = seeding != nullptr
+                           ? seeding->expected_number(scene, expected)
+                           : e.cells * (!expected.is_simplicial ? (p + 1.) * (p + 1.)
+                                        : p == 1                ? 1.
+                                        : p == 2                ? 3.
+                                                                : 7.);
+    double outputs     = seeding != nullptr ? 1. : 0.;
     for (const auto &stage : scene.loading.stages)
       {
         const double n = stage->expected_steps();

@@ -661,8 +661,8 @@ namespace geocone
       points,
       [&](
         const unsigned int p, const unsigned int c, const PointFunctions &at) {
-        const double extent[dim] = {points.cells[c]->extent_in_direction(0),
-                                    points.cells[c]->extent_in_direction(1)};
+        const auto   box         = points.cells[c]->bounding_box();
+        const double extent[dim] = {box.side_length(0), box.side_length(1)};
         double       end[dim], gained[dim], mean[3 * dim];
         at.gather<dim, false>(v.begin(), end);
         at.gather<dim, false>(change.begin(), gained);

@@ -96,8 +96,11 @@ seed(const std::string &name, const std::vector<std::string> &overrides)
           if (scene.geometry.shape != Geometry::Shape::file)
             std::printf("  area of the body %.8f\n", scene.geometry.area());
           // The box of seeding.prm has 16 x 12 cells of 0.1 m.
-          const double expected =
-            seeding.expected_number(scene, {{16., 12.}}, 1.92);
+          BackgroundMesh::Expected cells;
+          cells.n_cells         = 16. * 12.;
+          cells.area            = 1.92;
+          cells.is_simplicial   = false;
+          const double expected = seeding.expected_number(scene, cells);
           if (mesh.grid()[0].size() == 17)
             std::printf("  about as many as expected: %s\n",
                         std::abs(clay + sand - expected) <= 0.1 * expected

@@ -28,8 +28,7 @@ namespace geocone
    *
    * Quadrilaterals live on parallel::distributed::Triangulation (p4est);
    * triangles, which p4est does not know, on parallel::shared::Triangulation,
-   * where every rank stores the whole mesh and owns a part of it. Particles
-   * need quadrilaterals.
+   * where every rank stores the whole mesh and owns a part of it.
    */
   class BackgroundMesh : public dealii::ParameterAcceptor
   {
@@ -74,6 +73,14 @@ namespace geocone
         dealii::IteratorFilters::LocallyOwnedCell());
     }
 
+    /** The rank that has each cell, also of those of other ranks, by the active
+     *  cell index. */
+    const std::vector<unsigned int> &
+    owner_of_cell() const
+    {
+      return owners;
+    }
+
     /** Part of a cell's size by which a point may lie outside of it. */
     static constexpr double tolerance = 1e-8;
 
@@ -97,7 +104,7 @@ namespace geocone
     dealii::Point<dim>
     lower_corner() const;
 
-    /** Inverse of the Jacobian dx/dxi at a unit point of a quadrilateral. */
+    /** Inverse of the Jacobian dx/dxi at a unit point of a cell. */
     dealii::Tensor<2, dim>
     inverse_jacobian(const Cell &cell, const dealii::Point<dim> &unit) const;
 
@@ -152,6 +159,7 @@ namespace geocone
     std::map<std::string, dealii::types::boundary_id>         sides;
     std::array<std::vector<double>, dim>                      lines;
     bool                      simplicial = false;
+    std::vector<unsigned int> owners;
     std::vector<unsigned int> part_of_vertex;
   };
 } // namespace geocone

@@ -66,6 +66,12 @@ namespace geocone
     /** The domain to be meshed: the body, or the box around it. */
     Polygon outline;
 
+    /** Whether it is the body. */
+    bool fits_body = true;
+
+    /** A polygon in the box on which unstructured meshes have edges, or empty. */
+    Polygon body;
+
     enum class Type
     {
       uniform,

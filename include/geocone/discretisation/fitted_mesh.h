@@ -31,7 +31,6 @@ namespace geocone
   CoarseMesh
   fitted_mesh(const MeshParameters &parameters,
               const Scene          &scene,
-              const Method         &method,
               const MPI_Comm        comm,
               const CellSizes      *sizes = nullptr);
 

@@ -5,19 +5,20 @@
 #define geocone_discretisation_particles_h
 
 #include <geocone/base/archive.h>
+#include <geocone/discretisation/cell_search.h>
 #include <geocone/discretisation/material_points.h>
 #include <geocone/discretisation/outflow.h>
 #include <geocone/discretisation/seeding.h>
 #include <geocone/discretisation/space.h>
 
-#include <deal.II/particles/particle_handler.h>
+#include <memory>
+#include <vector>
 
 namespace geocone
 {
   /**
-   * The particles of the material point method, in a ParticleHandler: the
-   * owner of their state between steps, which finds their cells and sends them
-   * to other ranks. A step works on the contiguous copy that collect() makes, and
+   * The particles of the material point method: the owner of their state between
+   * steps, which finds their cells and sends them to other ranks. A step works on the contiguous copy that collect() makes, and
    * hands it back to move().
    */
   class Particles
@@ -70,29 +71,41 @@ namespace geocone
     }
 
   private:
-    /** A particle without a cell. */
-    struct Lost
+    /** Who is where: the cell by its active cell index. */
+    struct Place
     {
-      unsigned int                                     id;
-      dealii::Point<dim>                               position;
-      std::vector<double>                              properties;
-      dealii::Triangulation<dim>::active_cell_iterator last_cell;
+      unsigned int       id, cell;
+      dealii::Point<dim> position, unit;
     };
+    static constexpr unsigned int unknown_cell =
+      dealii::numbers::invalid_unsigned_int;
 
-    /** Finds the cells and ranks of all particles. Collective. */
-    void
+    /** Finds the cells and ranks of all particles. Collective.
+     *  @return those of this rank that have left the mesh, and are no more */
+    std::vector<Place>
     sort();
+
+    /**
+     * The unit coordinates that a particle of elements is given: at least a part
+     * of 1e-6 of the cell inside of it. On the border functions of the cell beyond
+     * would vanish with a gradient that does not: without mass they would be held,
+     * and resist a body that only flies.
+     */
+    dealii::Point<dim>
+    inside(const dealii::Point<dim> &unit) const;
 
     Seeding seeding;
     Outflow outflow;
+    double  margin = 0.; ///< of inside(); splines need none
 
-    std::unique_ptr<dealii::Particles::ParticleHandler<dim>> handler;
+    std::unique_ptr<CellSearch> search;
+    std::vector<Place>          places; ///< sorted by cell, and in it by id
+    std::vector<double>         states; ///< n_state numbers of each
 
-    MPI_Comm          comm;
-    unsigned int      n_history = 0; ///< history variables of a particle
-    unsigned int      n_state   = 0; ///< numbers of MaterialPoints::state()
-    std::vector<Lost> lost;          ///< in move()
-    unsigned int      n_lost_all = 0;
+    MPI_Comm     comm;
+    unsigned int n_history  = 0; ///< history variables of a particle
+    unsigned int n_state    = 0; ///< numbers of MaterialPoints::state()
+    unsigned int n_lost_all = 0;
   };
 } // namespace geocone
 

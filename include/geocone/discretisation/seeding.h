@@ -18,7 +18,8 @@ namespace geocone
 {
   /**
    * How the body is filled with particles:
-   *  - Gauss: the k x k Gauss points of each cell, with their weights;
+   *  - Gauss: the k x k Gauss points of each quadrilateral, with their weights; of
+   *    triangles the 1, 3, 7, 15, 19 points of symmetric rules for k = 1 to 5;
    *  - sub-cells: the centres of k x k equal parts of each cell;
    *  - lattice: a square lattice, half a spacing off the lower left corner of
    *    the box around the body, whatever the mesh;
@@ -43,7 +44,7 @@ namespace geocone
     using Take = std::function<void(const Seed &)>;
 
     /** @name Seeds in the cells of this rank of a mesh (collective)
-     *  One on the face between two ranks belongs to the lower one. */
+     *  One on the border of cells belongs to the lowest rank. */
     /** @{ */
     void
     for_each(const Scene          &scene,
@@ -84,16 +85,13 @@ namespace geocone
 
     /**
      * How many seeds there will be on all ranks, in closed form, before a mesh is
-     * made: k^2 times the cells that the body fills, its area over that of a
-     * square, the number asked for, or the rows of the file. To be called after
-     * prepare(), here and of the scene.
-     * @param n_cells cells of the mesh per direction
-     * @param area_of_mesh area of the box that they fill (m^2)
+     * made: so many in each cell times the cells that the body fills, its area over
+     * that of a square, the number asked for, or the rows of the file. To be called
+     * after prepare(), here and of the scene.
      */
     double
-    expected_number(const Scene                   &scene,
-                    const std::array<double, dim> &n_cells,
-                    const double                   area_of_mesh) const;
+    expected_number(const Scene                    &scene,
+                    const BackgroundMesh::Expected &mesh) const;
 
     /** The parameter that the number of seeds comes from; empty: that of the
      *  cells. */

@@ -36,8 +36,8 @@ namespace geocone
    *
    * Elements: P1, P2, P3 on triangles; Q1, Q2, Q3 on quadrilaterals; B-spline 2
    * and B-spline 3 (of continuity 1 and 2, with clamped knots) on tensor grids.
-   * The basis of Q2 and Q3 is Lagrange's at Gauss-Lobatto nodes or, non-negative,
-   * Bernstein's. A "node" of a basis that is not nodal is its function's
+   * The basis of P2, P3, Q2 and Q3 is Lagrange's (at Gauss-Lobatto nodes on
+   * quadrilaterals) or, non-negative, Bernstein's. A "node" of a basis that is not nodal is its function's
    * Greville abscissa, where a coefficient is placed so that linear fields are
    * reproduced.
    *
@@ -224,7 +224,8 @@ namespace geocone
     std::vector<SplineBasis>                     splines;
     std::vector<dealii::types::global_dof_index> spline_number;
 
-    /** Place in the row and in the column of the nodes of a quadrilateral. */
+    /** Place in the row and in the column of the nodes of a cell, from its first
+     *  vertex. */
     std::vector<std::array<unsigned int, dim>> lattice;
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;

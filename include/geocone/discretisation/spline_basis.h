@@ -4,6 +4,11 @@
 #ifndef geocone_discretisation_spline_basis_h
 #define geocone_discretisation_spline_basis_h
 
+#include <geocone/base/types.h>
+
+#include <deal.II/base/point.h>
+
+#include <array>
 #include <vector>
 
 namespace geocone
@@ -64,6 +69,22 @@ namespace geocone
    */
   void
   bernstein(const unsigned int p, const double xi, double *N, double *dN);
+
+  /**
+   * Bernstein's polynomials of degree p on the unit triangle with the area
+   * coordinates l = (1 - x - y, x, y):
+   *   B_ab = p!/((p - a - b)! a! b!) l_0^(p - a - b) l_1^a l_2^b.
+   * @param lattice (a, b) of each
+   * @param[out] N values
+   * @param[out] gradient with respect to (x, y); may be null
+   */
+  void
+  bernstein_on_triangle(
+    const unsigned int                                p,
+    const dealii::Point<dim>                         &x,
+    const std::vector<std::array<unsigned int, dim>> &lattice,
+    double                                           *N,
+    dealii::Tensor<1, dim>                           *gradient);
 } // namespace geocone
 
 #endif

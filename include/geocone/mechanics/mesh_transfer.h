@@ -4,18 +4,15 @@
 #ifndef geocone_mechanics_mesh_transfer_h
 #define geocone_mechanics_mesh_transfer_h
 
+#include <geocone/discretisation/cell_search.h>
 #include <geocone/discretisation/space.h>
 #include <geocone/mechanics/grid_transfer.h>
 #include <geocone/mechanics/point_functions.h>
 
-#include <deal.II/grid/grid_tools_cache.h>
-
-#include <set>
-
 namespace geocone
 {
   /**
-   * The transfer on any mesh of quadrilaterals: each step looks for the cell of
+   * The transfer on any mesh: each step looks for the cell of
    * each point, first in the cell where it was, then in those that share a vertex
    * with it, then everywhere, and evaluates the functions there once.
    */
@@ -85,7 +82,7 @@ namespace geocone
     double
     cell_size() const override
     {
-      return smallest_cell;
+      return search.smallest_cell();
     }
     unsigned long
     n_all_nodes() const override
@@ -108,13 +105,6 @@ namespace geocone
   private:
     using Cell = BackgroundMesh::Cell;
 
-    /** Where a point is. */
-    struct Place
-    {
-      Cell               cell;
-      dealii::Point<dim> unit;
-    };
-
     /** The functions at a point: local nodes, values, gradients. */
     struct Functions
     {
@@ -122,27 +112,11 @@ namespace geocone
       std::vector<double>       N, dN_dx, dN_dy; ///< (-), (1/m)
     };
 
-    /**
-     * The place of x.
-     * @param hint a cell to begin with, or an invalid iterator
-     * @return whether it is in a cell that this rank knows
-     */
-    bool
-    find(const dealii::Point<dim> &x, const Cell &hint, Place &place) const;
-
-    /** The place of x in one of this rank's cells. */
-    bool
-    find_own(const dealii::Point<dim> &x, Place &place) const;
-
-    /** Whether x lies in a cell, up to rounding; then its place is set. */
-    bool
-    is_in(const dealii::Point<dim> &x, const Cell &cell, Place &place) const;
-
     /** Evaluates the functions of all points of a group, and its padding. */
     void
-    evaluate(const PointArrays        &group,
-             const std::vector<Place> &places,
-             Functions                &functions) const;
+    evaluate(const PointArrays                    &group,
+             const std::vector<CellSearch::Place> &places,
+             Functions                            &functions) const;
 
     /** Those of a point of a block. */
     PointFunctions
@@ -158,14 +132,11 @@ namespace geocone
     const Space          &space;
     const MPI_Comm        comm;
     const unsigned int    n; ///< nodes per cell
-    double                smallest_cell = 0.;
+    const CellSearch      search;
 
-    dealii::GridTools::Cache<dim>  cache;
-    std::vector<std::vector<Cell>> neighbours; ///< by active cell index
-    std::vector<Cell>              cells;      ///< by active cell index
-    std::vector<unsigned int>      cell_nodes; ///< n per active cell index
-    std::vector<Functions>         functions;  ///< per group
-    Vector                         exchanged;
+    std::vector<unsigned int> cell_nodes; ///< n per active cell index
+    std::vector<Functions>    functions;  ///< per group
+    Vector                    exchanged;
   };
 } // namespace geocone
 
