@@ -3,7 +3,6 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/discretisation/background_mesh.h>
-#include <geocone/discretisation/fitted_mesh.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -56,7 +55,7 @@ namespace geocone
         const double n = error ? 1. : std::max(1., size / 80.);
         return {n, {{n, 1.}}, 1., !method.is_mpm(), false, "Geometry/File"};
       }
-    const bool is_box = parameters.type != MeshParameters::Type::unstructured;
+    const bool is_box = !parameters.is_unstructured();
     expected.is_simplicial =
       parameters.cells == MeshParameters::Cells::triangles;
     expected.is_grid = is_box && !expected.is_simplicial;
@@ -71,7 +70,9 @@ namespace geocone
       }
     else
       {
-        expected.n_cells   = unstructured_size(parameters);
+        expected.n_cells = parameters.type == MeshParameters::Type::from_bounds
+                             ? parameters.number
+                             : unstructured_size(parameters);
         expected.intervals = {{expected.n_cells, 1.}};
       }
     expected.area          = 0.;
@@ -84,7 +85,9 @@ namespace geocone
       }
     expected.area = std::abs(expected.area);
     expected.parameter =
-      parameters.type == MeshParameters::Type::graded ||
+      parameters.type == MeshParameters::Type::from_bounds
+        ? "Mesh/Number of cells"
+      : parameters.type == MeshParameters::Type::graded ||
           (parameters.type == MeshParameters::Type::unstructured &&
            !parameters.grading_points.empty())
         ? "Mesh/Smallest size"
@@ -93,10 +96,21 @@ namespace geocone
   }
 
   void
+  BackgroundMesh::take_sizes(const SizesOf &sizes_of,
+                             const Scene   &scene,
+                             const Method  &method)
+  {
+    parameters.prepare(scene.geometry, method);
+    if (parameters.type == MeshParameters::Type::from_bounds)
+      sizes = sizes_of(parameters);
+  }
+
+  void
   BackgroundMesh::prepare(const Scene &scene, const Method &method)
   {
     parameters.prepare(scene.geometry, method);
-    const CoarseMesh mesh      = fitted_mesh(parameters, scene, comm);
+    const CoarseMesh mesh =
+      fitted_mesh(parameters, scene, comm, sizes ? &*sizes : nullptr);
     sides                      = mesh.sides;
     lines                      = mesh.grid;
     simplicial                 = mesh.has_triangles();

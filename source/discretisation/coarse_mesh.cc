@@ -66,8 +66,9 @@ namespace geocone
   {
     type.declare(*this,
                  "Type",
-                 ". The first two are for boxes, the last one is made by gmsh. "
-                 "Not used where the domain is a .msh file.");
+                 ". The first two are for boxes, the others are made by gmsh, "
+                 "the last one with sizes that a limit analysis of the scene "
+                 "asks for. Not used where the domain is a .msh file.");
     add_parameter("Box",
                   box,
                   "MPM: lower left and upper right corner x, y; x, y (m) of "
@@ -103,6 +104,9 @@ namespace geocone
                   size_ratio,
                   "Unstructured meshes: cell size over distance to the nearest "
                   "grading point, > 0.");
+    add_parameter("Number of cells",
+                  number,
+                  "From the bounds: the mesh has about so many triangles.");
     add_parameter("Gmsh algorithm",
                   algorithm,
                   "gmsh's number of the 2D algorithm: 5 Delaunay, 6 "
@@ -113,15 +117,14 @@ namespace geocone
   void
   MeshParameters::choose_outline(const Geometry &geometry, const Method &method)
   {
-    fits_body =
-      !method.is_mpm() || (type == Type::unstructured && box.empty() &&
-                           geometry.shape != Geometry::Shape::discs);
+    fits_body = !method.is_mpm() || (is_unstructured() && box.empty() &&
+                                     geometry.shape != Geometry::Shape::discs);
     if (fits_body)
       {
         outline = geometry.outline;
         return;
       }
-    if (type == Type::unstructured)
+    if (is_unstructured())
       body = geometry.outline;
     const auto [lower, upper] = geometry.bounding_box();
     if (box.empty())
@@ -149,6 +152,25 @@ namespace geocone
       if (!(value > 0.))
         throw InputError("Mesh/" + entry, value, "> 0", "give it in m");
     };
+    if (type == Type::from_bounds)
+      {
+        if (geometry.outline.empty() || method.is_explicit() ||
+            (method.is_mpm() && !box.empty()))
+          throw InputError("Mesh/Type",
+                           type.word(),
+                           "a mesh of the body, a box or a polygon, for FEM "
+                           "and implicit MPM without Mesh/Box",
+                           "set Mesh/Type = unstructured");
+        if (cells == Cells::quadrilaterals)
+          throw InputError("Mesh/Cells",
+                           cells.word(),
+                           "triangles where the mesh is from the bounds",
+                           "set Mesh/Cells = triangles");
+        if (number < 20 || number > 200000)
+          throw InputError(
+            "Mesh/Number of cells", number, "20 to 200000", "1500 are usual");
+        cells = Cells::triangles;
+      }
     if (cells == Cells::automatic)
       cells = method.is_mpm() ? Cells::quadrilaterals : Cells::triangles;
     positive("Cell size", cell_size);
@@ -173,7 +195,7 @@ namespace geocone
                        "with gmsh");
     if (geometry.shape != Geometry::Shape::file)
       choose_outline(geometry, method);
-    if (type != Type::unstructured && !method.is_mpm() &&
+    if (!is_unstructured() && !method.is_mpm() &&
         geometry.shape == Geometry::Shape::polygon)
       throw InputError("Mesh/Type",
                        type.word(),
@@ -219,7 +241,7 @@ namespace geocone
         "take larger cells, or put the origin nearer to the "
         "body: double precision resolves no smaller cells there");
     double n_cells;
-    if (type == Type::unstructured)
+    if (is_unstructured())
       n_cells = unstructured_size(*this);
     else
       {

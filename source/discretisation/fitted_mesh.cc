@@ -44,7 +44,7 @@ namespace geocone
     CoarseMesh mesh =
       sizes != nullptr
         ? mesh_with_sizes(parameters, scene.regions, *sizes, comm)
-      : parameters.type == MeshParameters::Type::unstructured
+      : parameters.is_unstructured()
         ? unstructured_mesh(parameters, scene.regions, comm)
         : structured_mesh(parameters);
     for (auto &cell : mesh.cells)

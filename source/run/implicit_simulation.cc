@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/stop_request.h>
+#include <geocone/limit_analysis/mesh_from_bounds.h>
 #include <geocone/output/run_status.h>
 #include <geocone/run/implicit_simulation.h>
 #include <geocone/run/run_estimate.h>
@@ -146,6 +147,12 @@ namespace geocone
     estimate.check(options.force);
     if (const std::string text = text_of_memory(scene); !text.empty())
       log.print(options.name + ": " + text);
+    mesh.take_sizes(
+      [&](const MeshParameters &parameters) {
+        return sizes_from_bounds(parameters, scene, comm, log);
+      },
+      scene,
+      method);
     mesh.prepare(scene, method);
     space.prepare(mesh, method);
     if (method.is_mpm())

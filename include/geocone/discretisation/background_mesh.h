@@ -6,6 +6,7 @@
 
 #include <geocone/base/choice.h>
 #include <geocone/discretisation/coarse_mesh.h>
+#include <geocone/discretisation/fitted_mesh.h>
 #include <geocone/scene/scene.h>
 
 #include <deal.II/distributed/tria_base.h>
@@ -15,6 +16,7 @@
 #include <deal.II/grid/filtered_iterator.h>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -50,6 +52,14 @@ namespace geocone
      *  prepare() */
     Expected
     expect(const Scene &scene, const Method &method);
+
+    /** Of a mesh "from the bounds": who finds its sizes, which this room does not
+     *  know. To be called before prepare(). Collective. @throws InputError */
+    using SizesOf = std::function<CellSizes(const MeshParameters &)>;
+    void
+    take_sizes(const SizesOf &sizes_of,
+               const Scene   &scene,
+               const Method  &method);
 
     /** Creates the mesh. @throws InputError */
     void
@@ -159,6 +169,7 @@ namespace geocone
     std::map<std::string, dealii::types::boundary_id>         sides;
     std::array<std::vector<double>, dim>                      lines;
     bool                      simplicial = false;
+    std::optional<CellSizes>  sizes;
     std::vector<unsigned int> owners;
     std::vector<unsigned int> part_of_vertex;
   };

@@ -76,11 +76,20 @@ namespace geocone
     {
       uniform,
       graded,
-      unstructured
+      unstructured,
+      from_bounds ///< unstructured, with sizes that a limit analysis finds
     };
     Choice<Type> type = {{{"uniform", Type::uniform},
                           {"graded", Type::graded},
-                          {"unstructured", Type::unstructured}}};
+                          {"unstructured", Type::unstructured},
+                          {"from the bounds", Type::from_bounds}}};
+
+    /** Whether gmsh makes the mesh. */
+    bool
+    is_unstructured() const
+    {
+      return type == Type::unstructured || type == Type::from_bounds;
+    }
 
     enum class Cells
     {
@@ -109,6 +118,7 @@ namespace geocone
     double                          growth     = 1.3;
     double                          size_ratio = 0.18;
     int                             algorithm  = 5;
+    unsigned int                    number     = 1500; ///< from the bounds
 
   private:
     void
