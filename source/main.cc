@@ -77,7 +77,7 @@ namespace
     Simulation &
     chosen()
     {
-      if (limit_analysis.kind() == AnalysisKind::limit_load)
+      if (limit_analysis.kind() != AnalysisKind::steps)
         return limit_analysis;
       const std::string name = ParameterFile::value("Discretisation/Method");
       if (name == "point")

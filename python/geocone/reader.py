@@ -99,7 +99,7 @@ class Run:
 
     @property
     def method(self):
-        """FEM, MPM, explicit MPM, point or limit load; None if that is not known."""
+        """FEM, MPM, explicit MPM, point, limit load or strength reduction; None if that is not known."""
         method = self.value("size/method")  # a run that goes on may not have it yet
         file = self.folder / "parameters.prm"
         return (self.parameters.get("Discretisation/Method")

@@ -109,7 +109,9 @@ namespace geocone
     Eigen::VectorXd &
     loads(BoundProblem &problem, const BoundScene &bound, const LoadFactor kind)
     {
-      return bound.factor == kind ? problem.live : problem.dead;
+      return bound.factor == kind || bound.factor == LoadFactor::all
+               ? problem.live
+               : problem.dead;
     }
 
     /** Weight per area of a cell, in units. */

@@ -84,15 +84,48 @@ namespace geocone
   {
     take_cones(scene);
     choose_factor(scene, triangles);
+    check_loads(scene, triangles);
+  }
+
+  void
+  BoundedLoad::prepare_reduction(const Scene &scene, const Triangles &triangles)
+  {
+    take_cones(scene);
+    if (prescribed_velocity(scene, triangles))
+      throw InputError("Analysis/Kind",
+                       "strength reduction",
+                       "limit load where a velocity is prescribed that is not "
+                       "zero",
+                       "reduce the strength of a body that bears its weight "
+                       "and tractions");
+    if (std::all_of(flow_cones.begin(),
+                    flow_cones.end(),
+                    [](const FlowCone &cone) { return cone.k == 0.; }))
+      throw InputError("Materials/" + scene.materials.name(0) + "/Cohesion",
+                       0,
+                       "> 0 Pa for some material where the strength is reduced",
+                       "without cohesion loads have no factor: give a small "
+                       "one, e.g. a thousandth of the weight times the height");
+    chosen = LoadFactor::all;
+    check_loads(scene, triangles);
+  }
+
+  void
+  BoundedLoad::check_loads(const Scene &scene, const Triangles &triangles)
+  {
     choose_units(scene, triangles);
     const BoundScene   bound   = on(scene, triangles);
     const BoundProblem problem = upper_problem(bound);
     check_supports(bound, problem);
     if (chosen != LoadFactor::velocity && !problem.has_factor())
-      throw InputError("Analysis/Load factor of",
-                       asked.word(),
+      throw InputError(chosen == LoadFactor::all ? "Gravity/Acceleration"
+                                                 : "Analysis/Load factor of",
+                       chosen == LoadFactor::all ? "0, 0" : asked.word(),
                        "a load that is not zero",
-                       chosen == LoadFactor::weight
+                       chosen == LoadFactor::all
+                         ? "give 'Gravity/Acceleration' and densities, or "
+                           "'Tractions'"
+                       : chosen == LoadFactor::weight
                          ? "give 'Gravity/Acceleration' and densities"
                          : "give 'Tractions' that are not zero at t = 0");
   }
@@ -125,12 +158,11 @@ namespace geocone
       }
   }
 
-  void
-  BoundedLoad::choose_factor(const Scene &scene, const Triangles &triangles)
+  std::optional<Tensor<1, dim>>
+  BoundedLoad::prescribed_velocity(const Scene     &scene,
+                                   const Triangles &triangles) const
   {
-    // The velocity that is prescribed, where it is not zero.
     std::optional<Tensor<1, dim>> velocity;
-    double                        speed = 0.;
     for (const auto &condition : scene.dirichlet.list)
       for (const auto &held : triangles.held_edges(*condition))
         for (const unsigned int v : triangles.edges[held.edge].vertices)
@@ -147,7 +179,6 @@ namespace geocone
                                "push by Velocity x or y");
             if (here.norm() == 0.)
               continue;
-            speed = std::max(speed, here.norm());
             if (velocity && (*velocity - here).norm() > 1e-9 * here.norm())
               throw InputError(
                 condition->parameter(here[1] != 0. ? "Velocity y"
@@ -158,7 +189,14 @@ namespace geocone
                 "the bounded load is the reaction to one translation");
             velocity = here;
           }
-    chosen = asked;
+    return velocity;
+  }
+
+  void
+  BoundedLoad::choose_factor(const Scene &scene, const Triangles &triangles)
+  {
+    const auto velocity = prescribed_velocity(scene, triangles);
+    chosen              = asked;
     if (chosen == LoadFactor::automatic)
       chosen = velocity               ? LoadFactor::velocity
                : scene.gravity.acts() ? LoadFactor::weight
@@ -176,7 +214,7 @@ namespace geocone
                        "velocity where a velocity is prescribed that is not "
                        "zero",
                        "set it to 0, or bound its reaction");
-    units.velocity = velocity ? speed : 1.;
+    units.velocity = velocity ? velocity->norm() : 1.;
   }
 
   void
@@ -241,14 +279,32 @@ namespace geocone
   }
 
   BoundScene
-  BoundedLoad::by_davis(const Scene &scene, const Triangles &triangles) const
+  BoundedLoad::reduced(const Scene     &scene,
+                       const Triangles &triangles,
+                       const double     F) const
+  {
+    BoundScene bound = on(scene, triangles);
+    for (PointCone &cone : bound.cones)
+      {
+        const double cos_phi = std::sqrt(1. - cone.a * cone.a),
+                     tan_phi = cone.a / cos_phi / F,
+                     reduced = 1. / std::sqrt(1. + tan_phi * tan_phi);
+        cone = {tan_phi * reduced, cone.k / cos_phi / F * reduced};
+      }
+    return bound;
+  }
+
+  BoundScene
+  BoundedLoad::by_davis(const Scene     &scene,
+                        const Triangles &triangles,
+                        const double     F) const
   {
     BoundScene bound = on(scene, triangles);
     for (unsigned int m = 0; m < flow_cones.size(); ++m)
       {
         const FlowCone &cone      = flow_cones[m];
         const double    cos_theta = std::sqrt(1. - cone.b * cone.b),
-                     reduction    = cos_theta / (1. - cone.a * cone.b),
+                     reduction    = cos_theta / (1. - cone.a * cone.b) / F,
                      tan_phi      = reduction * cone.a,
                      cos_phi      = 1. / std::sqrt(1. + tan_phi * tan_phi);
         bound.cones[m]            = {tan_phi * cos_phi,
@@ -262,6 +318,7 @@ namespace geocone
   {
     return chosen == LoadFactor::velocity ? "velocity"
            : chosen == LoadFactor::weight ? "weight"
+           : chosen == LoadFactor::all    ? "weight and tractions"
                                           : "tractions";
   }
 } // namespace geocone

@@ -168,20 +168,28 @@ namespace geocone
       return true;
     }
 
-    /** (0, y - y_bottom) in the dofs of the upper problem. */
+    /** (0, max(0, y - y_0)) in the dofs of the upper problem, y_0 the highest point
+     *  of what must not change its volume, or else the bottom of the body. */
     VectorXd
     uniaxial_extension(const BoundScene &bound, const BoundProblem &problem)
     {
       const Triangles   &triangles  = bound.triangles;
       const unsigned int n_vertices = triangles.vertices.size();
       double             bottom     = std::numeric_limits<double>::max();
-      for (const auto &cell : triangles.cells)
-        for (const unsigned int v : cell)
-          bottom = std::min(bottom, triangles.vertices[v][1]);
-      VectorXd w = VectorXd::Zero(problem.n_dofs());
+      double             highest    = std::numeric_limits<double>::lowest();
+      for (unsigned int c = 0; c < triangles.cells.size(); ++c)
+        for (const unsigned int v : triangles.cells[c])
+          {
+            const double y = triangles.vertices[v][1];
+            bottom         = std::min(bottom, y);
+            if (problem.cone[3 * c].is_cylinder())
+              highest = std::max(highest, y);
+          }
+      const double begin = std::max(bottom, highest);
+      VectorXd     w     = VectorXd::Zero(problem.n_dofs());
       for (unsigned int v = 0; v < n_vertices; ++v)
         w[dim * v + 1] =
-          (triangles.vertices[v][1] - bottom) / bound.units.length;
+          std::max(0., triangles.vertices[v][1] - begin) / bound.units.length;
       for (unsigned int e = 0; e < triangles.edges.size(); ++e)
         {
           const auto &ends = triangles.edges[e].vertices;
@@ -274,7 +282,7 @@ namespace geocone
     if (result.violation > 0. && result.objection.empty())
       {
         const VectorXd w         = uniaxial_extension(bound, problem);
-        bool           is_usable = !cylinder;
+        bool           is_usable = true;
         double         slope     = 0.;
         for (unsigned int i = 0; i < problem.n_dofs(); ++i)
           if (problem.is_prescribed[i])

@@ -11,27 +11,55 @@ namespace geocone
 {
   using Eigen::VectorXd;
 
+  namespace
+  {
+    CertifiedBounds::Side
+    solve_upper(const BoundScene   &bound,
+                const BoundProblem &above,
+                const double        tolerance)
+    {
+      InteriorPoint::Options options;
+      options.tolerance             = tolerance;
+      options.equilibrium_tolerance = tolerance;
+      // What is missed is repaired, which is dear; a projection takes care of
+      // phi = 0.
+      options.flow_tolerance = above.has_cylinders() ? 1e-6 : 1e-8;
+      CertifiedBounds::Side side;
+      side.solution   = InteriorPoint::solve(above, options);
+      side.n_unknowns = above.n_unknowns();
+      side.bound      = certify_upper(bound, above, side.solution);
+      return side;
+    }
+  } // namespace
+
+  CertifiedBounds::Side
+  certified_upper(const BoundScene &bound, const double tolerance)
+  {
+    return solve_upper(bound, upper_problem(bound), tolerance);
+  }
+
+  CertifiedBounds::Side
+  certified_lower(const BoundScene &bound, const double tolerance)
+  {
+    const BoundProblem     below = lower_problem(bound);
+    InteriorPoint::Options options;
+    options.tolerance             = tolerance;
+    options.flow_tolerance        = tolerance;
+    options.equilibrium_tolerance = 1e-7; // the repair may leave the cone
+    CertifiedBounds::Side side;
+    side.solution   = InteriorPoint::solve(below, options);
+    side.n_unknowns = below.n_unknowns();
+    side.bound      = certify_lower(bound, below, side.solution);
+    return side;
+  }
+
   CertifiedBounds
   certified_bounds(const BoundScene &bound, const double tolerance)
   {
-    CertifiedBounds        bounds;
-    InteriorPoint::Options options;
-    options.tolerance = tolerance;
-
-    const BoundProblem above      = upper_problem(bound);
-    options.equilibrium_tolerance = tolerance;
-    // What is missed is repaired, which is dear; a projection takes care of phi = 0.
-    options.flow_tolerance  = above.has_cylinders() ? 1e-6 : 1e-8;
-    bounds.upper.solution   = InteriorPoint::solve(above, options);
-    bounds.upper.n_unknowns = above.n_unknowns();
-    bounds.upper.bound = certify_upper(bound, above, bounds.upper.solution);
-
-    const BoundProblem below      = lower_problem(bound);
-    options.flow_tolerance        = tolerance;
-    options.equilibrium_tolerance = 1e-7; // the repair may leave the cone
-    bounds.lower.solution         = InteriorPoint::solve(below, options);
-    bounds.lower.n_unknowns       = below.n_unknowns();
-    bounds.lower.bound = certify_lower(bound, below, bounds.lower.solution);
+    CertifiedBounds    bounds;
+    const BoundProblem above = upper_problem(bound);
+    bounds.upper             = solve_upper(bound, above, tolerance);
+    bounds.lower             = certified_lower(bound, tolerance);
 
     bounds.gap = gap_of_cells(above, bounds.upper.bound, bounds.lower.bound);
     const double work =

@@ -59,7 +59,9 @@ namespace geocone
       "with "
       "associated flow bears, on meshes of triangles that are refined where "
       "they "
-      "differ; steps, elasticity and inertia have no part in it.");
+      "differ; steps, elasticity and inertia have no part in it. Strength "
+      "reduction: as strict bounds of the factor of safety, by which c and "
+      "tan(phi) are divided at the limit.");
     bounded_load.declare(*this);
     add_parameter(
       "Gap tolerance",
@@ -87,7 +89,7 @@ namespace geocone
     if (dealii::Utilities::MPI::n_mpi_processes(comm) > 1)
       throw InputError(
         "Analysis/Kind",
-        "limit load",
+        analysis.word(),
         "steps on several ranks",
         "call it without mpirun: both bounds are computed by one "
         "process");
@@ -114,7 +116,7 @@ namespace geocone
     if (method.is_mpm())
       throw InputError("Discretisation/Method",
                        "MPM",
-                       "FEM with 'Analysis/Kind' = limit load",
+                       "FEM with 'Analysis/Kind' = " + analysis.word(),
                        "sums over particles are no exact integrals, which a "
                        "strict bound needs: set Discretisation/Method = FEM");
     scene.geometry.prepare();
@@ -138,7 +140,10 @@ namespace geocone
                        "triangles with 'Analysis/Kind' = limit load",
                        "set Mesh/Cells = triangles");
     triangles.emplace(fitted_mesh(mesh_parameters, scene, comm));
-    bounded_load.prepare(scene, *triangles);
+    if (reduces_strength())
+      bounded_load.prepare_reduction(scene, *triangles);
+    else
+      bounded_load.prepare(scene, *triangles);
     if (options.dry_run)
       log.print(headline(options.name) +
                 format(": the first mesh has %zu triangles, the last one %u at "
@@ -164,7 +169,7 @@ namespace geocone
   LimitAnalysis::prepare_output(const RunOptions &options)
   {
     limit_output.prepare(options,
-                         bounded_load.unit(),
+                         reduces_strength() ? "-" : bounded_load.unit(),
                          bounded_load.factor() == LoadFactor::velocity
                            ? scene.observation.reference
                            : std::nullopt);
@@ -173,20 +178,18 @@ namespace geocone
   std::string
   LimitAnalysis::headline(const std::string &name) const
   {
+    if (reduces_strength())
+      return name + ": bounds of the factor of safety, by which c and tan(phi) "
+                    "are divided";
     return name + ": bounds of the limit load, " +
            (bounded_load.factor() == LoadFactor::velocity
               ? "the reaction to the prescribed velocity"
               : "a factor of the " + bounded_load.word());
   }
 
-  Simulation::Ended
-  LimitAnalysis::advance(Place &place)
+  BoundLevel
+  LimitAnalysis::bound_load()
   {
-    dealii::Timer mesh_time;
-    if (sizes)
-      triangles.emplace(fitted_mesh(mesh_parameters, scene, comm, &*sizes));
-    const double  in_mesh = mesh_time.cpu_time();
-    dealii::Timer time;
     bounds = certified_bounds(bounded_load.on(scene, *triangles), tolerance);
     for (const auto &[name, side] :
          {std::pair<const char *, const CertifiedBounds::Side &>("upper",
@@ -200,13 +203,8 @@ namespace geocone
           log.print(format("  the %s bound is not certified: ", name) +
                     side.bound.objection);
       }
-    BoundLevel level =
+    const BoundLevel level =
       level_of(bounds, triangles->cells.size(), bounded_load.value_of_unit());
-    level.cpu_seconds  = time.cpu_time();
-    level.mesh_seconds = in_mesh;
-    levels.push_back(level);
-    place.time = levels.size();
-
     if (bounded_load.factor() != LoadFactor::velocity &&
         level.upper_certified && level.upper <= 0.)
       throw StepFailure(
@@ -226,6 +224,43 @@ namespace geocone
       throw StepFailure(
         "the bounds of the limit load are not finite\n  remedy:  check the "
         "supports, the strengths and the loads, or take other cells");
+    return level;
+  }
+
+  BoundLevel
+  LimitAnalysis::bound_factor()
+  {
+    const StrengthReduction::Level found = reduction.on_mesh(
+      [&](const double F) {
+        return bounded_load.reduced(scene, *triangles, F);
+      },
+      tolerance);
+    bounds                = found.bounds;
+    BoundLevel level      = level_of(bounds, triangles->cells.size(), 1.);
+    level.lower           = found.lower.value_or(0.);
+    level.upper           = found.upper.value_or(0.);
+    level.lower_certified = found.lower.has_value();
+    level.upper_certified = found.upper.has_value();
+    level.gap = level.certified() ? level.upper / level.lower - 1. : 0.;
+    level.iterations_lower = found.iterations_lower;
+    level.iterations_upper = found.iterations_upper;
+    return level;
+  }
+
+  Simulation::Ended
+  LimitAnalysis::advance(Place &place)
+  {
+    dealii::Timer mesh_time;
+    if (sizes)
+      triangles.emplace(fitted_mesh(mesh_parameters, scene, comm, &*sizes));
+    const double  in_mesh = mesh_time.cpu_time();
+    dealii::Timer time;
+    BoundLevel    level = reduces_strength() ? bound_factor() : bound_load();
+    level.cpu_seconds   = time.cpu_time();
+    level.mesh_seconds  = in_mesh;
+    levels.push_back(level);
+    place.time = levels.size();
+
     const auto best      = Bracket(levels).gap();
     const bool is_narrow = best && *best < gap_tolerance;
     const bool is_last   = is_narrow ||
@@ -257,9 +292,9 @@ namespace geocone
         };
         log.print(
           format("level %zu: %u triangles: ", levels.size(), level.cells) +
-          shown(level.lower, level.lower_certified) +
-          " <= load <= " + shown(level.upper, level.upper_certified) +
-          bounded_load.after_number() +
+          shown(level.lower, level.lower_certified) + " <= " + bounded() +
+          " <= " + shown(level.upper, level.upper_certified) +
+          (reduces_strength() ? "" : bounded_load.after_number()) +
           (level.certified() ? format(", gap %.3g %%", 100. * level.gap) : "") +
           format(", %u + %u factorisations, %.2g s",
                  level.iterations_lower,
@@ -291,10 +326,26 @@ namespace geocone
   LimitAnalysis::write_summary(const std::string &status)
   {
     Json topics;
-    topics["size"] = {{"method", "limit load"},
+    topics["size"] = {{"method", analysis.word()},
                       {"cells", levels.empty() ? 0 : levels.back().cells}};
-    topics["load"] = {{"factor_of", bounded_load.word()},
-                      {"unit", bounded_load.unit()}};
+    if (!reduces_strength())
+      topics["load"] = {{"factor_of", bounded_load.word()},
+                        {"unit", bounded_load.unit()}};
+    else
+      {
+        const Bracket best(levels);
+        Json          safety = {{"factor", nullptr},
+                                {"lower", nullptr},
+                                {"upper", nullptr},
+                                {"criterion", "certified bounds"}};
+        if (best.lower)
+          safety["lower"] = *best.lower;
+        if (best.upper)
+          safety["upper"] = *best.upper;
+        if (best.gap())
+          safety["factor"] = (*best.lower + *best.upper) / 2.;
+        topics["safety"] = safety;
+      }
     if (bounded_load.non_associated())
       topics["non_associated"] = {{"upper_is_certified", true},
                                   {"lower_is_certified", false},
@@ -319,28 +370,47 @@ namespace geocone
                       "raise 'Analysis/Maximum cells' or 'Maximum levels'",
                       100. * *gap));
     if (bounded_load.non_associated())
-      {
-        const CertifiedBounds estimate =
-          certified_bounds(bounded_load.by_davis(scene, *triangles), tolerance);
-        davis = {
-          {"lower", bounded_load.value_of_unit() * estimate.lower.bound.load},
-          {"upper", bounded_load.value_of_unit() * estimate.upper.bound.load}};
-        log.print(format(
-          "flow is not associated: the upper bound holds for any dilatancy "
-          "(Radenkovic 1961), the lower one for theta = phi only; Davis's "
-          "estimate (1968), which is no bound: %.6g to %.6g %s",
-          davis["lower"].get<double>(),
-          davis["upper"].get<double>(),
-          bounded_load.unit().c_str()));
-      }
+      estimate_by_davis();
     write_summary("finished");
     if (gap)
-      log.print(format("%.6g <= load <= %.6g", *best.lower, *best.upper) +
-                bounded_load.after_number() +
+      log.print(format("%.6g <= ", *best.lower) + bounded() +
+                format(" <= %.6g", *best.upper) +
+                (reduces_strength() ? "" : bounded_load.after_number()) +
                 format(", certified; middle %.6g, gap %.3g %%",
                        (*best.lower + *best.upper) / 2.,
                        100. * *gap));
     limit_output.report();
+  }
+
+  void
+  LimitAnalysis::estimate_by_davis()
+  {
+    const double in_unit =
+      reduces_strength() ? 1. : bounded_load.value_of_unit();
+    const auto reduced = [&](const double F) {
+      return bounded_load.by_davis(scene, *triangles, F);
+    };
+    if (reduces_strength())
+      {
+        const StrengthReduction::Level estimate =
+          StrengthReduction(reduction).on_mesh(reduced, tolerance);
+        davis = {{"lower", estimate.lower.value_or(0.)},
+                 {"upper", estimate.upper.value_or(0.)}};
+      }
+    else
+      {
+        const CertifiedBounds estimate =
+          certified_bounds(reduced(1.), tolerance);
+        davis = {{"lower", in_unit * estimate.lower.bound.load},
+                 {"upper", in_unit * estimate.upper.bound.load}};
+      }
+    log.print("flow is not associated: the upper bound holds for any dilatancy "
+              "(Radenkovic 1961), the lower one for theta = phi only; Davis's "
+              "estimate (1968), which is no bound: " +
+              format("%.6g to %.6g",
+                     davis["lower"].get<double>(),
+                     davis["upper"].get<double>()) +
+              (reduces_strength() ? "" : bounded_load.after_number()));
   }
 
   void
@@ -351,6 +421,7 @@ namespace geocone
     row(n_levels);
     for (BoundLevel &level : levels)
       level.state(row);
+    row(reduction);
     archive.write_row("levels", row);
     std::vector<double> numbers;
     if (sizes)
@@ -373,6 +444,7 @@ namespace geocone
     levels.resize(n_levels);
     for (BoundLevel &level : levels)
       level.state(row);
+    row(reduction);
     const std::vector<double> numbers = archive.read("sizes");
     sizes.reset();
     if (!numbers.empty())

@@ -20,6 +20,7 @@ namespace geocone
     velocity,  ///< nothing: the load is the reaction to prescribed velocities
     weight,    ///< the weight; tractions are dead loads
     tractions, ///< the tractions; the weight is a dead load
+    all        ///< weight and tractions
   };
 
   /**

@@ -8,6 +8,7 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,17 +31,31 @@ namespace geocone
     void
     prepare(const Scene &scene, const Triangles &triangles);
 
+    /** The same where the strength is reduced: the factor is that of all loads,
+     *  weight and tractions. @throws InputError also for soil without cohesion,
+     *  whose load factor is zero or infinite */
+    void
+    prepare_reduction(const Scene &scene, const Triangles &triangles);
+
     /** The scene on a mesh, as upper_problem() and lower_problem() take it. */
     BoundScene
     on(const Scene &scene, const Triangles &triangles) const;
 
+    /** The same with c/F and tan(phi)/F in place of c and tan(phi). */
+    BoundScene
+    reduced(const Scene     &scene,
+            const Triangles &triangles,
+            const double     F) const;
+
     /**
      * The same with the strength of Davis (1968), whose flow is associated:
      *   tan(phi*) = cos(theta) sin(phi)/(1 - sin(theta) sin(phi)),
-     * and c* alike with c cos(phi).
+     * and c* alike with c cos(phi); both divided by F.
      */
     BoundScene
-    by_davis(const Scene &scene, const Triangles &triangles) const;
+    by_davis(const Scene     &scene,
+             const Triangles &triangles,
+             const double     F) const;
 
     /** What the factor multiplies, never automatic. */
     LoadFactor
@@ -83,7 +98,13 @@ namespace geocone
 
   private:
     void
+    check_loads(const Scene &scene, const Triangles &triangles);
+    void
     take_cones(const Scene &scene);
+    /** The velocity that is prescribed, where it is not zero.
+     *  @throws InputError if there are several */
+    std::optional<dealii::Tensor<1, dim>>
+    prescribed_velocity(const Scene &scene, const Triangles &triangles) const;
     void
     choose_factor(const Scene &scene, const Triangles &triangles);
     void

@@ -29,6 +29,15 @@ namespace geocone
     double gap_share = 0.;
   };
 
+  /** Solves the problem of one side and certifies what is found.
+   *  @param tolerance of the interior-point method, relative to the load */
+  /** @{ */
+  CertifiedBounds::Side
+  certified_upper(const BoundScene &bound, const double tolerance);
+  CertifiedBounds::Side
+  certified_lower(const BoundScene &bound, const double tolerance);
+  /** @} */
+
   /** Solves both problems of a mesh and certifies what is found.
    *  @param tolerance of the interior-point method, relative to the load */
   CertifiedBounds

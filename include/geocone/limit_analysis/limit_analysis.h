@@ -7,6 +7,7 @@
 #include <geocone/limit_analysis/bounded_load.h>
 #include <geocone/limit_analysis/certified_bounds.h>
 #include <geocone/limit_analysis/limit_output.h>
+#include <geocone/limit_analysis/strength_reduction.h>
 #include <geocone/run/simulation.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -20,13 +21,14 @@ namespace geocone
   /** What is computed of a scene. */
   enum class AnalysisKind
   {
-    steps,     ///< its motion, step by step
-    limit_load ///< strict bounds of its limit load
+    steps,             ///< its motion, step by step
+    limit_load,        ///< strict bounds of its limit load
+    strength_reduction ///< strict bounds of its factor of safety
   };
 
   /**
-   * The limit load of a rigid-plastic scene with associated flow, between strict
-   * bounds, on meshes that are made anew where the bounds differ: a level is a
+   * The limit load of a rigid-plastic scene with associated flow, or the factor of
+   * safety of its strength, between strict bounds, on meshes that are made anew where the bounds differ: a level is a
    * step of the run.
    */
   class LimitAnalysis : public Simulation, public dealii::ParameterAcceptor
@@ -47,6 +49,32 @@ namespace geocone
     }
 
   private:
+    /** Whether the factor of safety is bounded, not a load. */
+    bool
+    reduces_strength() const
+    {
+      return analysis == AnalysisKind::strength_reduction;
+    }
+
+    /** What is bounded, in messages. */
+    std::string
+    bounded() const
+    {
+      return reduces_strength() ? "factor of safety" : "load";
+    }
+
+    /** Bounds the load on the present mesh. @throws StepFailure if there is none */
+    BoundLevel
+    bound_load();
+
+    /** Bounds the factor of safety there. @throws StepFailure alike */
+    BoundLevel
+    bound_factor();
+
+    /** Davis's estimate of what is bounded, where flow is not associated. */
+    void
+    estimate_by_davis();
+
     std::vector<std::string>
     prepare(const RunOptions &options) override;
     std::vector<unsigned int>
@@ -75,15 +103,17 @@ namespace geocone
     void
     load(const Archive &archive) override;
 
-    Scene          scene;
-    Method         method;
-    MeshParameters mesh_parameters;
-    LimitOutput    limit_output;
-    BoundedLoad    bounded_load;
+    Scene             scene;
+    Method            method;
+    MeshParameters    mesh_parameters;
+    LimitOutput       limit_output;
+    BoundedLoad       bounded_load;
+    StrengthReduction reduction;
 
     Choice<AnalysisKind> analysis = {
       {{"steps", AnalysisKind::steps},
-       {"limit load", AnalysisKind::limit_load}}};
+       {"limit load", AnalysisKind::limit_load},
+       {"strength reduction", AnalysisKind::strength_reduction}}};
     double       gap_tolerance = 0.01;
     double       growth        = 2.;
     unsigned int most_cells    = 20000;

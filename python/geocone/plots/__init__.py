@@ -36,7 +36,7 @@ def pictures_of(run, times=None):
     if run.method == "point":
         from geocone.plots import element
         return element.pictures(run)
-    if run.method == "limit load":
+    if run.method in ("limit load", "strength reduction"):
         from geocone.plots import bounds
         return bounds.pictures(run)
     if run.method == "explicit MPM":

@@ -38,8 +38,10 @@ def draw_bounds(run, path):
     if reference is not None:
         first.axhline(reference / factor, color="k", linestyle="--", linewidth=1.2,
                       label="reference")
-    first.set(xlabel="triangles", title=f"{plain(run.name)}: bounds of the limit load",
-              ylabel="load factor (-)" if not name else f"load ({name})")
+    what = ("factor of safety" if run.method == "strength reduction" else "limit load")
+    first.set(xlabel="triangles", title=f"{plain(run.name)}: bounds of the {what}",
+              ylabel=(f"load ({name})" if name else
+                      "load factor (-)" if what == "limit load" else f"{what} (-)"))
     first.legend()
     gap = 100. * table["gap (-)"]
     seconds = np.cumsum(table["CPU time (s)"] + table["CPU time of the mesh (s)"])

@@ -1,0 +1,155 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/limit_analysis/strength_reduction.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace geocone
+{
+  namespace
+  {
+    /** Factors that no engineer asks for. */
+    constexpr double least = 1e-3, most = 1e3;
+
+    /** @throws StepFailure beyond what a factor can be */
+    double
+    checked(const double factor, const CertifiedBounds::Side &side)
+    {
+      if (factor > most || side.solution.grows)
+        throw StepFailure(
+          format("no reduction of the strength makes the body fail (tried: "
+                 "%g)\n  remedy:  check that it can fail: level ground bears "
+                 "its own weight with any strength, and a side of the mesh "
+                 "that is too near may confine it",
+                 std::min(factor, most)));
+      if (!(factor > least))
+        throw StepFailure(
+          "no strength bears the loads, a thousand times of the given one "
+          "neither\n  remedy:  check the loads, the supports and the units");
+      return factor;
+    }
+
+    /** The bound of a load that is above zero, or nothing. */
+    bool
+    is_usable(const CertifiedBounds::Side &side)
+    {
+      return side.bound.certified && std::isfinite(side.bound.load) &&
+             side.bound.load > 0.;
+    }
+
+    /** A factor that one bound proves, near the root of lambda = 1.
+     *  @param sign -1: the lower bound, +1: the upper one */
+    template <typename Solve>
+    std::optional<double>
+    prove(const Solve  &solve,
+          double        factor,
+          double        load,
+          double        exponent,
+          const int     sign,
+          unsigned int &iterations)
+    {
+      double                margin = 1e-3;
+      std::optional<double> proven;
+      for (unsigned int attempt = 0; attempt < 6; ++attempt)
+        {
+          const double tried =
+            factor * std::pow(load, 1. / exponent) * (1. + sign * margin);
+          const CertifiedBounds::Side side = solve(checked(tried, {}));
+          iterations += side.solution.factorisations;
+          if (!is_usable(side))
+            return proven;
+          if (sign * (1. - side.bound.load) >= 0.)
+            {
+              proven = !proven    ? tried
+                       : sign < 0 ? std::max(*proven, tried)
+                                  : std::min(*proven, tried);
+              // Not farther from the root than it has to be.
+              if (std::abs(std::log(side.bound.load)) < 4. * margin * exponent)
+                return proven;
+            }
+          else
+            margin *= 2.;
+          // Another point of the curve; a secant through both.
+          if (std::abs(std::log(tried / factor)) > 1e-4)
+            exponent = std::clamp(-std::log(side.bound.load / load) /
+                                    std::log(tried / factor),
+                                  0.3,
+                                  50.);
+          factor = tried;
+          load   = side.bound.load;
+        }
+      return proven;
+    }
+  } // namespace
+
+  StrengthReduction::Level
+  StrengthReduction::on_mesh(const Reduced &reduced, const double tolerance)
+  {
+    Level level;
+    last.reset();
+    for (unsigned int attempt = 0;; ++attempt)
+      {
+        level.factor = factor;
+        level.bounds = certified_bounds(reduced(factor), tolerance);
+        const auto &[upper, lower, gap, share] = level.bounds;
+        level.iterations_lower += lower.solution.factorisations;
+        level.iterations_upper += upper.solution.factorisations;
+        checked(factor, upper);
+        checked(factor, lower);
+        if (!is_usable(upper) && !is_usable(lower))
+          throw StepFailure(
+            format("neither bound of the loads is certified where the strength "
+                   "is divided by %g: the upper one: ",
+                   factor) +
+            upper.bound.objection +
+            "; the lower one: " + lower.bound.objection +
+            "\n  remedy:  check that the body can fail by its loads, its "
+            "supports and strengths, or take other cells");
+        // The middle is between 1/5 and 5 times its distance from there.
+        const double load = !is_usable(lower) ? upper.bound.load
+                            : !is_usable(upper)
+                              ? lower.bound.load
+                              : std::sqrt(lower.bound.load * upper.bound.load);
+        const double next =
+          factor * std::clamp(std::pow(load, 1. / exponent), 0.2, 5.);
+        constexpr double near = 0.03;
+        if (std::abs(std::log(next / factor)) < near || attempt == 12)
+          {
+            if (is_usable(lower))
+              level.lower = prove(
+                [&](const double F) {
+                  return certified_lower(reduced(F), tolerance);
+                },
+                factor,
+                lower.bound.load,
+                exponent,
+                -1,
+                level.iterations_lower);
+            if (is_usable(upper))
+              level.upper = prove(
+                [&](const double F) {
+                  return certified_upper(reduced(F), tolerance);
+                },
+                factor,
+                upper.bound.load,
+                exponent,
+                +1,
+                level.iterations_upper);
+            factor = next;
+            return level;
+          }
+        // One more solution far from the root tells the exponent.
+        if (last && std::abs(std::log(factor / last->first)) > 1e-3)
+          exponent = std::clamp(-std::log(load / last->second) /
+                                  std::log(factor / last->first),
+                                0.3,
+                                50.);
+        last   = {factor, load};
+        factor = factor * std::clamp(std::pow(load, 1. / exponent), 0.2, 5.);
+      }
+  }
+} // namespace geocone
