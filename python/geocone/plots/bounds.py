@@ -76,9 +76,9 @@ def draw_mechanism(run, path):
                           edgecolors="#00000030", linewidths=0.2, cmap=RATES,
                           norm=LogNorm(1e-2 * part.max(), part.max()))
     first.add_collection(mesh)
-    first.set_title(f"{plain(run.name)}: where the gap is, on {len(field.cells)} "
+    first.set_title(f"{plain(run.name)}: parts of the gap of {len(field.cells)} "
                     "triangles")
-    add_bar(first, mesh, "part of the gap, over the mean", extend="min")
+    add_bar(first, mesh, "over the mean", extend="min")
     speed = np.linalg.norm(field.data["velocity"], axis=1)
     # Sand at the corner of a footing may be shot out: two hundredths of the whole
     # area may be faster than the colours tell.
@@ -92,7 +92,7 @@ def draw_mechanism(run, path):
     drawn = second.tripcolor(*field.points.T, field.cells, speed / most,
                              shading="gouraud", cmap=STRAINS, vmin=0., vmax=1.)
     second.set_title("speed of the mechanism of the upper bound")
-    add_bar(second, drawn, "speed over the largest shown", extend="max")
+    add_bar(second, drawn, "over the largest", extend="max")
     save(figure, run, path, cropped=True)
 
 
