@@ -13,6 +13,7 @@ a problem is solved that was not before, too: it is to be taken off the list the
 import json
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 
@@ -65,12 +66,13 @@ def solve(program, file, folder, *settings):
     for text in ("Output/If folder exists = overwrite",
                  "Time stepping/Friction = exact", *settings):
         command += ["--set", text]
+    shutil.rmtree(folder, ignore_errors=True)  # of an earlier call
     result = subprocess.run(command, capture_output=True, text=True, timeout=600)
     if not (folder / "summary.json").exists():
         return None, result.stderr.strip() or f"exit code {result.returncode}"
     summary = json.loads((folder / "summary.json").read_text())
     if (result.returncode == 0) != summary["converged"]:
-        return None, f"exit code {result.returncode}"
+        return None, f"exit code {result.returncode}: {result.stderr.strip()}"
     lines = (folder / "stress.csv").read_text().splitlines()[1:]
     return summary, [float(value) for line in lines for value in line.split(",")]
 
