@@ -6,6 +6,7 @@
 #include <geocone/command_line.h>
 #include <geocone/element/element_test.h>
 #include <geocone/limit_analysis/limit_analysis.h>
+#include <geocone/limit_analysis/mesh_from_bounds.h>
 #include <geocone/output/run_folder.h>
 #include <geocone/replay.h>
 #include <geocone/run/explicit_simulation.h>
@@ -68,7 +69,7 @@ namespace
   {
     Methods(const ParameterFile &file, Log &log)
       : point(MPI_COMM_WORLD, file, log)
-      , implicit(MPI_COMM_WORLD, file, log)
+      , implicit(MPI_COMM_WORLD, file, log, sizes_from_bounds)
       , explicit_mpm(MPI_COMM_WORLD, file, log)
       , limit_analysis(MPI_COMM_WORLD, file, log)
     {}

@@ -5,6 +5,7 @@
 #define tests_simulate_h
 
 #include <geocone/base/version.h>
+#include <geocone/limit_analysis/mesh_from_bounds.h>
 #include <geocone/run/implicit_simulation.h>
 
 #include <fstream>
@@ -25,7 +26,8 @@ simulate(const std::string              &file_name,
   all.insert(all.end(), overrides.begin(), overrides.end());
   const geocone::ParameterFile file(file_name, all);
   geocone::Log                 log(MPI_COMM_WORLD, true);
-  geocone::ImplicitSimulation  simulation(MPI_COMM_WORLD, file, log);
+  geocone::ImplicitSimulation  simulation(
+    MPI_COMM_WORLD, file, log, geocone::sizes_from_bounds);
   file.parse();
   geocone::RunOptions options;
   options.name               = "test";

@@ -3,7 +3,6 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/stop_request.h>
-#include <geocone/limit_analysis/mesh_from_bounds.h>
 #include <geocone/output/run_status.h>
 #include <geocone/run/implicit_simulation.h>
 #include <geocone/run/run_estimate.h>
@@ -119,8 +118,10 @@ namespace geocone
 
   ImplicitSimulation::ImplicitSimulation(const MPI_Comm       comm,
                                          const ParameterFile &file,
-                                         Log                 &log)
+                                         Log                 &log,
+                                         const SizesOfScene  &sizes_of_scene)
     : SceneSimulation(comm, file, log)
+    , sizes_of_scene(sizes_of_scene)
     , mesh(comm)
     , implicit_mpm(file)
     , run_output(comm, log)
@@ -149,7 +150,7 @@ namespace geocone
       log.print(options.name + ": " + text);
     mesh.take_sizes(
       [&](const MeshParameters &parameters) {
-        return sizes_from_bounds(parameters, scene, comm, log);
+        return sizes_of_scene(parameters, scene, comm, log);
       },
       scene,
       method);

@@ -10,6 +10,8 @@
 #include <geocone/time_stepping/implicit_fem.h>
 #include <geocone/time_stepping/implicit_mpm.h>
 
+#include <functional>
+
 namespace geocone
 {
   /**
@@ -36,9 +38,15 @@ namespace geocone
   class ImplicitSimulation : public SceneSimulation
   {
   public:
+    /** Finds the sizes of a mesh "from the bounds" of a scene; limit analysis,
+     *  which is no part of this. Collective. */
+    using SizesOfScene = std::function<CellSizes(
+      const MeshParameters &, const Scene &, const MPI_Comm, Log &)>;
+
     ImplicitSimulation(const MPI_Comm       comm,
                        const ParameterFile &file,
-                       Log                 &log);
+                       Log                 &log,
+                       const SizesOfScene  &sizes_of_scene);
 
     OutputBase &
     output() override
@@ -102,6 +110,8 @@ namespace geocone
     size() const;
     Json
     cost() const;
+
+    const SizesOfScene sizes_of_scene;
 
     BackgroundMesh  mesh;
     Space           space;
