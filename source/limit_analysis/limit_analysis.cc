@@ -385,8 +385,6 @@ namespace geocone
   void
   LimitAnalysis::estimate_by_davis()
   {
-    const double in_unit =
-      reduces_strength() ? 1. : bounded_load.value_of_unit();
     const auto reduced = [&](const double F) {
       return bounded_load.by_davis(scene, *triangles, F);
     };
@@ -401,8 +399,9 @@ namespace geocone
       {
         const CertifiedBounds estimate =
           certified_bounds(reduced(1.), tolerance);
-        davis = {{"lower", in_unit * estimate.lower.bound.load},
-                 {"upper", in_unit * estimate.upper.bound.load}};
+        const double unit = bounded_load.value_of_unit();
+        davis             = {{"lower", unit * estimate.lower.bound.load},
+                             {"upper", unit * estimate.upper.bound.load}};
       }
     log.print("flow is not associated: the upper bound holds for any dilatancy "
               "(Radenkovic 1961), the lower one for theta = phi only; Davis's "

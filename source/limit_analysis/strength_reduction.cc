@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace geocone
 {
@@ -90,7 +91,8 @@ namespace geocone
   StrengthReduction::on_mesh(const Reduced &reduced, const double tolerance)
   {
     Level level;
-    last.reset();
+    // The last solution that was far from the root: factor and load.
+    std::optional<std::pair<double, double>> last;
     for (unsigned int attempt = 0;; ++attempt)
       {
         level.factor = factor;

@@ -28,7 +28,8 @@ namespace geocone
 
   /**
    * The limit load of a rigid-plastic scene with associated flow, or the factor of
-   * safety of its strength, between strict bounds, on meshes that are made anew where the bounds differ: a level is a
+   * safety of its strength, between strict bounds, on meshes that are made anew
+   * where the bounds differ: a level is a
    * step of the run.
    */
   class LimitAnalysis : public Simulation, public dealii::ParameterAcceptor

@@ -14,7 +14,8 @@ namespace geocone
    * can find the limit load of a scene: those that make the parts of the triangles
    * in the gap of its strict bounds equal. Meshes grow twofold from that of the
    * other parameters until they have as many triangles, and three more of that size
-   * follow: what is singular becomes finer each time. Flow counts as associated. Collective; the first rank computes.
+   * follow: what is singular becomes finer each time. Flow counts as associated.
+   * Collective; the first rank computes.
    * @throws InputError for scenes that have no such bounds
    */
   CellSizes

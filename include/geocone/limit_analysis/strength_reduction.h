@@ -9,7 +9,6 @@
 
 #include <functional>
 #include <optional>
-#include <utility>
 
 namespace geocone
 {
@@ -58,8 +57,6 @@ namespace geocone
   private:
     double factor   = 1.; ///< from where the next mesh begins
     double exponent = 1.; ///< -d log lambda/d log F
-    /** The last solution that was far from the root: factor and load. */
-    std::optional<std::pair<double, double>> last;
   };
 } // namespace geocone
 
