@@ -125,7 +125,9 @@ namespace geocone
     scene.gravity.prepare();
     scene.dirichlet.prepare();
     scene.tractions.prepare();
-    scene.observation.prepare(scene.dirichlet, scene.materials, scene.gravity);
+    scene.obstacles.refuse("Analysis/Kind = limit load or strength reduction",
+                           "hold the body by 'Boundary conditions'");
+    scene.observation.prepare(scene.supports(), scene.materials, scene.gravity);
     for (const auto &condition : scene.dirichlet.list)
       if (condition->moves())
         throw InputError(condition->parameter("Imposed on"),

@@ -18,7 +18,8 @@ namespace geocone
     const std::shared_ptr<const Utilities::MPI::Partitioner> &layout,
     const Vector                                             *lumped_mass,
     const double                                              consistent_part,
-    std::vector<GhostStencil>                                 ghosts)
+    std::vector<GhostStencil>                                 ghosts,
+    const bool                                                has_contact)
     : points(points)
     , materials(materials)
     , unknowns(unknowns)
@@ -31,6 +32,8 @@ namespace geocone
     if (lumped_mass != nullptr)
       terms.push_back(
         &inertia.emplace(points, unknowns, *lumped_mass, consistent_part));
+    if (has_contact)
+      contact_term.emplace(unknowns);
     // What any rank has counts for all: it decides on collective calls.
     std::vector<unsigned int> any = {!points.values.empty(),
                                      !ghost.stencils().empty()};
@@ -41,11 +44,14 @@ namespace geocone
   }
 
   void
-  IncrementalProblem::begin_step(const double  step,
-                                 const Vector *external_force,
-                                 const Vector &v,
-                                 const Vector &prescribed_velocity)
+  IncrementalProblem::begin_step(const double             step,
+                                 const Vector            *external_force,
+                                 const Vector            &v,
+                                 const Vector            &prescribed_velocity,
+                                 std::vector<ContactNode> touching)
   {
+    if (contact_term)
+      contact_term->begin_step(std::move(touching));
     h          = step;
     velocity_L = v;
     prescribed = prescribed_velocity;
@@ -81,6 +87,8 @@ namespace geocone
         term->add_sizes(part, sums);
         dst += part;
       }
+    if (contact_term)
+      contact_term->replace(dst, v, scale());
     internal.count_modes(sums.data());
     for (unsigned int i = 0; i < dst.locally_owned_size(); ++i)
       if (unknowns.is_free(i))
@@ -149,6 +157,8 @@ namespace geocone
     std::fill(matrix.value.begin(), matrix.value.end(), 0.);
     for (const Term *term : terms)
       term->linearise(pattern, blend, matrix);
+    if (contact_term)
+      contact_term->linearise(pattern, matrix);
   }
 
   void
@@ -157,6 +167,8 @@ namespace geocone
     dst = 0.;
     for (const Term *term : terms)
       term->apply_tangent(dst, dv);
+    if (contact_term)
+      contact_term->apply_tangent(dst, dv);
   }
 
   double

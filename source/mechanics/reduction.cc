@@ -27,6 +27,9 @@ namespace geocone
     if (dealii::Utilities::MPI::n_mpi_processes(comm) > 1)
       refuse("another one on several ranks",
              "run it on one rank, or take automatic");
+    if (problem.has_contact())
+      refuse("another one with obstacles",
+             "hold the body by 'Boundary conditions', or take automatic");
     if (!problem.inertia)
       refuse("another one without inertia",
              "the stresses alone determine the velocities by the mass: set "

@@ -88,7 +88,7 @@ namespace geocone
     add_observations(
       table,
       scene->observation,
-      scene->dirichlet,
+      scene->supports(),
       [this](const Record &r, const unsigned int i) {
         return r.report.reactions[scene->observation.conditions[i]].moment;
       },

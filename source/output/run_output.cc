@@ -43,9 +43,9 @@ namespace geocone
     add("displacement (m)", [](const Record &r) { return r.displacement; });
     add("load (N/m)", [](const Record &r) { return r.load; });
     const Observation &observation = scene->observation;
+    const auto         supports    = scene->supports();
     for (unsigned int i = 0; i < dim * observation.conditions.size(); ++i)
-      table.add("reaction " +
-                  scene->dirichlet.list[observation.conditions[i / dim]]->name +
+      table.add("reaction " + supports[observation.conditions[i / dim]] +
                   (i % dim == 0 ? " x" : " y") + " (N/m)",
                 [i](const Record &r) { return r.reactions[i]; });
     add("iterations (-)", [](const Record &r) { return r.iterations; });
@@ -78,8 +78,11 @@ namespace geocone
     add("plastic dissipation (J/m)",
         [this](const Record &) { return dissipation; });
     add("external work (J/m)", [this](const Record &) { return work; });
+    if (touches())
+      add("contact dissipation (J/m)",
+          [this](const Record &) { return contact_dissipation; });
     add("total energy (J/m)", [this](const Record &r) {
-      return r.last.energies.state() + dissipation - work;
+      return r.last.energies.state() + dissipation + contact_dissipation - work;
     });
     add("numerical loss (J/m)", [this](const Record &) { return loss; });
     if (remembers())
@@ -88,12 +91,23 @@ namespace geocone
     if (points_move)
       add("work of ghost stiffness (J/m)",
           [this](const Record &) { return ghost_work; });
+    if (touches())
+      {
+        add("contact penetration (m)",
+            [](const Record &r) { return r.last.contact.penetration; });
+        add("contact natural-map error (-)",
+            [](const Record &r) { return r.last.contact.error; });
+        add("sticking nodes (-)",
+            [](const Record &r) { return r.last.contact.stick; });
+        add("slipping nodes (-)",
+            [](const Record &r) { return r.last.contact.slip; });
+      }
     add("energy identity error (-)",
         [](const Record &r) { return r.last.identity_error; });
     add_observations(
       table,
       observation,
-      scene->dirichlet,
+      supports,
       [](const Record &r, const unsigned int i) { return r.moments[i]; },
       [](const Record &r, const unsigned int i, const unsigned int d) {
         return r.displacements[i][d];
@@ -130,6 +144,7 @@ namespace geocone
         least_loss,
         memory_work,
         ghost_work,
+        contact_dissipation,
         energy_n,
         initial,
         n_load_jumps,
@@ -182,14 +197,15 @@ namespace geocone
   void
   RunOutput::add_step(const StepRecord &record)
   {
-    const Energies &e = record.last.energies;
-    const double    step_loss =
-      energy_n + e.external_work - e.state() - e.dissipation;
+    const Energies &e         = record.last.energies;
+    const double    step_loss = energy_n + e.external_work - e.state() -
+                             e.dissipation - e.contact_dissipation;
     energy_n = e.state();
     work += e.external_work;
     dissipation += e.dissipation;
     memory_work += e.memory_work;
     ghost_work += e.ghost_work;
+    contact_dissipation += e.contact_dissipation;
     loss += step_loss;
     least_loss                     = std::min(least_loss, step_loss);
     const std::vector<double> line = table.line(record);
@@ -271,6 +287,28 @@ namespace geocone
     if (with_fields)
       fields->write(
         path, time, mesh, space, points, scene->materials, kinematics);
+  }
+
+  bool
+  RunOutput::touches() const
+  {
+    return !scene->obstacles.list.empty();
+  }
+
+  Json
+  RunOutput::contact() const
+  {
+    ContactReport worst;
+    for (const StepRecord &record : records)
+      worst.take_worse(record.last.contact);
+    const ContactReport last =
+      records.empty() ? ContactReport() : records.back().last.contact;
+    return {{"penetration_max", worst.penetration},
+            {"natural_map_error_max", worst.error},
+            {"open", last.open},
+            {"stick", last.stick},
+            {"slip", last.slip},
+            {"dissipation_J_per_m", contact_dissipation}};
   }
 
   bool
@@ -424,6 +462,8 @@ namespace geocone
       {"friction_lag_max", lag}};
     if (remembers())
       json["friction_memory"] = friction_memory();
+    if (touches())
+      json["contact"] = contact();
     if (points_move)
       json["motion"] = motion();
     json["quality"] = {{"natural_map_error_max", quality.natural_map},

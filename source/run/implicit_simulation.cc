@@ -174,6 +174,10 @@ namespace geocone
         condition->refuse_normal("free where problems are frozen",
                                  "give Velocity x and y, or leave 'Output/"
                                  "Freeze steps' and 'Freeze failures' out");
+    if (freezer.is_used())
+      scene.obstacles.refuse("frozen problems",
+                             "leave 'Output/Freeze steps' and 'Freeze "
+                             "failures' out");
     freezer.check(scene.loading);
     return warnings;
   }
@@ -296,6 +300,9 @@ namespace geocone
         report.energies.dissipation += present.last.energies.dissipation;
         report.energies.memory_work += present.last.energies.memory_work;
         report.energies.ghost_work += present.last.energies.ghost_work;
+        report.energies.contact_dissipation +=
+          present.last.energies.contact_dissipation;
+        report.contact.take_worse(present.last.contact);
         report.motion.take_worse(present.last.motion);
         report.identity_error =
           std::max(report.identity_error, present.last.identity_error);

@@ -51,7 +51,8 @@ namespace geocone
           "Imposed on",
           ". FEM knows nodes only. MPM: nodes of sides of the background mesh "
           "(bottom, right, top, left), or, of sides of the body, its first row "
-          "of particles one by one, averaged per cell, or averaged over all, or "
+          "of particles one by one, averaged per cell, or averaged over all, "
+          "or "
           "the averages over parts (segments) of the side, which moves as "
           "prescribed.");
         add_parameter("Segments",

@@ -33,7 +33,8 @@ namespace geocone
   {
     add_parameter("Conditions",
                   names,
-                  "Boundary conditions whose reactions are reported; the first "
+                  "Boundary conditions and obstacles whose reactions are "
+                  "reported; the first "
                   "one gives the load-displacement curve.");
     observed.declare(
       *this, "Component", ": that of the reaction which is the load.");
@@ -74,22 +75,21 @@ namespace geocone
   }
 
   void
-  Observation::prepare(const BoundaryConditions &all,
-                       const Materials          &materials,
-                       const Gravity            &gravity)
+  Observation::prepare(const std::vector<std::string> &supports,
+                       const Materials                &materials,
+                       const Gravity                  &gravity)
   {
     conditions.clear();
     for (const std::string &name : names)
       {
-        const unsigned int before = conditions.size();
-        for (unsigned int i = 0; i < all.list.size(); ++i)
-          if (all.list[i]->name == name)
-            conditions.push_back(i);
-        if (conditions.size() == before)
+        const auto found = std::find(supports.begin(), supports.end(), name);
+        if (found == supports.end())
           throw InputError("Observation/Conditions",
                            name,
-                           "names of the list 'Boundary conditions/Names'",
+                           "names of the lists 'Boundary conditions/Names' and "
+                           "'Obstacles/Names'",
                            "check the spelling");
+        conditions.push_back(found - supports.begin());
       }
     component = observed == Component::x ? 0 : 1;
     if (!std::isfinite(factor) || factor == 0. || std::abs(factor) > 1e6)

@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/exceptions.h>
 #include <geocone/scene/scene.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -32,6 +33,7 @@ namespace geocone
         "none",
         "Names of the conditions with given tractions, comma-separated; "
         "each has a subsection of that name. They add up.")
+    , obstacles(file)
     , loading(file)
   {}
 
@@ -46,8 +48,28 @@ namespace geocone
     initial_stress.prepare(gravity, geometry, regions);
     dirichlet.prepare();
     tractions.prepare();
+    obstacles.prepare();
     loading.prepare();
-    observation.prepare(dirichlet, materials, gravity);
+    for (const auto &obstacle : obstacles.list)
+      for (const auto &condition : dirichlet.list)
+        if (condition->name == obstacle->name)
+          throw InputError("Obstacles/Names",
+                           obstacle->name,
+                           "other names than those of 'Boundary "
+                           "conditions/Names'",
+                           "both can be observed by name: rename one of them");
+    observation.prepare(supports(), materials, gravity);
+  }
+
+  std::vector<std::string>
+  Scene::supports() const
+  {
+    std::vector<std::string> names;
+    for (const auto &condition : dirichlet.list)
+      names.push_back(condition->name);
+    for (const auto &obstacle : obstacles.list)
+      names.push_back(obstacle->name);
+    return names;
   }
 
   double

@@ -24,14 +24,16 @@ namespace geocone
 
   std::string
   ImplicitFEM::prepare(const Scene           &scene_,
-                       const BackgroundMesh  &mesh,
-                       const Space           &space,
+                       const BackgroundMesh  &mesh_,
+                       const Space           &space_,
                        const NonsmoothNewton &newton,
                        TimerOutput           &timer,
                        Kinematics            &kinematics,
                        MaterialPoints        &points)
   {
     scene = &scene_;
+    mesh  = &mesh_;
+    space = &space_;
     for (const auto &condition : scene->dirichlet.list)
       if (condition->moves())
         throw InputError(condition->parameter("Imposed on"),
@@ -44,35 +46,40 @@ namespace geocone
                        "a formula",
                        "0 without inertia",
                        "set Time stepping/Inertia = true");
-    points      = make_quadrature_points(*scene, mesh, space);
-    constraints = std::make_unique<Constraints>(*scene, mesh, space);
+    points      = make_quadrature_points(*scene, mesh_, space_);
+    constraints = std::make_unique<Constraints>(*scene, mesh_, space_);
     constraints->number_unknowns(nullptr);
-    kinematics.velocity.reinit(space.partitioner());
-    kinematics.displacement.reinit(space.partitioner());
-    kinematics.supports.resize(scene->dirichlet.list.size());
-    for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
+    obstacles = std::make_unique<ObstacleContact>(*scene, mesh_, space_, true);
+    kinematics.velocity.reinit(space_.partitioner());
+    kinematics.displacement.reinit(space_.partitioner());
+    kinematics.supports.resize(scene->supports().size());
+    for (unsigned int node = 0; node < space_.n_owned_nodes(); ++node)
       for (unsigned int c = 0; c < dim; ++c)
         kinematics.velocity.local_element(dim * node + c) =
-          scene->initial_velocity.at(space.node_positions()[node])[c];
+          scene->initial_velocity.at(space_.node_positions()[node])[c];
 
-    system =
-      std::make_unique<LinearSystem>(newton.linear_solver_name(),
-                                     mesh.triangulation().get_communicator(),
-                                     scene->materials.symmetric());
-    if (!inertia)
-      constraints->check_support(mesh, space);
-    loads = std::make_unique<Loads>(*scene, mesh, space);
-    check_resistance(points, mesh.triangulation().get_communicator());
+    system = std::make_unique<LinearSystem>(
+      newton.linear_solver_name(),
+      mesh_.triangulation().get_communicator(),
+      scene->materials.symmetric() && !obstacles->exists());
+    // Whether obstacles hold the body is not known before they touch.
+    if (!inertia && !obstacles->exists())
+      constraints->check_support(mesh_, space_);
+    loads = std::make_unique<Loads>(*scene, mesh_, space_);
+    check_resistance(points, mesh_.triangulation().get_communicator());
     if (inertia || scene->gravity.acts())
-      integrate_density(*scene, mesh, space, weight_per_g, lumped_mass);
+      integrate_density(*scene, mesh_, space_, weight_per_g, lumped_mass);
     if (loads->exist())
-      force.reinit(space.partitioner());
+      force.reinit(space_.partitioner());
     problem =
       std::make_unique<IncrementalProblem>(points,
                                            scene->materials,
                                            *constraints,
-                                           space.partitioner(),
-                                           inertia ? &lumped_mass : nullptr);
+                                           space_.partitioner(),
+                                           inertia ? &lumped_mass : nullptr,
+                                           0.,
+                                           std::vector<GhostStencil>(),
+                                           obstacles->exists());
     newton.check(*problem);
     system->set_pattern(*problem, timer);
     return "";
@@ -135,8 +142,18 @@ namespace geocone
       constraints->turn(force);
     velocity_n = kinematics.velocity;
     constraints->turn(velocity_n);
-    problem->begin_step(
-      h, loads->exist() ? &force : nullptr, velocity_n, prescribed);
+    std::vector<ContactNode> touching;
+    if (obstacles->exists())
+      {
+        kinematics.velocity.update_ghost_values();
+        touching = obstacles->nodes(kinematics.velocity, t, h);
+        kinematics.velocity.zero_out_ghost_values();
+      }
+    problem->begin_step(h,
+                        loads->exist() ? &force : nullptr,
+                        velocity_n,
+                        prescribed,
+                        std::move(touching));
 
     StepReport report;
     Vector     residual = problem->make_vector();
@@ -166,6 +183,11 @@ namespace geocone
     dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums.data(), 2),
                                 v.get_mpi_communicator(),
                                 dealii::ArrayView<double>(sums.data(), 2));
+    if (obstacles->exists())
+      {
+        report.contact = obstacles->report(problem->contact(), v, h);
+        sums[0] += report.contact.work;
+      }
     report.identity_error = energy_identity_error(
       *problem, points, scene->materials, velocity_n, v, sums[0]);
     const double memory_work = forces.memory_work();
@@ -184,15 +206,27 @@ namespace geocone
     kinematics.displacement.add(h, v);
     report.reactions =
       constraints->reactions(residual, points, points.stress, t + h);
-    for (unsigned int c = 0; c < kinematics.supports.size(); ++c)
+    if (obstacles->exists())
+      {
+        for (const Reaction &reaction :
+             obstacles->reactions(problem->contact()))
+          report.reactions.push_back(reaction);
+        obstacles->commit(v, t, h);
+      }
+    for (unsigned int c = 0; c < scene->dirichlet.list.size(); ++c)
       for (unsigned int d = 0; d < dim; ++d)
         kinematics.supports[c][d] += h * constraints->mean(v, c, d);
+    for (unsigned int o = 0; o < scene->obstacles.list.size(); ++o)
+      kinematics.supports[scene->dirichlet.list.size() + o] +=
+        h * scene->obstacles.list[o]->velocity(t + h);
     report.energies = state_energies(kinematics, points, t + h);
     report.largest_plastic_strain =
       largest_plastic_strain(points, v.get_mpi_communicator());
-    report.energies.external_work = sums[0];
-    report.energies.dissipation   = sums[1];
-    report.energies.memory_work   = memory_work;
+    // Friction takes of the work what it does not give to the body.
+    report.energies.contact_dissipation = report.contact.dissipation;
+    report.energies.external_work       = sums[0] + report.contact.dissipation;
+    report.energies.dissipation         = sums[1];
+    report.energies.memory_work         = memory_work;
     return report;
   }
 
@@ -212,6 +246,14 @@ namespace geocone
       }
     archive.write("points/cells", cells.numbers);
     archive.write("points/state", row.values());
+    if (obstacles->exists())
+      {
+        StateRow moved;
+        obstacles->state(moved);
+        archive.write_row("obstacles", moved);
+        save_nodes(
+          archive, "path", *mesh, *space, obstacles->displacement_of_nodes());
+      }
   }
 
   void
@@ -230,6 +272,14 @@ namespace geocone
           points.state(p, row);
         if (!row.at_end())
           throw RunError("the checkpoint has other points");
+      }
+    if (obstacles->exists())
+      {
+        StateRow moved = archive.read_row("obstacles");
+        obstacles->state(moved);
+        load_nodes(
+          archive, "path", *mesh, *space, obstacles->displacement_of_nodes());
+        obstacles->displacement_of_nodes().update_ghost_values();
       }
   }
 } // namespace geocone

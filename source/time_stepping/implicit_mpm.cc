@@ -161,10 +161,12 @@ namespace geocone
     datum  = mesh->lower_corner();
 
     constraints = std::make_unique<Constraints>(*scene, *mesh, *space);
-    system =
-      std::make_unique<LinearSystem>(newton.linear_solver_name(),
-                                     mesh->triangulation().get_communicator(),
-                                     scene->materials.symmetric());
+    obstacles = std::make_unique<ObstacleContact>(*scene, *mesh, *space, false);
+    check_obstacles(points);
+    system = std::make_unique<LinearSystem>(
+      newton.linear_solver_name(),
+      mesh->triangulation().get_communicator(),
+      scene->materials.symmetric() && !obstacles->exists());
     force.reinit(space->partitioner());
     if (space->is_spline() && advection != Advection::none)
       ghost_places.emplace(*mesh, *space);
@@ -180,7 +182,7 @@ namespace geocone
     moving->make_rows(
       points, v, 0., *constraints); // refuses what it must before the run
     kinematics.velocity = velocity_L;
-    kinematics.supports.resize(scene->dirichlet.list.size());
+    kinematics.supports.resize(scene->supports().size());
     return warning;
   }
 
@@ -255,7 +257,8 @@ namespace geocone
                                                    space->partitioner(),
                                                    &lumped_mass,
                                                    consistent_mass,
-                                                   ghost_stencils(points));
+                                                   ghost_stencils(points),
+                                                   obstacles->exists());
     {
       TimerOutput::Scope scope(timer, "transfer");
       if (consistent_mass > 0.)
@@ -502,7 +505,10 @@ namespace geocone
   {
     const Eigen::VectorXd &lambda = problem->multipliers();
     const Multipliers     &rows   = constraints->multipliers;
-    for (unsigned int c = 0; c < kinematics.supports.size(); ++c)
+    for (unsigned int o = 0; o < scene->obstacles.list.size(); ++o)
+      kinematics.supports[scene->dirichlet.list.size() + o] +=
+        step.h * scene->obstacles.list[o]->velocity(step.solved_at);
+    for (unsigned int c = 0; c < scene->dirichlet.list.size(); ++c)
       {
         const bool moves = scene->dirichlet.list[c]->moves();
         if (moves)
@@ -546,7 +552,14 @@ namespace geocone
     report.multipliers = constraints->multipliers.n_rows();
     report.rows        = constraints->multipliers.n_given();
 
-    problem->begin_step(solved_h, &force, velocity_L, v);
+    problem->begin_step(
+      solved_h,
+      &force,
+      velocity_L,
+      v,
+      obstacles->exists()
+        ? obstacles->nodes(velocity_L, t, h, gaps(points, t, h))
+        : std::vector<ContactNode>());
     report.newton =
       solve(step, kinematics, newton, freezer, timer, v, residual);
     if (!report.newton.converged)
@@ -568,10 +581,18 @@ namespace geocone
 
     // From here on the step is accepted.
     const InternalForces &internal = problem->internal_forces();
-    const Works           work     = works(step, v, residual);
-    report.quality                 = internal.quality();
-    report.reactions               = constraints->reactions(
+    Works                 work     = works(step, v, residual);
+    if (obstacles->exists())
+      {
+        report.contact = obstacles->report(problem->contact(), v, h);
+        work.of_others += report.contact.work;
+      }
+    report.quality   = internal.quality();
+    report.reactions = constraints->reactions(
       residual, points, internal.trial_stress(), step.solved_at);
+    if (obstacles->exists())
+      for (const Reaction &reaction : obstacles->reactions(problem->contact()))
+        report.reactions.push_back(reaction);
     // What ghosts take of the work is not there for energies and dissipation.
     const double ghost_work = problem->ghost_stiffness().work(v);
     report.identity_error   = energy_identity_error(
@@ -586,13 +607,16 @@ namespace geocone
     // that changes works on points at rest.
     const double external_work =
       work.of_others + (advection == Advection::none ? work.of_weight : 0.) +
-      work_of_changing_gravity(step, points);
+      work_of_changing_gravity(step, points) + report.contact.dissipation;
     const double memory_work =
       (step.h / step.solved_h) * problem->internal_forces().memory_work();
     const double dissipation = update_points(step, moved, points);
     update_supports(step, v, kinematics, report.reactions);
     if (advection != Advection::none)
-      moving->move(v, h, step.solved_at);
+      {
+        moving->move(v, h, step.solved_at);
+        obstacles->commit(v, t, h);
+      }
 
     had_mass.resize(v.locally_owned_size());
     for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
@@ -605,12 +629,100 @@ namespace geocone
     report.energies = state_energies(kinematics, points, t + h);
     report.largest_plastic_strain =
       largest_plastic_strain(points, v.get_mpi_communicator());
-    report.energies.external_work = external_work;
-    report.energies.dissipation   = dissipation;
-    report.energies.memory_work   = memory_work;
-    report.energies.ghost_work    = (step.h / step.solved_h) * ghost_work;
+    report.energies.external_work       = external_work;
+    report.energies.dissipation         = dissipation;
+    report.energies.memory_work         = memory_work;
+    report.energies.contact_dissipation = report.contact.dissipation;
+    report.energies.ghost_work          = (step.h / step.solved_h) * ghost_work;
     report.motion = {n_light, moving->n_behind(points), share.largest};
     return report;
+  }
+
+  double
+  ImplicitMPM::gap(const MaterialPoints &points,
+                   const unsigned int    p,
+                   const unsigned int    obstacle,
+                   const Tensor<1, dim> &moved) const
+  {
+    const double half = std::sqrt(points.weight[p]) / 2.;
+    return scene->obstacles.list[obstacle]
+             ->nearest(points.position[p], moved)
+             .distance -
+           half;
+  }
+
+  std::vector<Vector>
+  ImplicitMPM::gaps(const MaterialPoints &points,
+                    const double          t,
+                    const double          h) const
+  {
+    std::vector<Vector> all(scene->obstacles.list.size());
+    for (unsigned int o = 0; o < all.size(); ++o)
+      {
+        const Tensor<1, dim> moved = obstacles->moved_at_end(o, t, h);
+        all[o].reinit(space->partitioner());
+        for (unsigned int node = 0; node < space->n_local_nodes(); ++node)
+          all[o].local_element(dim * node) = 1e300;
+        for_each_point(points,
+                       [&](const unsigned int p,
+                           const unsigned int /* cell */,
+                           const PointFunctions &at) {
+                         const double g = gap(points, p, o, moved);
+                         for (unsigned int i = 0; i < at.n; ++i)
+                           if (at.N[i] > 1e-12)
+                             {
+                               double &least =
+                                 all[o].local_element(dim * at.nodes[i]);
+                               least = std::min(least, g);
+                             }
+                       });
+        all[o].compress(VectorOperation::min);
+        all[o].update_ghost_values();
+      }
+    return all;
+  }
+
+  void
+  ImplicitMPM::check_obstacles(const MaterialPoints &points) const
+  {
+    if (!obstacles->exists())
+      return;
+    for (const auto &condition : scene->dirichlet.list)
+      if (condition->moves())
+        throw InputError(
+          condition->parameter("Imposed on"),
+          condition->imposition.word(),
+          "nodes where there are obstacles",
+          "press by an obstacle that moves, or by the nodes of a "
+          "side");
+    if (integration == Integration::midpoint)
+      throw InputError("Material point method/Integration",
+                       integration.word(),
+                       "backward Euler where there are obstacles",
+                       "the midpoint rule would let the body enter them");
+    for (unsigned int o = 0; o < scene->obstacles.list.size(); ++o)
+      {
+        const Obstacle &obstacle = *scene->obstacles.list[o];
+        if (obstacle.adhesion > 0.)
+          throw InputError(obstacle.parameter("Adhesion"),
+                           obstacle.adhesion,
+                           "0 with MPM",
+                           "the surface of particles has no area; take FEM");
+        double least = 1e300;
+        for (unsigned int p = 0; p < points.n_points(); ++p)
+          least =
+            std::min(least, obstacle.nearest(points.position[p], {}).distance);
+        least =
+          Utilities::MPI::min(least, mesh->triangulation().get_communicator());
+        if (!(least > 0.))
+          throw InputError(obstacle.parameter("Point"),
+                           obstacle.name,
+                           "an obstacle that does not overlap with the body at "
+                           "the start",
+                           format("a particle is %.3g m inside it: move it, or "
+                                  "turn 'Normal' round",
+                                  -least));
+      }
   }
 
   std::string
@@ -738,6 +850,7 @@ namespace geocone
     save_nodes(archive, "had mass", *mesh, *space, mass);
     StateRow row;
     moving->state(row);
+    obstacles->state(row);
     archive.write_row("sides", row);
   }
 
@@ -752,6 +865,7 @@ namespace geocone
       had_mass[i] = mass.local_element(i) > 0.;
     StateRow row = archive.read_row("sides");
     moving->state(row);
+    obstacles->state(row);
     points = particles.collect(*mesh, *space);
     begun  = false;
   }

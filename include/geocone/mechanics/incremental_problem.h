@@ -4,6 +4,7 @@
 #ifndef geocone_mechanics_incremental_problem_h
 #define geocone_mechanics_incremental_problem_h
 
+#include <geocone/mechanics/contact.h>
 #include <geocone/mechanics/external_forces.h>
 #include <geocone/mechanics/ghost_stiffness.h>
 #include <geocone/mechanics/inertia.h>
@@ -40,7 +41,8 @@ namespace geocone
    * metric of scale(), which at the solution are the multipliers. It knows points,
    * weights, gradients and constraints, and never asks whether they are FEM or MPM.
    * The state at t_n is const; trial states live in the terms, and are those of the
-   * last residual().
+   * last residual(). Where nodes may touch obstacles, Contact puts its equations in
+   * the place of R in their rows.
    */
   class IncrementalProblem
   {
@@ -51,6 +53,7 @@ namespace geocone
      * @param consistent_part c of Inertia, not zero only for points with N and
      * mass
      * @param ghosts stencils of GhostStiffness
+     * @param has_contact whether there are obstacles, the same on all ranks
      */
     IncrementalProblem(
       const MaterialPoints &points,
@@ -59,7 +62,8 @@ namespace geocone
       const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &layout,
       const Vector             *lumped_mass,
       const double              consistent_part = 0.,
-      std::vector<GhostStencil> ghosts          = {});
+      std::vector<GhostStencil> ghosts          = {},
+      const bool                has_contact     = false);
 
     /** Its terms refer to each other's data. */
     IncrementalProblem(const IncrementalProblem &) = delete;
@@ -69,16 +73,18 @@ namespace geocone
      * @param force F at its end, or null for none
      * @param velocity_L vL, velocities at t_n
      * @param prescribed velocities at its end, where they are prescribed
+     * @param touching what may touch, see Contact
      */
     void
-    begin_step(const double  h,
-               const Vector *force,
-               const Vector &velocity_L,
-               const Vector &prescribed);
+    begin_step(const double             h,
+               const Vector            *force,
+               const Vector            &velocity_L,
+               const Vector            &prescribed,
+               std::vector<ContactNode> touching = {});
 
     /**
      * Evaluates trial states and R(v) in all rows by a local law; in prescribed
-     * rows it is the reaction. @p v needs its ghosts.
+     * rows it is the reaction, in those of contact F. @p v needs its ghosts.
      */
     ResidualReport
     residual(Vector &dst, const Vector &v, const LocalLaw &law = {});
@@ -116,7 +122,7 @@ namespace geocone
     bool
     is_symmetric() const
     {
-      return materials.symmetric();
+      return materials.symmetric() && !contact_term;
     }
 
     bool
@@ -172,6 +178,19 @@ namespace geocone
     inertia_term() const
     {
       return *inertia;
+    }
+
+    bool
+    has_contact() const
+    {
+      return contact_term.has_value();
+    }
+
+    /** What touches, where there are obstacles. */
+    const Contact &
+    contact() const
+    {
+      return *contact_term;
     }
 
     const GhostStiffness &
@@ -240,6 +259,7 @@ namespace geocone
     ExternalForces         external;
     std::optional<Inertia> inertia;
     GhostStiffness         ghost;
+    std::optional<Contact> contact_term;
     std::vector<Term *>    terms; ///< all of them
 
     bool of_particles = false;

@@ -7,7 +7,6 @@
 #include <geocone/base/log.h>
 #include <geocone/output/expectations.h>
 #include <geocone/output/statistics_table.h>
-#include <geocone/scene/boundary_conditions.h>
 #include <geocone/scene/observation.h>
 
 #include <deal.II/base/tensor.h>
@@ -26,13 +25,13 @@ namespace geocone
   void
   add_observations(StatisticsTable<Record>  &table,
                    const Observation        &observation,
-                   const BoundaryConditions &conditions,
+                   const std::vector<std::string> &supports,
                    const Moment             &moment,
                    const Displacement       &displacement)
   {
     for (unsigned int i = 0; i < observation.conditions.size(); ++i)
       table.add(
-        "moment " + conditions.list[observation.conditions[i]]->name +
+        "moment " + supports[observation.conditions[i]] +
           " (N m/m)",
         [moment, i](const Record &record) { return moment(record, i); },
         Finite::may_be);

@@ -142,6 +142,14 @@ namespace geocone
     bool
     remembers() const;
 
+    /** Whether there are obstacles. */
+    bool
+    touches() const;
+
+    /** The topic "contact" of summary.json. */
+    Json
+    contact() const;
+
     /** What it has done, for the summary. */
     Json
     friction_memory() const;
@@ -172,7 +180,7 @@ namespace geocone
 
     /** Sums since the start (J/m), and the least loss of a step. */
     double work = 0., dissipation = 0., loss = 0., least_loss = 0.,
-           memory_work = 0., ghost_work = 0.;
+           memory_work = 0., ghost_work = 0., contact_dissipation = 0.;
     bool   points_move = false;
     double energy_n = 0.; ///< kinetic, elastic and potential, at the last step
     Energies initial;

@@ -40,11 +40,11 @@ namespace geocone
     Observation();
 
     void
-    prepare(const BoundaryConditions &conditions,
-            const Materials          &materials,
-            const Gravity            &gravity);
+    prepare(const std::vector<std::string> &supports,
+            const Materials                &materials,
+            const Gravity                  &gravity);
 
-    /** Indices of the observed conditions. */
+    /** Indices of the observed conditions and obstacles in Scene::supports(). */
     std::vector<unsigned int> conditions;
 
     /** 0 for x, 1 for y. */

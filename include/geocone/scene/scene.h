@@ -8,6 +8,7 @@
 #include <geocone/scene/geometry.h>
 #include <geocone/scene/loading.h>
 #include <geocone/scene/observation.h>
+#include <geocone/scene/obstacles.h>
 
 namespace geocone
 {
@@ -23,6 +24,11 @@ namespace geocone
     /** Checks all parameters. @throws InputError */
     void
     prepare();
+
+    /** Names of what holds the body and can be observed: the conditions with
+     *  prescribed velocities, then the obstacles. */
+    std::vector<std::string>
+    supports() const;
 
     /**
      * The time in which a part of the boundary that is pushed moves by a thousandth
@@ -41,6 +47,7 @@ namespace geocone
     InitialStress      initial_stress;
     BoundaryConditions dirichlet;
     BoundaryConditions tractions;
+    Obstacles          obstacles;
     LoadingProgramme   loading;
     Observation        observation;
   };

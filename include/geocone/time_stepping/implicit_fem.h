@@ -6,6 +6,7 @@
 
 #include <geocone/mechanics/constraints.h>
 #include <geocone/mechanics/loads.h>
+#include <geocone/mechanics/obstacle_contact.h>
 #include <geocone/time_stepping/time_stepper.h>
 
 namespace geocone
@@ -79,7 +80,10 @@ namespace geocone
     bool inertia = false;
 
     const Scene                        *scene = nullptr;
+    const BackgroundMesh               *mesh  = nullptr;
+    const Space                        *space = nullptr;
     std::unique_ptr<Constraints>        constraints;
+    std::unique_ptr<ObstacleContact>    obstacles;
     std::unique_ptr<Loads>              loads;
     std::unique_ptr<IncrementalProblem> problem;
     std::unique_ptr<LinearSystem>       system;

@@ -154,6 +154,21 @@ namespace geocone
     std::vector<GhostStencil>
     ghost_stencils(const MaterialPoints &points);
 
+    /** Of a particle, as a square of its volume, and an obstacle that has moved. */
+    double
+    gap(const MaterialPoints         &points,
+        const unsigned int            p,
+        const unsigned int            obstacle,
+        const dealii::Tensor<1, dim> &moved) const;
+
+    /** Of the nearest particle of each node, for ObstacleContact::nodes(). */
+    std::vector<Vector>
+    gaps(const MaterialPoints &points, const double t, const double h) const;
+
+    /** Refuses what obstacles cannot do with particles. @throws InputError */
+    void
+    check_obstacles(const MaterialPoints &points) const;
+
     /** Why a step must not be taken, though it is solved; or nothing. */
     std::string
     objection(const Multipliers::LightShare &share) const;
@@ -262,6 +277,7 @@ namespace geocone
     dealii::Point<dim>    datum;  ///< of the potential energy
 
     std::unique_ptr<MovingConditions>   moving;
+    std::unique_ptr<ObstacleContact>    obstacles;
     std::unique_ptr<Constraints>        constraints;
     std::optional<GhostPlaces>          ghost_places; ///< of splines that move
     std::unique_ptr<IncrementalProblem> problem;

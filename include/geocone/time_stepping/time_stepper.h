@@ -5,7 +5,7 @@
 #define geocone_time_stepping_time_stepper_h
 
 #include <geocone/base/archive.h>
-#include <geocone/mechanics/constraints.h>
+#include <geocone/mechanics/obstacle_contact.h>
 #include <geocone/solvers/nonsmooth_newton.h>
 #include <geocone/time_stepping/freezer.h>
 
@@ -36,6 +36,8 @@ namespace geocone
     /** Of the step: sum V |z_t| ||s_t| - a s_n - k|, the plastic work by which
      *  friction with memory is off the exact strength. */
     double memory_work = 0.;
+    /** Of the step: -sum h r.u of what touches obstacles, friction and impact. */
+    double contact_dissipation = 0.;
     double ghost_work =
       0.; ///< of the step, of GhostStiffness; a part of the loss
 
@@ -54,6 +56,7 @@ namespace geocone
           external_work,
           dissipation,
           memory_work,
+          contact_dissipation,
           ghost_work);
     }
   };
@@ -88,8 +91,8 @@ namespace geocone
     Quality      quality;
     Energies     energies;
 
-    /** Forces on the body of each condition of the scene (N/m), and their
-     *  moments (N m/m). */
+    /** Forces on the body of each of Scene::supports() (N/m), and their moments
+     *  (N m/m). */
     std::vector<Reaction> reactions;
 
     unsigned int unknowns    = 0;
@@ -98,6 +101,9 @@ namespace geocone
 
     /** What shows whether particles that move are sound. */
     Motion motion;
+
+    /** What touches obstacles. */
+    ContactReport contact;
 
     /** Largest cumulative plastic strain of all points. */
     double largest_plastic_strain = 0.;
@@ -121,6 +127,7 @@ namespace geocone
           multipliers,
           rows,
           motion,
+          contact,
           largest_plastic_strain,
           identity_error);
     }

@@ -1,0 +1,138 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mechanics_obstacle_contact_h
+#define geocone_mechanics_obstacle_contact_h
+
+#include <geocone/base/state_row.h>
+#include <geocone/discretisation/space.h>
+#include <geocone/mechanics/constraints.h>
+#include <geocone/mechanics/contact.h>
+#include <geocone/scene/scene.h>
+
+#include <vector>
+
+namespace geocone
+{
+  /** What touches in a step, of all ranks. */
+  struct ContactReport
+  {
+    unsigned int open = 0, stick = 0, slip = 0; ///< nodes
+    double       error       = 0.; ///< largest |F| over the largest force
+    double       penetration = 0.; ///< greatest (m)
+    double       work  = 0.; ///< of the step, of the forces on the body (J/m)
+    double dissipation = 0.; ///< of the step, of friction and impact (J/m)
+
+    void
+    take_worse(const ContactReport &other)
+    {
+      error       = std::max(error, other.error);
+      penetration = std::max(penetration, other.penetration);
+    }
+
+    void
+    state(StateRow &row)
+    {
+      row(open, stick, slip, error, penetration, work, dissipation);
+    }
+  };
+
+  /**
+   * The obstacles of a scene as they move, and the nodes that may touch them: of a
+   * mesh that is the body those of its boundary, which carry the gap with them; of
+   * a background mesh those in or on the obstacle, with the gap of the nearest
+   * particle that they move.
+   */
+  class ObstacleContact
+  {
+  public:
+    /** @throws InputError if the body overlaps with an obstacle. Collective. */
+    ObstacleContact(const Scene          &scene,
+                    const BackgroundMesh &mesh,
+                    const Space          &space,
+                    const bool            mesh_is_body);
+
+    /** Whether there are obstacles. */
+    bool
+    exists() const
+    {
+      return !scene.obstacles.list.empty();
+    }
+
+    /**
+     * The nodes of a step from t to t + h.
+     * @param velocity_n at t_n, with ghosts
+     * @param gaps of a background mesh: per obstacle the gap to it of the nearest
+     * particle that the first dof of a node moves, at moved() of the step's end,
+     * with ghosts
+     * @throws StepFailure if a node touches two obstacles at once
+     */
+    std::vector<ContactNode>
+    nodes(const Vector              &velocity_n,
+          const double               t,
+          const double               h,
+          const std::vector<Vector> &gaps = {}) const;
+
+    /** What an obstacle has moved from the start to the end of a step (m). */
+    dealii::Tensor<1, dim>
+    moved_at_end(const unsigned int obstacle,
+                 const double       t,
+                 const double       h) const
+    {
+      return displacement[obstacle] +
+             h * scene.obstacles.list[obstacle]->velocity(t + h);
+    }
+
+    /** What came of a step, before commit(). Collective. */
+    ContactReport
+    report(const Contact &contact, const Vector &v, const double h) const;
+
+    /** The force of each obstacle on the body, and its moment. Collective. */
+    std::vector<Reaction>
+    reactions(const Contact &contact) const;
+
+    /** Moves the obstacles and, where the mesh is the body, its nodes. */
+    void
+    commit(const Vector &v, const double t, const double h);
+
+    /** What the obstacles have moved (m). */
+    const std::vector<dealii::Tensor<1, dim>> &
+    moved() const
+    {
+      return displacement;
+    }
+
+    /** @name The state: displacements of the obstacles and, where the mesh is the
+     *  body, of its nodes, both since the start */
+    /** @{ */
+    void
+    state(StateRow &row)
+    {
+      row(displacement);
+    }
+    Vector &
+    displacement_of_nodes()
+    {
+      return path;
+    }
+    /** @} */
+
+  private:
+    const Scene   &scene;
+    const Space   &space;
+    const MPI_Comm comm;
+    const bool     mesh_is_body;
+
+    /** Where a node of the body is, or of the background mesh. */
+    dealii::Point<dim>
+    place(const unsigned int node) const;
+
+    std::vector<unsigned int> candidates; ///< local nodes, with ghosts
+    std::vector<double>       length;     ///< int N_i dA of each (m)
+    double                    size = 0.;  ///< of a cell (m)
+    std::vector<dealii::Tensor<1, dim>> displacement;
+    Vector                              path; ///< of the nodes of the body (m)
+  };
+} // namespace geocone
+
+#endif

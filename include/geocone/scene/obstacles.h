@@ -1,0 +1,105 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_scene_obstacles_h
+#define geocone_scene_obstacles_h
+
+#include <geocone/base/choice.h>
+#include <geocone/base/parameter_file.h>
+#include <geocone/base/types.h>
+#include <geocone/scene/expression.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+#include <deal.II/base/point.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * A rigid body that the soil may touch, rub on and leave, but not enter: a
+   * half-plane, a disc or a convex polygon, at rest or driven. Where they touch the
+   * force r of the obstacle on the body and the relative velocity u obey Signorini's
+   * and Coulomb's laws (see Contact).
+   */
+  class Obstacle : public dealii::ParameterAcceptor
+  {
+  public:
+    explicit Obstacle(const std::string &name);
+
+    /** Checks its parameters. @throws InputError */
+    void
+    prepare();
+
+    /** Where a place is beside it. */
+    struct Nearest
+    {
+      double                 distance; ///< negative inside (m)
+      dealii::Tensor<1, dim> normal;   ///< out of the obstacle, unit length
+    };
+
+    /** @param x a place (m) @param moved what it has moved since the start (m) */
+    Nearest
+    nearest(const dealii::Point<dim>     &x,
+            const dealii::Tensor<1, dim> &moved) const;
+
+    /** Its velocity at time t (m/s). */
+    dealii::Tensor<1, dim>
+    velocity(const double t) const;
+
+    /** A place that moves with it, which moments are about. */
+    dealii::Point<dim>
+    centre() const;
+
+    /** The full name of one of its parameters, for messages. */
+    std::string
+    parameter(const std::string &entry) const;
+
+    const std::string name;
+    double            friction    = 0.; ///< mu
+    double            adhesion    = 0.; ///< shear stress borne besides (Pa)
+    double            restitution = 0.; ///< e of Newton's law of impact
+
+  private:
+    enum class Shape
+    {
+      half_plane,
+      disc,
+      polygon
+    };
+
+    Choice<Shape> shape = {{{"half-plane", Shape::half_plane},
+                            {"disc", Shape::disc},
+                            {"polygon", Shape::polygon}}};
+
+    dealii::Point<dim>              place;
+    dealii::Tensor<1, dim>          normal = dealii::Point<dim>(0., 1.);
+    double                          radius = 1.;
+    std::vector<dealii::Point<dim>> vertices;
+    std::array<std::string, dim>    texts = {{"0", "0"}};
+    std::array<Expression, dim>     velocities;
+  };
+
+  /** The obstacles of a scene, named in the list "Obstacles/Names". */
+  class Obstacles : public dealii::ParameterAcceptor
+  {
+  public:
+    explicit Obstacles(const ParameterFile &file);
+
+    void
+    prepare();
+
+    /** @throws InputError if there are any, with what can have none */
+    void
+    refuse(const std::string &what, const std::string &remedy) const;
+
+    std::vector<std::unique_ptr<Obstacle>> list;
+
+  private:
+    std::vector<std::string> names;
+  };
+} // namespace geocone
+
+#endif

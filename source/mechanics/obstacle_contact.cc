@@ -1,0 +1,259 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/mechanics/face_points.h>
+#include <geocone/mechanics/obstacle_contact.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** A gap that counts as none, over the size of a cell. */
+    constexpr double closed = 1e-9;
+  } // namespace
+
+  ObstacleContact::ObstacleContact(const Scene          &scene,
+                                   const BackgroundMesh &mesh,
+                                   const Space          &space,
+                                   const bool            mesh_is_body)
+    : scene(scene)
+    , space(space)
+    , comm(mesh.triangulation().get_communicator())
+    , mesh_is_body(mesh_is_body)
+    , displacement(scene.obstacles.list.size())
+  {
+    if (!exists())
+      return;
+    const auto &list = scene.obstacles.list;
+    size             = 1e300;
+    for (const auto &cell : mesh.own_cells())
+      size = std::min(size, cell->diameter());
+    size = Utilities::MPI::min(size, comm);
+    if (!mesh_is_body)
+      {
+        for (unsigned int node = 0; node < space.n_local_nodes(); ++node)
+          candidates.push_back(node);
+        length.assign(candidates.size(), 0.);
+        return;
+      }
+
+    path.reinit(space.partitioner());
+    const auto ids = mesh.triangulation().get_boundary_ids();
+    candidates     = space.nodes_on_sides(
+      std::set<types::boundary_id>(ids.begin(), ids.end()));
+    Vector lengths(space.partitioner());
+    for (const auto &cell : mesh.own_cells())
+      for (const unsigned int f : cell->face_indices())
+        if (cell->face(f)->at_boundary())
+          for (const FacePoint &point : points_on_face(mesh, space, cell, f))
+            for (unsigned int i = 0; i < point.nodes.size(); ++i)
+              lengths.local_element(dim * point.nodes[i]) +=
+                point.weight * point.values[i];
+    lengths.compress(VectorOperation::add);
+    lengths.update_ghost_values();
+    for (const unsigned int node : candidates)
+      length.push_back(lengths.local_element(dim * node));
+
+    std::vector<double> least(list.size(), 0.);
+    for (unsigned int o = 0; o < list.size(); ++o)
+      {
+        for (const unsigned int node : candidates)
+          least[o] =
+            std::min(least[o], list[o]->nearest(place(node), {}).distance);
+        least[o] = Utilities::MPI::min(least[o], comm);
+        if (least[o] < -closed * size)
+          throw InputError(list[o]->parameter("Point"),
+                           list[o]->name,
+                           "an obstacle that does not overlap with the body at "
+                           "the start",
+                           format("it is entered by %.3g m: move it, or turn "
+                                  "'Normal' round",
+                                  -least[o]));
+      }
+  }
+
+  Point<dim>
+  ObstacleContact::place(const unsigned int node) const
+  {
+    Point<dim> x = space.node_positions()[node];
+    if (mesh_is_body)
+      for (unsigned int d = 0; d < dim; ++d)
+        x[d] += path.local_element(dim * node + d);
+    return x;
+  }
+
+  std::vector<ContactNode>
+  ObstacleContact::nodes(const Vector              &velocity_n,
+                         const double               t,
+                         const double               h,
+                         const std::vector<Vector> &gaps) const
+  {
+    std::vector<ContactNode> result;
+    std::string              twice;
+    const auto              &list = scene.obstacles.list;
+    for (unsigned int i = 0; i < candidates.size(); ++i)
+      {
+        const unsigned int node = candidates[i];
+        const Point<dim>   x    = place(node);
+        ContactNode        contact;
+        double             nearest = 1e300;
+        unsigned int       n_touch = 0;
+        for (unsigned int o = 0; o < list.size(); ++o)
+          {
+            const Tensor<1, dim>    end = moved_at_end(o, t, h);
+            const Obstacle::Nearest at  = list[o]->nearest(x, end);
+            // Of a background mesh only what is in or on the obstacle: the others
+            // are of the body, and may come as near as they like.
+            if (!mesh_is_body && at.distance > closed * size)
+              continue;
+            const double gap =
+              mesh_is_body ? at.distance
+                           : std::max(gaps[o].local_element(dim * node), 0.);
+            n_touch +=
+              gap < closed * size &&
+              list[o]->nearest(x, displacement[o]).distance < closed * size;
+            if (gap >= nearest)
+              continue;
+            nearest          = gap;
+            contact.node     = node;
+            contact.obstacle = o;
+            contact.normal   = at.normal;
+            contact.velocity = (end - displacement[o]) / h;
+            // The gap is that to the obstacle at the step's end.
+            contact.least    = -gap / h - contact.velocity * contact.normal;
+            contact.friction = list[o]->friction;
+            contact.adhesion = list[o]->adhesion * length[i];
+            Tensor<1, dim> u;
+            for (unsigned int d = 0; d < dim; ++d)
+              u[d] =
+                velocity_n.local_element(dim * node + d) - contact.velocity[d];
+            const double u_n = u * contact.normal;
+            if (list[o]->restitution > 0. && u_n < 0. && u_n < contact.least)
+              contact.least = -list[o]->restitution * u_n;
+          }
+        if (n_touch > 1)
+          twice = format(
+            "the node at (%g, %g) touches two obstacles at once", x[0], x[1]);
+        if (nearest < 1e300)
+          result.push_back(contact);
+      }
+    twice = text_of_any_rank(comm, twice);
+    if (!twice.empty())
+      throw StepFailure(twice +
+                        "\n  remedy:  hold one of the two sides by a boundary "
+                        "condition, or leave the corner out of the body");
+    return result;
+  }
+
+  ContactReport
+  ObstacleContact::report(const Contact &contact,
+                          const Vector  &v,
+                          const double   h) const
+  {
+    std::array<double, 5> sums  = {}; // open, stick, slip, work, dissipation
+    std::array<double, 3> most  = {}; // force, error, penetration
+    const auto           &nodes = contact.nodes();
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      {
+        const unsigned int node = nodes[i].node;
+        if (node >= space.n_owned_nodes())
+          continue;
+        const Contact::Touch &touch = contact.touches()[i];
+        ++sums[touch.state == Contact::State::open    ? 0
+               : touch.state == Contact::State::stick ? 1
+                                                      : 2];
+        Tensor<1, dim> u;
+        for (unsigned int d = 0; d < dim; ++d)
+          u[d] = v.local_element(dim * node + d);
+        const Tensor<1, dim> relative = u - nodes[i].velocity;
+        most[1]                       = std::max(most[1], touch.error);
+        // g of the end: that of the beginning is -least h, but where it rebounds.
+        if (scene.obstacles.list[nodes[i].obstacle]->restitution == 0.)
+          most[2] = std::max(
+            most[2], -h * (relative * nodes[i].normal - nodes[i].least));
+        if (touch.state == Contact::State::open)
+          continue;
+        // What supports hold of the node is theirs.
+        Tensor<1, dim>     r         = touch.force;
+        const unsigned int direction = contact.free_direction(node);
+        if (direction < 2)
+          r[1 - direction] = 0.;
+        most[0] = std::max(most[0], r.norm());
+        sums[3] += h * (r * u);
+        sums[4] -= h * (r * relative);
+      }
+    Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
+                        comm,
+                        ArrayView<double>(sums.data(), sums.size()));
+    Utilities::MPI::max(ArrayView<const double>(most.data(), most.size()),
+                        comm,
+                        ArrayView<double>(most.data(), most.size()));
+    ContactReport report;
+    report.open        = sums[0];
+    report.stick       = sums[1];
+    report.slip        = sums[2];
+    report.work        = sums[3];
+    report.dissipation = sums[4];
+    report.error       = most[0] > 0. ? most[1] / most[0] : 0.;
+    report.penetration = most[2];
+    return report;
+  }
+
+  std::vector<Reaction>
+  ObstacleContact::reactions(const Contact &contact) const
+  {
+    const auto         &list = scene.obstacles.list;
+    std::vector<double> sums(3 * list.size(), 0.);
+    const auto         &nodes = contact.nodes();
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      {
+        const Contact::Touch &touch = contact.touches()[i];
+        if (nodes[i].node >= space.n_owned_nodes() ||
+            touch.state == Contact::State::open)
+          continue;
+        Tensor<1, dim>     r         = touch.force;
+        const unsigned int direction = contact.free_direction(nodes[i].node);
+        if (direction < 2)
+          r[1 - direction] = 0.;
+        const unsigned int o      = nodes[i].obstacle;
+        const Point<dim>   centre = scene.observation.moment_centre().value_or(
+          list[o]->centre() + displacement[o]);
+        const Tensor<1, dim> arm = place(nodes[i].node) - centre;
+        sums[3 * o] += r[0];
+        sums[3 * o + 1] += r[1];
+        sums[3 * o + 2] += arm[0] * r[1] - arm[1] * r[0];
+      }
+    Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
+                        comm,
+                        ArrayView<double>(sums.data(), sums.size()));
+    std::vector<Reaction> result(list.size());
+    for (unsigned int o = 0; o < list.size(); ++o)
+      {
+        result[o].force[0] = sums[3 * o];
+        result[o].force[1] = sums[3 * o + 1];
+        result[o].moment   = sums[3 * o + 2];
+      }
+    return result;
+  }
+
+  void
+  ObstacleContact::commit(const Vector &v, const double t, const double h)
+  {
+    for (unsigned int o = 0; o < displacement.size(); ++o)
+      displacement[o] = moved_at_end(o, t, h);
+    if (mesh_is_body && exists())
+      {
+        path.zero_out_ghost_values();
+        path.add(h, v);
+        path.update_ghost_values();
+      }
+  }
+} // namespace geocone

@@ -1,0 +1,229 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/scene/obstacles.h>
+
+#include <cmath>
+
+namespace geocone
+{
+  using dealii::Point;
+  using dealii::Tensor;
+
+  namespace
+  {
+    /** The outward normal of an edge of a polygon, counterclockwise, times its
+     *  length. */
+    Tensor<1, dim>
+    outward(const Point<dim> &a, const Point<dim> &b)
+    {
+      return Point<dim>(b[1] - a[1], a[0] - b[0]);
+    }
+  } // namespace
+
+  Obstacle::Obstacle(const std::string &name)
+    : dealii::ParameterAcceptor("/Obstacles/" + name)
+    , name(name)
+  {
+    shape.declare(
+      *this,
+      "Shape",
+      ". What is behind a line ('Point', 'Normal'), inside a circle "
+      "('Point' is its centre, 'Radius') or inside a convex polygon "
+      "('Vertices').");
+    add_parameter("Point",
+                  place,
+                  "A point x, y (m) of the line of a half-plane, or the centre "
+                  "of a disc, at the start.");
+    add_parameter(
+      "Normal",
+      normal,
+      "Direction x, y out of a half-plane, towards the body; of any "
+      "length.");
+    add_parameter("Radius", radius, "Radius of a disc (m).");
+    add_parameter("Vertices",
+                  vertices,
+                  "Vertices x, y; x, y; ... (m) of a convex polygon at the "
+                  "start, counterclockwise.");
+    for (unsigned int d = 0; d < dim; ++d)
+      add_parameter(std::string("Velocity ") + "xy"[d],
+                    texts[d],
+                    "Velocity of the obstacle (m/s) as a formula in t (s).");
+    add_parameter(
+      "Friction coefficient", friction, "mu of Coulomb's law; 0: smooth.");
+    add_parameter("Adhesion",
+                  adhesion,
+                  "Shear stress (Pa) that the interface bears besides friction "
+                  "while it is closed.");
+    add_parameter("Restitution",
+                  restitution,
+                  "Part of the normal velocity with which a node rebounds that "
+                  "would hit the obstacle in a step (Newton's law); 0: it "
+                  "stays, and closes exactly.");
+  }
+
+  std::string
+  Obstacle::parameter(const std::string &entry) const
+  {
+    return get_section_name().substr(1) + "/" + entry;
+  }
+
+  void
+  Obstacle::prepare()
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      velocities[d].prepare(texts[d],
+                            parameter(std::string("Velocity ") + "xy"[d]));
+    if (!std::isfinite(place.square()))
+      throw InputError(parameter("Point"),
+                       dealii::Patterns::Tools::to_string(place),
+                       "finite coordinates x, y (m)",
+                       "give a point of the obstacle");
+    if (shape == Shape::half_plane)
+      {
+        if (!(normal.norm() > 0.) || !std::isfinite(normal.norm()))
+          throw InputError(parameter("Normal"),
+                           dealii::Patterns::Tools::to_string(normal),
+                           "a direction x, y other than 0, 0",
+                           "it points from the obstacle to the body, e.g. 0, 1 "
+                           "for the ground");
+        normal /= normal.norm();
+      }
+    if (shape == Shape::disc && !(radius > 0. && std::isfinite(radius)))
+      throw InputError(parameter("Radius"),
+                       radius,
+                       "> 0 m, finite",
+                       "give the radius of the disc");
+    if (shape == Shape::polygon)
+      {
+        const unsigned int n  = vertices.size();
+        bool               ok = n >= 3;
+        for (unsigned int i = 0; ok && i < n; ++i)
+          {
+            const Tensor<1, dim> edge = vertices[(i + 1) % n] - vertices[i],
+                                 next = vertices[(i + 2) % n] -
+                                        vertices[(i + 1) % n];
+            ok = edge[0] * next[1] - edge[1] * next[0] > 0.;
+          }
+        if (!ok)
+          throw InputError(parameter("Vertices"),
+                           dealii::Patterns::Tools::to_string(vertices),
+                           "three or more vertices of a convex polygon, "
+                           "counterclockwise",
+                           "turn their order round, leave out those inside its "
+                           "sides, or make an obstacle of each convex part");
+      }
+    if (!(friction >= 0. && std::isfinite(friction)))
+      throw InputError(parameter("Friction coefficient"),
+                       friction,
+                       ">= 0, finite",
+                       "0 is smooth; tan(phi) lets the soil fail first");
+    if (!(adhesion >= 0. && std::isfinite(adhesion)))
+      throw InputError(
+        parameter("Adhesion"), adhesion, ">= 0 Pa, finite", "0: friction only");
+    if (!(restitution >= 0. && restitution <= 1.))
+      throw InputError(parameter("Restitution"),
+                       restitution,
+                       "0 to 1",
+                       "0: no rebound; 1: elastic impact");
+  }
+
+  Tensor<1, dim>
+  Obstacle::velocity(const double t) const
+  {
+    Tensor<1, dim> v;
+    for (unsigned int d = 0; d < dim; ++d)
+      v[d] = velocities[d].value(place, t);
+    return v;
+  }
+
+  Point<dim>
+  Obstacle::centre() const
+  {
+    if (shape != Shape::polygon)
+      return place;
+    Point<dim> mean;
+    for (const Point<dim> &vertex : vertices)
+      mean += vertex / double(vertices.size());
+    return mean;
+  }
+
+  Obstacle::Nearest
+  Obstacle::nearest(const Point<dim> &x, const Tensor<1, dim> &moved) const
+  {
+    const Point<dim> at = x - moved;
+    if (shape == Shape::half_plane)
+      return {(at - place) * normal, normal};
+    if (shape == Shape::disc)
+      {
+        const Tensor<1, dim> from = at - place;
+        const double         r    = from.norm();
+        return {r - radius, r > 0. ? from / r : Point<dim>(0., 1.)};
+      }
+    // Behind all edges, or beside one of them: the farthest; else a vertex.
+    Nearest            best{-1e300, {}};
+    const unsigned int n = vertices.size();
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        const Point<dim>    &a = vertices[i], &b = vertices[(i + 1) % n];
+        const Tensor<1, dim> N        = outward(a, b) / (b - a).norm();
+        const double         distance = (at - a) * N;
+        if (distance > best.distance)
+          best = {distance, N};
+      }
+    if (best.distance <= 0.)
+      return best;
+    double least = 1e300;
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        const Point<dim>    &a = vertices[i], &b = vertices[(i + 1) % n];
+        const Tensor<1, dim> edge = b - a;
+        const double         s =
+          std::min(std::max(((at - a) * edge) / edge.norm_square(), 0.), 1.);
+        const Tensor<1, dim> from = at - (a + s * edge);
+        const double         d    = from.norm();
+        if (d < least)
+          {
+            least         = d;
+            best.distance = d;
+            // At the edge itself it has no direction.
+            if (d > 1e-12 * edge.norm())
+              best.normal = from / d;
+          }
+      }
+    return best;
+  }
+
+  Obstacles::Obstacles(const ParameterFile &file)
+    : dealii::ParameterAcceptor("/Obstacles")
+    , names(file.named_sections("Obstacles", "Names", ""))
+  {
+    add_parameter(
+      "Names",
+      names,
+      "Names of rigid bodies that the soil touches, rubs on and may "
+      "leave, comma-separated; each has a subsection of that name. "
+      "Implicit FEM and MPM.");
+    for (const std::string &obstacle : names)
+      list.push_back(std::make_unique<Obstacle>(obstacle));
+  }
+
+  void
+  Obstacles::prepare()
+  {
+    for (const auto &obstacle : list)
+      obstacle->prepare();
+  }
+
+  void
+  Obstacles::refuse(const std::string &what, const std::string &remedy) const
+  {
+    if (!list.empty())
+      throw InputError("Obstacles/Names",
+                       dealii::Patterns::Tools::to_string(names),
+                       "none with " + what,
+                       remedy);
+  }
+} // namespace geocone
