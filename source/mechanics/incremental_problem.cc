@@ -88,7 +88,10 @@ namespace geocone
         dst += part;
       }
     if (contact_term)
-      contact_term->replace(dst, v, scale());
+      {
+        contact_term->replace(dst, v, scale());
+        sums.push_back(contact_term->size());
+      }
     internal.count_modes(sums.data());
     for (unsigned int i = 0; i < dst.locally_owned_size(); ++i)
       if (unknowns.is_free(i))

@@ -9,6 +9,8 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace geocone
 {
@@ -41,7 +43,6 @@ namespace geocone
       {
         for (unsigned int node = 0; node < space.n_local_nodes(); ++node)
           candidates.push_back(node);
-        length.assign(candidates.size(), 0.);
         return;
       }
 
@@ -49,28 +50,26 @@ namespace geocone
     const auto ids = mesh.triangulation().get_boundary_ids();
     candidates     = space.nodes_on_sides(
       std::set<types::boundary_id>(ids.begin(), ids.end()));
-    Vector lengths(space.partitioner());
+    length.reinit(space.partitioner());
     for (const auto &cell : mesh.own_cells())
       for (const unsigned int f : cell->face_indices())
         if (cell->face(f)->at_boundary())
           for (const FacePoint &point : points_on_face(mesh, space, cell, f))
             for (unsigned int i = 0; i < point.nodes.size(); ++i)
-              lengths.local_element(dim * point.nodes[i]) +=
+              length.local_element(dim * point.nodes[i]) +=
                 point.weight * point.values[i];
-    lengths.compress(VectorOperation::add);
-    lengths.update_ghost_values();
-    for (const unsigned int node : candidates)
-      length.push_back(lengths.local_element(dim * node));
+    length.compress(VectorOperation::add);
+    length.update_ghost_values();
 
     std::vector<double> least(list.size(), 0.);
     for (unsigned int o = 0; o < list.size(); ++o)
       {
         for (const unsigned int node : candidates)
           least[o] =
-            std::min(least[o], list[o]->nearest(place(node), {}).distance);
+            std::min(least[o], list[o]->nearest(place(node), {}, {}).distance);
         least[o] = Utilities::MPI::min(least[o], comm);
         if (least[o] < -closed * size)
-          throw InputError(list[o]->parameter("Point"),
+          throw InputError("Obstacles/Names",
                            list[o]->name,
                            "an obstacle that does not overlap with the body at "
                            "the start",
@@ -99,17 +98,20 @@ namespace geocone
     std::vector<ContactNode> result;
     std::string              twice;
     const auto              &list = scene.obstacles.list;
-    for (unsigned int i = 0; i < candidates.size(); ++i)
+    for (const unsigned int node : candidates)
       {
-        const unsigned int node = candidates[i];
-        const Point<dim>   x    = place(node);
-        ContactNode        contact;
-        double             nearest = 1e300;
-        unsigned int       n_touch = 0;
+        const Point<dim> x = place(node);
+        Tensor<1, dim>   v;
+        for (unsigned int d = 0; d < dim; ++d)
+          v[d] = velocity_n.local_element(dim * node + d);
+        ContactNode  contact;
+        double       nearest = std::numeric_limits<double>::infinity();
+        unsigned int n_touch = 0;
         for (unsigned int o = 0; o < list.size(); ++o)
           {
-            const Tensor<1, dim>    end = moved_at_end(o, t, h);
-            const Obstacle::Nearest at  = list[o]->nearest(x, end);
+            const Tensor<1, dim>    V = list[o]->velocity(t + h);
+            const Obstacle::Nearest at =
+              list[o]->nearest(x, displacement[o], V - v);
             // Of a background mesh only what is in or on the obstacle: the others
             // are of the body, and may come as near as they like.
             if (!mesh_is_body && at.distance > closed * size)
@@ -117,32 +119,28 @@ namespace geocone
             const double gap =
               mesh_is_body ? at.distance
                            : std::max(gaps[o].local_element(dim * node), 0.);
-            n_touch +=
-              gap < closed * size &&
-              list[o]->nearest(x, displacement[o]).distance < closed * size;
+            n_touch += gap < closed * size;
             if (gap >= nearest)
               continue;
             nearest          = gap;
             contact.node     = node;
             contact.obstacle = o;
             contact.normal   = at.normal;
-            contact.velocity = (end - displacement[o]) / h;
-            // The gap is that to the obstacle at the step's end.
-            contact.least    = -gap / h - contact.velocity * contact.normal;
+            contact.velocity = V;
+            contact.least    = -gap / h;
             contact.friction = list[o]->friction;
-            contact.adhesion = list[o]->adhesion * length[i];
-            Tensor<1, dim> u;
-            for (unsigned int d = 0; d < dim; ++d)
-              u[d] =
-                velocity_n.local_element(dim * node + d) - contact.velocity[d];
-            const double u_n = u * contact.normal;
+            contact.adhesion = mesh_is_body ? list[o]->adhesion *
+                                                length.local_element(dim * node)
+                                            : 0.;
+            // Faster than that it would hit the obstacle in this step.
+            const double u_n = (v - V) * at.normal;
             if (list[o]->restitution > 0. && u_n < 0. && u_n < contact.least)
               contact.least = -list[o]->restitution * u_n;
           }
         if (n_touch > 1)
           twice = format(
             "the node at (%g, %g) touches two obstacles at once", x[0], x[1]);
-        if (nearest < 1e300)
+        if (std::isfinite(nearest))
           result.push_back(contact);
       }
     twice = text_of_any_rank(comm, twice);
@@ -158,8 +156,10 @@ namespace geocone
                           const Vector  &v,
                           const double   h) const
   {
-    std::array<double, 5> sums  = {}; // open, stick, slip, work, dissipation
-    std::array<double, 3> most  = {}; // force, error, penetration
+    // Open, stick, slip, work, dissipation, width, force; error, penetration,
+    // pressure.
+    std::array<double, 7> sums  = {};
+    std::array<double, 3> most  = {};
     const auto           &nodes = contact.nodes();
     for (unsigned int i = 0; i < nodes.size(); ++i)
       {
@@ -174,11 +174,11 @@ namespace geocone
         for (unsigned int d = 0; d < dim; ++d)
           u[d] = v.local_element(dim * node + d);
         const Tensor<1, dim> relative = u - nodes[i].velocity;
-        most[1]                       = std::max(most[1], touch.error);
+        most[0]                       = std::max(most[0], touch.error);
         // g of the end: that of the beginning is -least h, but where it rebounds.
         if (scene.obstacles.list[nodes[i].obstacle]->restitution == 0.)
-          most[2] = std::max(
-            most[2], -h * (relative * nodes[i].normal - nodes[i].least));
+          most[1] = std::max(
+            most[1], -h * (relative * nodes[i].normal - nodes[i].least));
         if (touch.state == Contact::State::open)
           continue;
         // What supports hold of the node is theirs.
@@ -186,7 +186,13 @@ namespace geocone
         const unsigned int direction = contact.free_direction(node);
         if (direction < 2)
           r[1 - direction] = 0.;
-        most[0] = std::max(most[0], r.norm());
+        sums[6] += r.norm();
+        if (mesh_is_body)
+          {
+            const double l = length.local_element(dim * node);
+            sums[5] += l;
+            most[2] = std::max(most[2], (r * nodes[i].normal) / l);
+          }
         sums[3] += h * (r * u);
         sums[4] -= h * (r * relative);
       }
@@ -202,8 +208,10 @@ namespace geocone
     report.slip        = sums[2];
     report.work        = sums[3];
     report.dissipation = sums[4];
-    report.error       = most[0] > 0. ? most[1] / most[0] : 0.;
-    report.penetration = most[2];
+    report.error       = sums[6] > 0. ? most[0] / sums[6] : 0.;
+    report.penetration = most[1];
+    report.width       = sums[5];
+    report.pressure    = most[2];
     return report;
   }
 
@@ -248,7 +256,7 @@ namespace geocone
   ObstacleContact::commit(const Vector &v, const double t, const double h)
   {
     for (unsigned int o = 0; o < displacement.size(); ++o)
-      displacement[o] = moved_at_end(o, t, h);
+      displacement[o] += h * scene.obstacles.list[o]->velocity(t + h);
     if (mesh_is_body && exists())
       {
         path.zero_out_ghost_values();

@@ -308,6 +308,8 @@ namespace geocone
             {"open", last.open},
             {"stick", last.stick},
             {"slip", last.slip},
+            {"width_m", points_move ? Json() : Json(last.width)},
+            {"pressure_max_Pa", points_move ? Json() : Json(last.pressure)},
             {"dissipation_J_per_m", contact_dissipation}};
   }
 

@@ -5,7 +5,9 @@
 #include <geocone/base/log.h>
 #include <geocone/scene/obstacles.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace geocone
 {
@@ -139,6 +141,20 @@ namespace geocone
     return v;
   }
 
+  double
+  Obstacle::width() const
+  {
+    if (shape == Shape::half_plane)
+      return std::numeric_limits<double>::infinity();
+    if (shape == Shape::disc)
+      return 2. * radius;
+    double widest = 0.;
+    for (const Point<dim> &a : vertices)
+      for (const Point<dim> &b : vertices)
+        widest = std::max(widest, a.distance(b));
+    return widest;
+  }
+
   Point<dim>
   Obstacle::centre() const
   {
@@ -151,7 +167,9 @@ namespace geocone
   }
 
   Obstacle::Nearest
-  Obstacle::nearest(const Point<dim> &x, const Tensor<1, dim> &moved) const
+  Obstacle::nearest(const Point<dim>     &x,
+                    const Tensor<1, dim> &moved,
+                    const Tensor<1, dim> &approach) const
   {
     const Point<dim> at = x - moved;
     if (shape == Shape::half_plane)
@@ -162,37 +180,33 @@ namespace geocone
         const double         r    = from.norm();
         return {r - radius, r > 0. ? from / r : Point<dim>(0., 1.)};
       }
-    // Behind all edges, or beside one of them: the farthest; else a vertex.
-    Nearest            best{-1e300, {}};
-    const unsigned int n = vertices.size();
+    // Inside and on the border the nearest side, outside it or a vertex.
+    const unsigned int n         = vertices.size();
+    const double       tolerance = 1e-9 * width();
+    Nearest            best{-std::numeric_limits<double>::infinity(), {}};
+    double             least = std::numeric_limits<double>::infinity();
+    Tensor<1, dim>     to_border;
     for (unsigned int i = 0; i < n; ++i)
       {
         const Point<dim>    &a = vertices[i], &b = vertices[(i + 1) % n];
-        const Tensor<1, dim> N        = outward(a, b) / (b - a).norm();
+        const Tensor<1, dim> edge     = b - a;
+        const Tensor<1, dim> N        = outward(a, b) / edge.norm();
         const double         distance = (at - a) * N;
-        if (distance > best.distance)
+        if (distance > best.distance + tolerance ||
+            (distance > best.distance - tolerance &&
+             N * approach > best.normal * approach))
           best = {distance, N};
-      }
-    if (best.distance <= 0.)
-      return best;
-    double least = 1e300;
-    for (unsigned int i = 0; i < n; ++i)
-      {
-        const Point<dim>    &a = vertices[i], &b = vertices[(i + 1) % n];
-        const Tensor<1, dim> edge = b - a;
-        const double         s =
-          std::min(std::max(((at - a) * edge) / edge.norm_square(), 0.), 1.);
-        const Tensor<1, dim> from = at - (a + s * edge);
-        const double         d    = from.norm();
-        if (d < least)
+        const double along =
+          std::clamp(((at - a) * edge) / edge.norm_square(), 0., 1.);
+        const Tensor<1, dim> from = at - (a + along * edge);
+        if (from.norm() < least)
           {
-            least         = d;
-            best.distance = d;
-            // At the edge itself it has no direction.
-            if (d > 1e-12 * edge.norm())
-              best.normal = from / d;
+            least     = from.norm();
+            to_border = from;
           }
       }
+    if (best.distance > tolerance)
+      best = {least, to_border / least};
     return best;
   }
 

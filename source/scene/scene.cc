@@ -81,6 +81,23 @@ namespace geocone
     double                         end = 0., least = 0.;
     for (const auto &stage : loading.stages)
       end += stage->duration;
+    // The greatest speed, seen at some times of the run.
+    const auto speed_of = [&](const auto &velocity) {
+      double                 speed = 0.;
+      constexpr unsigned int looks = 64;
+      for (unsigned int i = 0; i < looks; ++i)
+        speed = std::max(speed, velocity(end * (i + 0.5) / looks));
+      return speed;
+    };
+    const auto add = [&](const double length, const double speed) {
+      const double time = 1e-3 * length / speed;
+      if (speed > 0. && std::isfinite(time) && (least == 0. || time < least))
+        least = time;
+    };
+    for (const auto &obstacle : obstacles.list)
+      add(
+        std::min({body.side_length(0), body.side_length(1), obstacle->width()}),
+        speed_of([&](const double t) { return obstacle->velocity(t).norm(); }));
     for (unsigned int c = 0; c < dirichlet.list.size(); ++c)
       {
         const BoundaryCondition &condition = *dirichlet.list[c];
@@ -103,20 +120,13 @@ namespace geocone
                                         c);
         if (is_half)
           length *= 2.;
-        double                 speed = 0.;
-        constexpr unsigned int looks = 64;
-        for (unsigned int i = 0; i < looks; ++i)
-          {
-            const double t      = end * (i + 0.5) / looks;
-            double       square = 0.;
-            for (const auto &component : condition.components)
-              if (component)
-                square += std::pow(component->value(centre, t), 2);
-            speed = std::max(speed, std::sqrt(square));
-          }
-        const double time = 1e-3 * length / speed;
-        if (speed > 0. && std::isfinite(time) && (least == 0. || time < least))
-          least = time;
+        add(length, speed_of([&](const double t) {
+              double square = 0.;
+              for (const auto &component : condition.components)
+                if (component)
+                  square += std::pow(component->value(centre, t), 2);
+              return std::sqrt(square);
+            }));
       }
     return least;
   }

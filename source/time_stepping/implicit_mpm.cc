@@ -552,14 +552,13 @@ namespace geocone
     report.multipliers = constraints->multipliers.n_rows();
     report.rows        = constraints->multipliers.n_given();
 
-    problem->begin_step(
-      solved_h,
-      &force,
-      velocity_L,
-      v,
-      obstacles->exists()
-        ? obstacles->nodes(velocity_L, t, h, gaps(points, t, h))
-        : std::vector<ContactNode>());
+    problem->begin_step(solved_h,
+                        &force,
+                        velocity_L,
+                        v,
+                        obstacles->exists()
+                          ? obstacles->nodes(velocity_L, t, h, gaps(points))
+                          : std::vector<ContactNode>());
     report.newton =
       solve(step, kinematics, newton, freezer, timer, v, residual);
     if (!report.newton.converged)
@@ -646,20 +645,18 @@ namespace geocone
   {
     const double half = std::sqrt(points.weight[p]) / 2.;
     return scene->obstacles.list[obstacle]
-             ->nearest(points.position[p], moved)
+             ->nearest(points.position[p], moved, {})
              .distance -
            half;
   }
 
   std::vector<Vector>
-  ImplicitMPM::gaps(const MaterialPoints &points,
-                    const double          t,
-                    const double          h) const
+  ImplicitMPM::gaps(const MaterialPoints &points) const
   {
     std::vector<Vector> all(scene->obstacles.list.size());
     for (unsigned int o = 0; o < all.size(); ++o)
       {
-        const Tensor<1, dim> moved = obstacles->moved_at_end(o, t, h);
+        const Tensor<1, dim> moved = obstacles->moved()[o];
         all[o].reinit(space->partitioner());
         for (unsigned int node = 0; node < space->n_local_nodes(); ++node)
           all[o].local_element(dim * node) = 1e300;
@@ -710,12 +707,12 @@ namespace geocone
                            "the surface of particles has no area; take FEM");
         double least = 1e300;
         for (unsigned int p = 0; p < points.n_points(); ++p)
-          least =
-            std::min(least, obstacle.nearest(points.position[p], {}).distance);
+          least = std::min(
+            least, obstacle.nearest(points.position[p], {}, {}).distance);
         least =
           Utilities::MPI::min(least, mesh->triangulation().get_communicator());
         if (!(least > 0.))
-          throw InputError(obstacle.parameter("Point"),
+          throw InputError("Obstacles/Names",
                            obstacle.name,
                            "an obstacle that does not overlap with the body at "
                            "the start",

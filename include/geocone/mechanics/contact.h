@@ -75,6 +75,17 @@ namespace geocone
     void
     apply_tangent(Vector &dst, const Vector &dv) const;
 
+    /** The sum of |F|^2 on this rank: what obstacles ask of a body at rest is a part of
+     *  the residual that it is compared with. */
+    double
+    size() const
+    {
+      double square = 0.;
+      for (const Touch &at : touch)
+        square += at.error * at.error;
+      return square;
+    }
+
     enum class State
     {
       open,

@@ -18,8 +18,10 @@ namespace geocone
   struct ContactReport
   {
     unsigned int open = 0, stick = 0, slip = 0; ///< nodes
-    double       error       = 0.; ///< largest |F| over the largest force
+    double       error       = 0.; ///< largest |F| over the sum of the forces
     double       penetration = 0.; ///< greatest (m)
+    double       width       = 0.; ///< of what is closed (m), and the greatest
+    double       pressure = 0.; ///< pressure (Pa), where the mesh is the body
     double       work  = 0.; ///< of the step, of the forces on the body (J/m)
     double dissipation = 0.; ///< of the step, of friction and impact (J/m)
 
@@ -33,7 +35,15 @@ namespace geocone
     void
     state(StateRow &row)
     {
-      row(open, stick, slip, error, penetration, work, dissipation);
+      row(open,
+          stick,
+          slip,
+          error,
+          penetration,
+          width,
+          pressure,
+          work,
+          dissipation);
     }
   };
 
@@ -63,8 +73,7 @@ namespace geocone
      * The nodes of a step from t to t + h.
      * @param velocity_n at t_n, with ghosts
      * @param gaps of a background mesh: per obstacle the gap to it of the nearest
-     * particle that the first dof of a node moves, at moved() of the step's end,
-     * with ghosts
+     * particle that a node moves, by its first dof, with ghosts
      * @throws StepFailure if a node touches two obstacles at once
      */
     std::vector<ContactNode>
@@ -72,16 +81,6 @@ namespace geocone
           const double               t,
           const double               h,
           const std::vector<Vector> &gaps = {}) const;
-
-    /** What an obstacle has moved from the start to the end of a step (m). */
-    dealii::Tensor<1, dim>
-    moved_at_end(const unsigned int obstacle,
-                 const double       t,
-                 const double       h) const
-    {
-      return displacement[obstacle] +
-             h * scene.obstacles.list[obstacle]->velocity(t + h);
-    }
 
     /** What came of a step, before commit(). Collective. */
     ContactReport
@@ -128,7 +127,7 @@ namespace geocone
     place(const unsigned int node) const;
 
     std::vector<unsigned int> candidates; ///< local nodes, with ghosts
-    std::vector<double>       length;     ///< int N_i dA of each (m)
+    Vector                    length;     ///< int N_i dA (m)
     double                    size = 0.;  ///< of a cell (m)
     std::vector<dealii::Tensor<1, dim>> displacement;
     Vector                              path; ///< of the nodes of the body (m)

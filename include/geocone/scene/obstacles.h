@@ -40,14 +40,26 @@ namespace geocone
       dealii::Tensor<1, dim> normal;   ///< out of the obstacle, unit length
     };
 
-    /** @param x a place (m) @param moved what it has moved since the start (m) */
+    /**
+     * The distance is a convex function of the place, which its tangent along the
+     * normal does not exceed.
+     * @param x a place (m)
+     * @param moved what the obstacle has moved since the start (m)
+     * @param approach direction in which it moves past x: at a corner of a polygon
+     * the side that comes nearer
+     */
     Nearest
     nearest(const dealii::Point<dim>     &x,
-            const dealii::Tensor<1, dim> &moved) const;
+            const dealii::Tensor<1, dim> &moved,
+            const dealii::Tensor<1, dim> &approach) const;
 
     /** Its velocity at time t (m/s). */
     dealii::Tensor<1, dim>
     velocity(const double t) const;
+
+    /** Its greatest width, infinite for a half-plane (m). */
+    double
+    width() const;
 
     /** A place that moves with it, which moments are about. */
     dealii::Point<dim>

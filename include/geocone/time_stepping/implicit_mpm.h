@@ -163,7 +163,7 @@ namespace geocone
 
     /** Of the nearest particle of each node, for ObstacleContact::nodes(). */
     std::vector<Vector>
-    gaps(const MaterialPoints &points, const double t, const double h) const;
+    gaps(const MaterialPoints &points) const;
 
     /** Refuses what obstacles cannot do with particles. @throws InputError */
     void
