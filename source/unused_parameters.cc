@@ -79,6 +79,7 @@ namespace geocone
        "Boundary conditions/*/Imposed on",
        {"segments"}},
       {"Loading/*/Until failure", method, {"FEM", "MPM"}},
+      {"Loading/*/Strength factor", method, {"FEM", "MPM"}},
       {"Loading/*/Damping", method, {"explicit MPM"}},
       {"Loading/*/Kinetic damping", method, {"explicit MPM"}},
       {"Loading/*/Largest unbalanced force", method, {"explicit MPM"}},

@@ -4,6 +4,8 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/discretisation/fitted_mesh.h>
 
+#include <deal.II/base/bounding_box.h>
+
 #include <limits>
 
 namespace geocone
@@ -41,11 +43,14 @@ namespace geocone
   {
     if (scene.geometry.shape == Geometry::Shape::file)
       return mesh_of_file(scene.geometry, scene.regions, comm);
+    const dealii::BoundingBox<dim> domain(parameters.outline);
+    const MeshLines                lines = scene.water.lines(
+      domain.get_boundary_points().first, domain.get_boundary_points().second);
     CoarseMesh mesh =
       sizes != nullptr
-        ? mesh_with_sizes(parameters, scene.regions, *sizes, comm)
+        ? mesh_with_sizes(parameters, scene.regions, lines, *sizes, comm)
       : parameters.is_unstructured()
-        ? unstructured_mesh(parameters, scene.regions, comm)
+        ? unstructured_mesh(parameters, scene.regions, lines, comm)
         : structured_mesh(parameters);
     for (auto &cell : mesh.cells)
       cell.material_id = scene.regions.material_at(mesh.centre(cell), -1);

@@ -310,6 +310,7 @@ namespace geocone
     MshData
     mesh_domain(const MeshParameters &parameters,
                 const Regions        &regions,
+                const MeshLines      &lines,
                 const CellSizes      *sizes,
                 const std::string    &what)
     {
@@ -326,14 +327,26 @@ namespace geocone
         return occ::addPlaneSurface({occ::addCurveLoop(lines)});
       };
 
-      // The domain is fragmented by the borders of the body and the materials and
-      // by the grading points, which so become edges and vertices of the mesh.
+      // The domain is fragmented by the borders of the body and the materials, by
+      // lines of which it takes what is inside, and by the grading points, which so become edges and vertices of the mesh.
       const gmsh::vectorpair domain = {{2, surface(parameters.outline)}};
       gmsh::vectorpair       tools;
       if (!parameters.body.empty())
         tools.emplace_back(2, surface(parameters.body));
       for (const Polygon &polygon : regions.polygons())
         tools.emplace_back(2, surface(polygon));
+      for (const auto &line : lines)
+        {
+          const int tag =
+            occ::addLine(occ::addPoint(line[0][0], line[0][1], 0.),
+                         occ::addPoint(line[1][0], line[1][1], 0.));
+          gmsh::vectorpair              inside;
+          std::vector<gmsh::vectorpair> from;
+          occ::intersect({{1, tag}}, domain, inside, from, -1, true, false);
+          for (const auto &part : inside)
+            if (part.first == 1)
+              tools.push_back(part);
+        }
       for (const Point<dim> &x : parameters.grading_points)
         tools.emplace_back(0, occ::addPoint(x[0], x[1], 0.));
       gmsh::vectorpair              pieces = domain;
@@ -401,16 +414,19 @@ namespace geocone
     CoarseMesh
     mesh_by_gmsh(const MeshParameters &parameters,
                  const Regions        &regions,
+                 const MeshLines      &lines,
                  const CellSizes      *sizes,
                  const MPI_Comm        comm)
     {
       const std::string what = "the mesh that gmsh has made";
       const auto        mesh = [&]() {
-        return with_gmsh(
-          "gmsh cannot mesh the domain",
-          "change 'Mesh/Smallest size', 'Mesh/Size ratio' or "
-                 "'Mesh/Gmsh algorithm'",
-          [&]() { return mesh_domain(parameters, regions, sizes, what); });
+        return with_gmsh("gmsh cannot mesh the domain",
+                         "change 'Mesh/Smallest size', 'Mesh/Size ratio' or "
+                                "'Mesh/Gmsh algorithm'",
+                         [&]() {
+                           return mesh_domain(
+                             parameters, regions, lines, sizes, what);
+                         });
       };
       return coarse_mesh(from_first_rank(comm, mesh), what, regions);
     }
@@ -419,17 +435,19 @@ namespace geocone
   CoarseMesh
   unstructured_mesh(const MeshParameters &parameters,
                     const Regions        &regions,
+                    const MeshLines      &lines,
                     const MPI_Comm        comm)
   {
-    return mesh_by_gmsh(parameters, regions, nullptr, comm);
+    return mesh_by_gmsh(parameters, regions, lines, nullptr, comm);
   }
 
   CoarseMesh
   mesh_with_sizes(const MeshParameters &parameters,
                   const Regions        &regions,
+                  const MeshLines      &lines,
                   const CellSizes      &sizes,
                   const MPI_Comm        comm)
   {
-    return mesh_by_gmsh(parameters, regions, &sizes, comm);
+    return mesh_by_gmsh(parameters, regions, lines, &sizes, comm);
   }
 } // namespace geocone

@@ -124,6 +124,29 @@ namespace geocone
              bound.units.length / bound.units.stress;
     }
 
+    /** Adds the forces of a cell per area, in units: weight and that of water, which
+     *  is a dead load where the weight is not bounded with all others.
+     *  @param add called with a vector of loads and the force */
+    template <typename Function>
+    void
+    add_body_forces(BoundProblem      &problem,
+                    const BoundScene  &bound,
+                    const unsigned int cell,
+                    const Function    &add)
+    {
+      add(loads(problem, bound, LoadFactor::weight), weight(bound, cell));
+      if (bound.scene.water.acts())
+        {
+          const Triangles &triangles = bound.triangles;
+          Point<dim>       centre;
+          for (const unsigned int v : triangles.cells[cell])
+            centre += triangles.vertices[v] / 3.;
+          add(loads(problem, bound, LoadFactor::all),
+              bound.scene.water.force(centre) *
+                (bound.units.length / bound.units.stress));
+        }
+    }
+
     /** The outward normal of a boundary edge. */
     Tensor<1, dim>
     outward_normal(const Triangles   &triangles,
@@ -280,12 +303,13 @@ namespace geocone
         for (const unsigned int v : triangles.cells[c])
           is_used[v] = true;
         // The integral of a vertex function is zero, of an edge function A/3.
-        Eigen::VectorXd     &F = loads(problem, bound, LoadFactor::weight);
-        const Tensor<1, dim> w = weight(bound, c);
-        for (unsigned int f = 3; f < 6; ++f)
-          for (unsigned int d = 0; d < dim; ++d)
-            F[problem.dofs[12 * c + dim * f + d]] +=
-              w[d] * problem.volume[3 * c];
+        add_body_forces(
+          problem, bound, c, [&](Eigen::VectorXd &F, const Tensor<1, dim> &w) {
+            for (unsigned int f = 3; f < 6; ++f)
+              for (unsigned int d = 0; d < dim; ++d)
+                F[problem.dofs[12 * c + dim * f + d]] +=
+                  w[d] * problem.volume[3 * c];
+          });
       }
     for (unsigned int v = 0; v < n_vertices; ++v)
       if (!is_used[v]) // gmsh keeps points of the outline that no cell has
@@ -348,10 +372,11 @@ namespace geocone
                 }
             }
         problem.B.push_back(L * B);
-        Eigen::VectorXd     &F = loads(problem, bound, LoadFactor::weight);
-        const Tensor<1, dim> w = weight(bound, c);
-        for (unsigned int d = 0; d < dim; ++d)
-          F[dim * c + d] += w[d] * 3. * problem.volume[3 * c];
+        add_body_forces(
+          problem, bound, c, [&](Eigen::VectorXd &F, const Tensor<1, dim> &w) {
+            for (unsigned int d = 0; d < dim; ++d)
+              F[dim * c + d] += w[d] * 3. * problem.volume[3 * c];
+          });
       }
 
     // w is the value of a linear velocity at the third point that is nearer to the

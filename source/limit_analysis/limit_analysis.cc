@@ -123,6 +123,7 @@ namespace geocone
     scene.materials.prepare();
     scene.regions.prepare(scene.geometry);
     scene.gravity.prepare();
+    scene.water.prepare(scene.gravity);
     scene.dirichlet.prepare();
     scene.tractions.prepare();
     scene.obstacles.refuse("Analysis/Kind = limit load or strength reduction",
@@ -142,6 +143,8 @@ namespace geocone
                        "triangles with 'Analysis/Kind' = limit load",
                        "set Mesh/Cells = triangles");
     triangles.emplace(fitted_mesh(mesh_parameters, scene, comm));
+    if (scene.water.acts())
+      check_water();
     if (reduces_strength())
       bounded_load.prepare_reduction(scene, *triangles);
     else
@@ -159,6 +162,35 @@ namespace geocone
                          "those of this mesh; give a box or a polygon, or set "
                          "Analysis/Maximum levels = 1");
     return warnings;
+  }
+
+  void
+  LimitAnalysis::check_water() const
+  {
+    // Body forces are to be constant in each cell.
+    for (const auto &cell : triangles->cells)
+      {
+        dealii::Point<dim> centre;
+        for (const unsigned int v : cell)
+          centre += triangles->vertices[v] / 3.;
+        const dealii::Tensor<1, dim> f = scene.water.force(centre);
+        for (const unsigned int v : cell)
+          {
+            const dealii::Point<dim> near =
+              centre + (1. - 1e-6) * (triangles->vertices[v] - centre);
+            if ((scene.water.force(near) - f).norm() > 1e-9 * f.norm() ||
+                (f.norm() == 0. && scene.water.pressure(near) > 0.))
+              throw InputError("Mesh/Type",
+                               mesh_parameters.type.word(),
+                               "unstructured where there is water and "
+                               "'Analysis/Kind' is not steps",
+                               format("the table cuts the cell at (%g, %g); "
+                                      "strict bounds need cells on one side of "
+                                      "it",
+                                      centre[0],
+                                      centre[1]));
+          }
+      }
   }
 
   std::vector<unsigned int>

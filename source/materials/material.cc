@@ -70,6 +70,18 @@ namespace geocone
     return cone;
   }
 
+  void
+  Material::reduce_strength(const double)
+  {
+    if (initial_cone())
+      throw InputError(
+        parameter("Type"),
+        "a law that hardens",
+        "Mohr-Coulomb, Tresca or linear elastic where a stage has "
+        "a 'Strength factor'",
+        "take the strength that counts, initial or final");
+  }
+
   std::optional<FlowCone>
   Material::initial_cone() const
   {

@@ -194,6 +194,14 @@ namespace geocone
         material->set_friction_memory(tau);
   }
 
+  void
+  Materials::reduce_strength(const double F)
+  {
+    for (const auto &law : list)
+      if (auto *material = dynamic_cast<Material *>(law.get()))
+        material->reduce_strength(F);
+  }
+
   std::string
   Materials::as_parameters() const
   {

@@ -7,6 +7,7 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace geocone
@@ -67,10 +68,27 @@ namespace geocone
                        "c > 0 Pa where phi = 0",
                        "a material without cohesion and friction has no "
                        "strength at all: give it one of them");
-    cone.a = std::sin(radians(phi));
-    cone.b = theta == phi ? cone.a : std::sin(radians(theta));
-    cone.k = sqrt2 * c * std::cos(radians(phi));
+    set_cone(1.);
     prepare_memory();
+  }
+
+  void
+  MohrCoulomb::set_cone(const double F)
+  {
+    // For F = 1 to the last digit what the file says.
+    const double angle =
+      F == 1. ? radians(phi) : std::atan(std::tan(radians(phi)) / F);
+    cone.a = std::sin(angle);
+    cone.b = theta == phi ? cone.a : std::min(std::sin(radians(theta)), cone.a);
+    cone.k = sqrt2 * c / F * std::cos(angle);
+  }
+
+  void
+  MohrCoulomb::reduce_strength(const double F)
+  {
+    if (has_history() && n_history() > MohrCoulomb::n_history())
+      Material::reduce_strength(F);
+    set_cone(F);
   }
 
   void

@@ -66,6 +66,31 @@ namespace geocone
                const Space          &space)
     : scene(scene)
   {
+    if (scene.water.acts())
+      {
+        CellValues values(space,
+                          mesh,
+                          mesh.is_simplicial()
+                            ? Quadrature<dim>(QWitherdenVincentSimplex<dim>(3))
+                            : Quadrature<dim>(QGauss<dim>(space.degree() + 1)));
+        of_water.reinit(space.partitioner());
+        std::vector<types::global_dof_index> nodes;
+        for (const auto &cell : mesh.own_cells())
+          {
+            values.reinit(cell);
+            space.cell_nodes(cell, nodes);
+            for (unsigned int q = 0; q < values.weight.size(); ++q)
+              {
+                const Tensor<1, dim> f =
+                  values.weight[q] * scene.water.force(values.position[q]);
+                for (unsigned int i = 0; i < nodes.size(); ++i)
+                  for (unsigned int d = 0; d < dim; ++d)
+                    of_water.local_element(dim * space.local_node(nodes[i]) +
+                                           d) += f[d] * values.value(i, q);
+              }
+          }
+        of_water.compress(VectorOperation::add);
+      }
     for (unsigned int c = 0; c < scene.tractions.list.size(); ++c)
       {
         const BoundaryCondition &condition = *scene.tractions.list[c];
@@ -124,6 +149,8 @@ namespace geocone
         for (unsigned int dof = 0; dof < force.locally_owned_size(); ++dof)
           force.local_element(dof) +=
             g[dof % dim] * weight_per_g.local_element(dof);
+        if (scene.water.acts())
+          force.add(g[1] / scene.gravity.at(1e300)[1], of_water);
       }
   }
 } // namespace geocone

@@ -48,6 +48,10 @@ namespace geocone
       table.add("reaction " + supports[observation.conditions[i / dim]] +
                   (i % dim == 0 ? " x" : " y") + " (N/m)",
                 [i](const Record &r) { return r.reactions[i]; });
+    if (scene->loading.reduces_strength())
+      add("strength factor (-)", [this](const Record &r) {
+        return scene->loading.strength_factor(r.time);
+      });
     add("iterations (-)", [](const Record &r) { return r.iterations; });
     add("substeps (-)", [](const Record &r) { return r.substeps; });
     add("failed substeps (-)", [](const Record &r) { return r.failures; });
@@ -289,6 +293,26 @@ namespace geocone
         path, time, mesh, space, points, scene->materials, kinematics);
   }
 
+  Json
+  RunOutput::safety() const
+  {
+    const auto factor = [&](const double t) {
+      return scene->loading.strength_factor(t);
+    };
+    const double lower = failure           ? factor(failure->carried_until)
+                         : records.empty() ? 1.
+                                           : factor(records.back().time);
+    const double upper = failure ? factor(failure->not_until) : 0.;
+    const bool   found = failure && upper > 1.;
+    return {{"factor", found ? Json((lower + upper) / 2.) : Json()},
+            {"lower", failure && !found ? Json() : Json(lower)},
+            {"upper", failure ? Json(upper) : Json()},
+            {"criterion",
+             !failure ? "equilibrium is found for all factors of the stages"
+             : found  ? "no equilibrium is found at the upper factor"
+                      : "no equilibrium is found without a reduction"}};
+  }
+
   bool
   RunOutput::touches() const
   {
@@ -520,6 +544,8 @@ namespace geocone
       return;
     summary = Json{{"name", name}, {"status", status}};
     summary.update(results());
+    if (scene->loading.reduces_strength())
+      summary["safety"] = safety();
     if (field_errors)
       {
         // Where the exact field is zero there is no relative error.
@@ -583,6 +609,13 @@ namespace geocone
                        summary["quality"]["cone_excess_max_Pa"].get<double>()));
     if (remembers())
       warn_of_memory();
+    if (summary.contains("safety") && summary["safety"]["factor"].is_number())
+      log.print(
+        format("factor of safety %.4f (equilibrium is found at %.4f, and "
+               "not at %.4f)",
+               summary["safety"]["factor"].get<double>(),
+               summary["safety"]["lower"].get<double>(),
+               summary["safety"]["upper"].get<double>()));
     if (summary.contains("limit_load"))
       {
         const Json &limit = summary["limit_load"];

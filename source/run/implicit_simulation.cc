@@ -132,6 +132,8 @@ namespace geocone
   ImplicitSimulation::prepare_method(const RunOptions &options)
   {
     scene.materials.check_closed_form(method.name());
+    if (scene.loading.reduces_strength())
+      scene.materials.reduce_strength(1.);
     for (const auto &stage : scene.loading.stages)
       stage->check_implicit();
     // The exact law is easy for particles, unless volume hardly changes at all.
@@ -271,9 +273,12 @@ namespace geocone
       {
         // Land on the end of the step exactly, without a sliver before it.
         stop_if_asked(comm);
-        const double left   = h - done;
-        const double size   = left <= substep * (1. + 1e-6) ? left : substep;
-        StepReport   report = stepper->advance(
+        const double left = h - done;
+        const double size = left <= substep * (1. + 1e-6) ? left : substep;
+        if (scene.loading.reduces_strength())
+          scene.materials.reduce_strength(
+            scene.loading.strength_factor(t + done + size));
+        StepReport report = stepper->advance(
           kinematics, points, newton, freezer, timer, t + done, size);
         run_output.add_newton_table(step, t + done + size, size, report);
         present.iterations += report.newton.iterations;

@@ -6,6 +6,7 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace geocone
@@ -37,6 +38,13 @@ namespace geocone
                   reset_displacement,
                   "Count displacements and plastic strains from the beginning "
                   "of this stage.");
+    add_parameter("Strength factor",
+                  strength_factor,
+                  "FEM and MPM: by what c and tan(phi) of all materials are "
+                  "divided at the end of the stage, linear in time from what "
+                  "they were before; theta is at most the reduced phi. 0: as "
+                  "before. With 'Until failure' = true the factor at which no "
+                  "equilibrium is found is the factor of safety.");
     add_parameter("Until failure",
                   until_failure,
                   "FEM and MPM: the first step that cannot be solved, however "
@@ -140,6 +148,12 @@ namespace geocone
                        step_size,
                        "at most a hundred million steps in a stage",
                        "take larger steps, or a shorter 'Duration'");
+    if (!(strength_factor == 0. ||
+          (strength_factor >= 0.01 && strength_factor <= 1000.)))
+      throw InputError(section + "Strength factor",
+                       strength_factor,
+                       "0, or 0.01 to 1000",
+                       "3 with 'Until failure' = true is usual");
     if (!(damping >= 0. && damping < 1.))
       throw InputError(section + "Damping",
                        damping,
@@ -208,6 +222,35 @@ namespace geocone
                   "subsection of that name.");
     for (const std::string &stage : names)
       stages.push_back(std::make_unique<Stage>(stage));
+  }
+
+  bool
+  LoadingProgramme::reduces_strength() const
+  {
+    return std::any_of(stages.begin(), stages.end(), [](const auto &stage) {
+      return stage->strength_factor > 0.;
+    });
+  }
+
+  double
+  LoadingProgramme::strength_factor(const double t) const
+  {
+    double begin = 0., factor = 1.;
+    for (const auto &stage : stages)
+      {
+        const double end = begin + stage->duration;
+        if (stage->strength_factor > 0.)
+          {
+            if (t < end)
+              return factor + (stage->strength_factor - factor) *
+                                std::max(t - begin, 0.) / stage->duration;
+            factor = stage->strength_factor;
+          }
+        else if (t < end)
+          return factor;
+        begin = end;
+      }
+    return factor;
   }
 
   void
@@ -326,8 +369,14 @@ namespace geocone
   void
   InitialStress::prepare(const Gravity  &gravity,
                          const Geometry &geometry,
-                         const Regions  &regions)
+                         const Regions  &regions,
+                         const bool      has_water)
   {
+    if (has_water && type == Type::geostatic)
+      throw InputError("Initial stress/Type",
+                       type.word(),
+                       "zero | given where there is water",
+                       "give effective stresses by formulas");
     if (type == Type::given)
       {
         const char *names[] = {"Stress xx", "Stress yy", "Stress xy"};

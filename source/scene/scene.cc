@@ -44,8 +44,9 @@ namespace geocone
     materials.prepare();
     regions.prepare(geometry);
     gravity.prepare();
+    water.prepare(gravity);
     initial_velocity.prepare();
-    initial_stress.prepare(gravity, geometry, regions);
+    initial_stress.prepare(gravity, geometry, regions, water.acts());
     dirichlet.prepare();
     tractions.prepare();
     obstacles.prepare();

@@ -98,6 +98,9 @@ namespace geocone
       throw InputError(
         section + "Courant number", courant, "0 < C <= 1", "0.3 is usual");
 
+    scene->water.refuse("explicit MPM",
+                        "set Discretisation/Method = FEM or MPM, or give "
+                        "buoyant densities");
     scene->obstacles.refuse("explicit MPM",
                             "set Discretisation/Method = FEM or MPM, or hold "
                             "the body by 'Boundary conditions'");

@@ -363,11 +363,32 @@ namespace geocone
   }
 
   void
-  ImplicitMPM::evaluate_force(const double t)
+  ImplicitMPM::add_water(const MaterialPoints &points, const double t)
+  {
+    Vector       of_water(space->partitioner());
+    const double part = scene->gravity.at(t)[1] / scene->gravity.at(1e300)[1];
+    for_each_point(points,
+                   [&](const unsigned int p,
+                       const unsigned int /* cell */,
+                       const PointFunctions &at) {
+                     const Tensor<1, dim> f =
+                       part * points.weight[p] *
+                       scene->water.force(points.position[p]);
+                     const double both[dim] = {f[0], f[1]};
+                     at.scatter<dim, false>(both, of_water.begin());
+                   });
+    of_water.compress(VectorOperation::add);
+    force += of_water;
+  }
+
+  void
+  ImplicitMPM::evaluate_force(const MaterialPoints &points, const double t)
   {
     force                  = 0.;
     const Tensor<1, dim> g = scene->gravity.at(t);
     moving->add_tractions(force, t);
+    if (scene->water.acts())
+      add_water(points, t);
     for (unsigned int dof = 0; dof < force.locally_owned_size(); ++dof)
       force.local_element(dof) =
         constraints->has_mass(dof)
@@ -546,7 +567,7 @@ namespace geocone
       TimerOutput::Scope scope(timer, "transfer");
       constraints->set_values(v, step.solved_at);
       moving->make_rows(points, v, step.solved_at, *constraints);
-      evaluate_force(step.solved_at);
+      evaluate_force(points, step.solved_at);
     }
     report.unknowns    = constraints->n_rows;
     report.multipliers = constraints->multipliers.n_rows();

@@ -164,10 +164,14 @@ namespace geocone
   CoarseMesh
   structured_mesh(const MeshParameters &parameters);
 
+  /** Straight lines on which a mesh is to have edges, where they cross it. */
+  using MeshLines = std::vector<std::array<dealii::Point<dim>, 2>>;
+
   /** Unstructured mesh of a box or polygon, by gmsh. Collective. */
   CoarseMesh
   unstructured_mesh(const MeshParameters &parameters,
                     const Regions        &regions,
+                    const MeshLines      &lines,
                     const MPI_Comm        comm);
 
   /**

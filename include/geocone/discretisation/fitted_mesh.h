@@ -49,6 +49,7 @@ namespace geocone
   CoarseMesh
   mesh_with_sizes(const MeshParameters &parameters,
                   const Regions        &regions,
+                  const MeshLines      &lines,
                   const CellSizes      &sizes,
                   const MPI_Comm        comm);
 } // namespace geocone

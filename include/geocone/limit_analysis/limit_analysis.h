@@ -50,6 +50,10 @@ namespace geocone
     }
 
   private:
+    /** @throws InputError if the table of water cuts cells of the first mesh */
+    void
+    check_water() const;
+
     /** Whether the factor of safety is bounded, not a load. */
     bool
     reduces_strength() const

@@ -169,6 +169,11 @@ namespace geocone
     Mandel
     nearest_admissible(const Mandel &stress, const double *history) const;
 
+    /** Divides c and tan(phi) of the file by F, and limits theta to the reduced phi.
+     *  @throws InputError for a law with a strength of another kind */
+    virtual void
+    reduce_strength(const double F);
+
     /**
      * Largest (a - b)/a for which the line search alone was seen to be enough
      * on most meshes: theta >= phi/2 is (nearly) 1/2.

@@ -98,6 +98,10 @@ namespace geocone
     void
     set_friction_memory(const double tau);
 
+    /** See Material::reduce_strength(). */
+    void
+    reduce_strength(const double F);
+
     /** Its section as text, with numbers in place of what the scene has decided. */
     std::string
     as_parameters() const;

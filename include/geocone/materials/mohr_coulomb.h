@@ -79,6 +79,9 @@ namespace geocone
     void
     set_friction_memory(const double tau) override;
 
+    void
+    reduce_strength(const double F) override;
+
     double
     cohesion() const
     {
@@ -114,9 +117,12 @@ namespace geocone
     FlowCone cone;
 
     /** Place of p in the history, if tau > 0. */
-    static constexpr unsigned int memory = 1;
+    static constexpr unsigned int memory      = 1;
     std::string                   memory_text = "automatic";
     double                        tau         = 0.;
+
+    void
+    set_cone(const double F);
 
     /** Reads the memory, if the file gives it. */
     void

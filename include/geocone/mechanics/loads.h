@@ -27,7 +27,7 @@ namespace geocone
                     Vector               &lumped_mass);
 
   /**
-   * External forces F(t): weight and tractions. Nothing is stored or computed
+   * External forces F(t): weight, tractions and the force of water at rest. Nothing is stored or computed
    * of what the scene does not have.
    */
   class Loads
@@ -55,6 +55,7 @@ namespace geocone
 
     const Scene             &scene;
     std::vector<LoadedPoint> loaded;
+    Vector                   of_water; ///< under the whole gravity (N/m)
   };
 } // namespace geocone
 

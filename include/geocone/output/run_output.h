@@ -146,6 +146,10 @@ namespace geocone
     bool
     touches() const;
 
+    /** The topic "safety" of summary.json. */
+    Json
+    safety() const;
+
     /** The topic "contact" of summary.json. */
     Json
     contact() const;

@@ -46,6 +46,10 @@ namespace geocone
     unsigned int      output_every       = 0;
     bool              reset_displacement = false;
 
+    /** What c and tan(phi) are divided by at the end, linear in time from what they
+     *  were before; 0: as before. */
+    double strength_factor = 0.;
+
     /** Whether the first step that cannot be solved ends the run as wanted. */
     bool until_failure = false;
 
@@ -86,6 +90,14 @@ namespace geocone
 
     void
     prepare();
+
+    /** Whether a stage reduces the strength. */
+    bool
+    reduces_strength() const;
+
+    /** By what c and tan(phi) are divided at time t. */
+    double
+    strength_factor(const double t) const;
 
     std::vector<std::unique_ptr<Stage>> stages;
 
@@ -163,7 +175,8 @@ namespace geocone
     void
     prepare(const Gravity  &gravity,
             const Geometry &geometry,
-            const Regions  &regions);
+            const Regions  &regions,
+            const bool      has_water);
 
     /** Stress at a point x of a material (Pa). */
     Mandel

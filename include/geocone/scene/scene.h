@@ -9,6 +9,7 @@
 #include <geocone/scene/loading.h>
 #include <geocone/scene/observation.h>
 #include <geocone/scene/obstacles.h>
+#include <geocone/scene/water.h>
 
 namespace geocone
 {
@@ -44,6 +45,7 @@ namespace geocone
     Materials          materials;
     Regions            regions;
     Gravity            gravity;
+    Water              water;
     InitialVelocity    initial_velocity;
     InitialStress      initial_stress;
     BoundaryConditions dirichlet;

@@ -173,9 +173,13 @@ namespace geocone
     std::string
     objection(const Multipliers::LightShare &share) const;
 
+    /** Adds what water at rest exerts on the soil. Collective. */
+    void
+    add_water(const MaterialPoints &points, const double t);
+
     /** External forces at time t. */
     void
-    evaluate_force(const double t);
+    evaluate_force(const MaterialPoints &points, const double t);
 
     /** vL from momentum, where the mass is partly consistent. */
     void

@@ -1,0 +1,71 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_scene_water_h
+#define geocone_scene_water_h
+
+#include <geocone/scene/loading.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <array>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * Water at rest below a piezometric line y = Y(x), with the pressure
+   *   u = gamma_w max(0, Y(x) - y).
+   * Stresses are effective ones, s' = s + u 1 (tension positive), and so
+   *   div s' + rho g - grad u = 0,
+   * rho the density of the soil with its water. Where the line runs above the
+   * ground the water outside presses with u on it: there, as on all of the free
+   * surface, the effective traction is zero, so that nothing else is to be added.
+   */
+  class Water : public dealii::ParameterAcceptor
+  {
+  public:
+    Water();
+
+    /** Checks the parameters. @throws InputError */
+    void
+    prepare(const Gravity &gravity);
+
+    bool
+    acts() const
+    {
+      return !table.empty();
+    }
+
+    /** u (Pa). */
+    double
+    pressure(const dealii::Point<dim> &x) const;
+
+    /** -grad u (N/m^3). */
+    dealii::Tensor<1, dim>
+    force(const dealii::Point<dim> &x) const;
+
+    /**
+     * The lines across which the force jumps, and at which u has a kink: that of the
+     * table, and upright ones below its corners.
+     * @param lower,upper corners of a box around the body
+     */
+    std::vector<std::array<dealii::Point<dim>, 2>>
+    lines(const dealii::Point<dim> &lower,
+          const dealii::Point<dim> &upper) const;
+
+    /** @throws InputError if there is water, with what knows none */
+    void
+    refuse(const std::string &what, const std::string &remedy) const;
+
+  private:
+    /** Y and its slope. */
+    std::array<double, 2>
+    level(const double x) const;
+
+    std::vector<dealii::Point<dim>> table;
+    double                          unit_weight = 9810.;
+  };
+} // namespace geocone
+
+#endif

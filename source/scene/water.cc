@@ -1,0 +1,129 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/scene/water.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace geocone
+{
+  using dealii::Point;
+  using dealii::Tensor;
+
+  Water::Water()
+    : dealii::ParameterAcceptor("/Water")
+  {
+    add_parameter("Table",
+                  table,
+                  "Piezometric line x, y; x, y; ... (m) from left to right, "
+                  "level beyond its ends; one point: level everywhere. Below "
+                  "it the pressure of the water grows with depth, and stresses "
+                  "are effective ones; where it is above the ground there is "
+                  "water outside. Densities are those of the soil with its "
+                  "water. Empty: no water.");
+    add_parameter("Unit weight", unit_weight, "Of water (N/m^3).");
+  }
+
+  void
+  Water::prepare(const Gravity &gravity)
+  {
+    if (!acts())
+      return;
+    for (std::size_t i = 0; i < table.size(); ++i)
+      if (!std::isfinite(table[i].square()) ||
+          (i > 0 && !(table[i][0] > table[i - 1][0])))
+        throw InputError("Water/Table",
+                         dealii::Patterns::Tools::to_string(table),
+                         "points x, y; x, y; ... with finite and growing x",
+                         "give the line from left to right; where it is "
+                         "upright, over a small distance");
+    if (!(unit_weight > 0. && std::isfinite(unit_weight)))
+      throw InputError(
+        "Water/Unit weight", unit_weight, "> 0 N/m^3, finite", "9810 is usual");
+    const Tensor<1, dim> g = gravity.at(1e300);
+    if (g[0] != 0. || !(g[1] < 0.))
+      throw InputError("Gravity/Acceleration",
+                       dealii::Patterns::Tools::to_string(g),
+                       "g_x = 0 and g_y < 0 where there is water",
+                       "e.g. 0, -9.81; or leave 'Water/Table' out");
+  }
+
+  std::array<double, 2>
+  Water::level(const double x) const
+  {
+    if (x <= table.front()[0])
+      return {{table.front()[1], 0.}};
+    if (x >= table.back()[0])
+      return {{table.back()[1], 0.}};
+    const auto next = std::upper_bound(
+      table.begin(),
+      table.end(),
+      x,
+      [](const double value, const Point<dim> &p) { return value < p[0]; });
+    const Point<dim> &a = *(next - 1), &b = *next;
+    const double      slope = (b[1] - a[1]) / (b[0] - a[0]);
+    return {{a[1] + slope * (x - a[0]), slope}};
+  }
+
+  double
+  Water::pressure(const Point<dim> &x) const
+  {
+    return acts() ? unit_weight * std::max(level(x[0])[0] - x[1], 0.) : 0.;
+  }
+
+  Tensor<1, dim>
+  Water::force(const Point<dim> &x) const
+  {
+    Tensor<1, dim> f;
+    if (!acts())
+      return f;
+    const auto [y, slope] = level(x[0]);
+    if (x[1] < y)
+      {
+        f[0] = -unit_weight * slope;
+        f[1] = unit_weight;
+      }
+    return f;
+  }
+
+  std::vector<std::array<Point<dim>, 2>>
+  Water::lines(const Point<dim> &lower, const Point<dim> &upper) const
+  {
+    std::vector<std::array<Point<dim>, 2>> all;
+    if (!acts())
+      return all;
+    // Beyond the box on both sides.
+    const double            beyond = 0.1 * (upper[0] - lower[0]);
+    std::vector<Point<dim>> corners;
+    if (lower[0] - beyond < table.front()[0])
+      corners.emplace_back(lower[0] - beyond, table.front()[1]);
+    corners.insert(corners.end(), table.begin(), table.end());
+    if (upper[0] + beyond > table.back()[0])
+      corners.emplace_back(upper[0] + beyond, table.back()[1]);
+    for (std::size_t i = 0; i + 1 < corners.size(); ++i)
+      all.push_back({{corners[i], corners[i + 1]}});
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+      {
+        const Point<dim>    &a      = corners[i];
+        const Tensor<1, dim> before = a - corners[i - 1],
+                             after  = corners[i + 1] - a;
+        const double turn = before[0] * after[1] - before[1] * after[0];
+        if (std::abs(turn) > 1e-12 * before.norm() * after.norm() &&
+            a[1] > lower[1])
+          all.push_back({{Point<dim>(a[0], lower[1] - beyond), a}});
+      }
+    return all;
+  }
+
+  void
+  Water::refuse(const std::string &what, const std::string &remedy) const
+  {
+    if (acts())
+      throw InputError("Water/Table",
+                       dealii::Patterns::Tools::to_string(table),
+                       "empty with " + what,
+                       remedy);
+  }
+} // namespace geocone
