@@ -99,6 +99,23 @@ def add_bar(axes, drawn, label, **options):
     axes.figure.colorbar(drawn, cax=bar, label=label, **options)
 
 
+def draw_water(axes, run):
+    """Draws the table of the water of a run, if there is any."""
+    text = run.parameters.get("Water/Table", "")
+    points = [tuple(map(float, point.split(","))) for point in text.split(";")
+              if point.strip()]
+    if not points:
+        return
+    x, y = np.array(points).T
+    low, high = axes.get_xlim()
+    x, y = [min(low, x[0]), *x, max(high, x[-1])], [y[0], *y, y[-1]]
+    axes.autoscale(False)
+    axes.plot(x, y, color="tab:blue", linewidth=1.5, linestyle=(0, (6, 2)))
+    place = low + 0.96 * (high - low)
+    axes.plot(place, np.interp(place, x, y), "v", color="tab:blue", markersize=7,
+              markerfacecolor="white")
+
+
 def disks(axes, field, values):
     """A disk for each point of a field, coloured by its value, the greatest in front;
     its size is that of the point, as far as is known."""

@@ -253,6 +253,16 @@ namespace geocone
       {
         if (!stage.until_failure)
           throw;
+        // What of the step was carried is the end of the curve.
+        if (done > 0.)
+          {
+            present.time = reached;
+            Place end    = place;
+            ++end.in_stage;
+            ++end.step;
+            end.time = reached;
+            record_step(stage, end);
+          }
         run_output.set_failure(
           {stage.name, reached, reached + 2. * substep, failure.what()});
         write_fields(reached);

@@ -42,8 +42,10 @@ def pictures_of(run, times=None):
     if run.method == "explicit MPM":
         from geocone.plots import explicit
         return explicit.pictures(run, times)
-    from geocone.plots import energy, load, newton, points, rates
-    return {"load_displacement.png": load.draw_run,
+    from geocone.plots import energy, load, newton, points, rates, safety
+    curve = ({"safety.png": safety.draw_run} if "safety" in run.summary else
+             {"load_displacement.png": load.draw_run})
+    return {**curve,
             "newton.png": newton.draw_run,
             "energy.png": energy.draw_implicit,
             "plastic_strain_rate.png": rates.draw_cells,

@@ -8,8 +8,8 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import LogNorm
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from geocone.style import (BLUE, COLORS, GREY, RATES, STRAINS, Skipped, add_bar, panels,
-                           plain, save, subplots, unit_for)
+from geocone.style import (BLUE, COLORS, GREY, RATES, STRAINS, Skipped, add_bar,
+                           draw_water, panels, plain, save, subplots, unit_for)
 
 
 def column(table, name):
@@ -93,6 +93,8 @@ def draw_mechanism(run, path):
                              shading="gouraud", cmap=STRAINS, vmin=0., vmax=1.)
     second.set_title("speed of the mechanism of the upper bound")
     add_bar(second, drawn, "over the largest", extend="max")
+    for axes in (first, second):
+        draw_water(axes, run)
     save(figure, run, path, cropped=True)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import LogNorm
 
-from geocone.style import RATES, SHOWN, Skipped, add_bar, disks, panels, plain, save
+from geocone.style import RATES, SHOWN, Skipped, add_bar, disks, draw_water, panels, plain, save
 
 ZONE = 1e-3  # the view is where the rate is more than this part of the greatest one
 
@@ -67,6 +67,8 @@ def draw_cells(run, path):
                              vmin=0., vmax=most)
     second.set_title(f"magnitude of the {name}")
     add_bar(second, drawn, f"{name} ({unit})")
+    for axes in (first, second):
+        draw_water(axes, run)
     save(figure, run, path, cropped=True)
 
 
