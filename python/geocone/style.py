@@ -18,6 +18,7 @@ from matplotlib.ticker import MaxNLocator
 from matplotlib.tri import Triangulation
 
 from geocone.files import add_to_list
+from geocone.reader import Missing
 
 # Okabe and Ito's colours and these maps are clear to colour-blind readers too.
 BLUE, ORANGE, GREY = "#0072B2", "#E69F00", "#a0a0a0"
@@ -101,7 +102,10 @@ def add_bar(axes, drawn, label, **options):
 
 def draw_water(axes, run):
     """Draws the table of the water of a run, if there is any."""
-    text = run.parameters.get("Water/Table", "")
+    try:
+        text = run.parameters.get("Water/Table", "")
+    except Missing:
+        return
     points = [tuple(map(float, point.split(","))) for point in text.split(";")
               if point.strip()]
     if not points:

@@ -60,7 +60,7 @@ check_unstructured(const std::string &name, std::vector<std::string> overrides)
   const Setup  setup(overrides);
   const double expected = unstructured_size(setup.mesh);
   const auto   n =
-    unstructured_mesh(setup.mesh, setup.scene.regions, MPI_COMM_WORLD)
+    unstructured_mesh(setup.mesh, setup.scene.regions, {}, MPI_COMM_WORLD)
       .cells.size();
   const bool holds = expected > n / 2. && expected < 2. * n;
   std::printf("%s: %s\n", name.c_str(), holds ? "yes" : "NO");

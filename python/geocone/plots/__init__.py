@@ -57,11 +57,15 @@ def draw_run(run, folder, times=None):
     """Draws all pictures of a run into a folder."""
     folder.mkdir(parents=True, exist_ok=True)
     try:
-        for name, draw in pictures_of(run, times).items():
+        pictures = pictures_of(run, times)
+        for name, draw in pictures.items():
             try:
                 draw(run, folder / name)
             except (Missing, Skipped) as reason:
                 print(f"{folder / name} is not drawn: {reason}")
+        finish()  # the page holds the pictures
+        from geocone.plots import page
+        print(page.write_page(run, folder, pictures))
     except (PlotError, ReadError, OSError):
         raise
     except Exception as problem:  # damaged results may fail anywhere
