@@ -46,6 +46,7 @@ namespace geocone
     options.tolerance             = tolerance;
     options.flow_tolerance        = tolerance;
     options.equilibrium_tolerance = 1e-7; // the repair may leave the cone
+    options.stresses              = true;
     CertifiedBounds::Side side;
     side.solution   = InteriorPoint::solve(below, options);
     side.n_unknowns = below.n_unknowns();

@@ -204,9 +204,20 @@ namespace geocone
       void
       direction(const Points &d);
 
-      /** Repairs equilibrium in the metric of the cones, so that x stays in. */
+      /** Repairs equilibrium in the metric of the cones, in which x hardly moves
+       *  across their borders; until what is missed no longer falls. */
       void
       polish();
+
+      /** What of the load is left when the stresses are scaled back into their
+       *  cones; nothing below zero where they miss equilibrium. */
+      double
+      admissible_load() const;
+
+      /** Keeps the polished stresses if they bear more than those that are kept. The
+       *  iterate does not change. */
+      void
+      keep_stresses();
 
       const BoundProblem                &problem;
       const InteriorPoint::Options       options;
@@ -224,6 +235,9 @@ namespace geocone
       double               r_g = 0., mu = 0., gap = 0., load = 0.;
       double               equilibrium = 0., flow = 0.;
       std::vector<Scaling> scaling;
+
+      Points kept; ///< stresses() of the best iterate, and what they bear
+      double kept_load = 0., most_admissible = -1.;
     };
 
     void
@@ -362,17 +376,54 @@ namespace geocone
     void
     Solver::polish()
     {
-      const VectorXd d = matrix.solve(-r_d);
-      const Points   e = rates(d);
+      for (double before = 1.; equilibrium < before / 2.;)
+        {
+          before           = equilibrium;
+          const VectorXd d = matrix.solve(-r_d);
+          const Points   e = rates(d);
+          for (unsigned int p = 0; p < n; ++p)
+            if (problem.cone[p].is_cylinder())
+              {
+                s_n[p] += bulk * e[p][0];
+                x[p].tail<2>() +=
+                  scaling[p].tangential() * omega[p] * e[p].tail<2>();
+              }
+            else
+              x[p] += scaling[p].square * omega[p] * e[p];
+          evaluate();
+        }
+    }
+
+    double
+    Solver::admissible_load() const
+    {
+      double part = 1.;
       for (unsigned int p = 0; p < n; ++p)
-        if (problem.cone[p].is_cylinder())
-          {
-            s_n[p] += bulk * e[p][0];
-            x[p].tail<2>() +=
-              scaling[p].tangential() * omega[p] * e[p].tail<2>();
-          }
-        else
-          x[p] += scaling[p].square * omega[p] * e[p];
+        {
+          const double k = problem.cone[p].k;
+          if (const double f = x[p].tail<2>().norm() - x[p][0]; f > 0.)
+            part = std::min(part, k / (k + f));
+        }
+      if (!(equilibrium < 1e-10) || !std::isfinite(load))
+        return -1.;
+      // Beside a dead load nothing can be scaled back.
+      return part < 1. && problem.dead.squaredNorm() > 0. ? 0. : part * load;
+    }
+
+    void
+    Solver::keep_stresses()
+    {
+      const Points   x_before   = x;
+      const VectorXd s_n_before = s_n;
+      polish();
+      if (const double bears = admissible_load(); bears > most_admissible)
+        {
+          most_admissible = bears;
+          kept            = stresses();
+          kept_load       = load;
+        }
+      x   = x_before;
+      s_n = s_n_before;
       evaluate();
     }
 
@@ -441,6 +492,8 @@ namespace geocone
                 "the matrix is singular: some velocities have no resistance";
               break;
             }
+          if (options.stresses && gap < 0.05 * std::abs(load))
+            keep_stresses();
           if (problem.has_factor())
             x_2 = matrix.solve(problem.live);
 
@@ -487,15 +540,15 @@ namespace geocone
           lambda += b_x * d_lambda;
           q += b_z * dq;
         }
-      // To rounding, where it stops to fall.
       if (solution.converged && !scaling.empty())
-        for (double before = 1.; equilibrium < before / 2.;)
-          {
-            before = equilibrium;
-            polish();
-          }
+        polish();
       solution.q = q;
       solution.s = stresses();
+      if (options.stresses && most_admissible > admissible_load())
+        {
+          solution.s = kept;
+          load       = kept_load;
+        }
       for (unsigned int p = 0; p < n; ++p) // s_n of cones: (x_0 - k)/a
         if (!problem.cone[p].is_cylinder())
           solution.s[p][0] /= problem.cone[p].a;

@@ -34,6 +34,12 @@ namespace geocone
    * each cone in the barrier (rates times V/mean V). For Tresca's cylinder x_0 = k
    * is eliminated in the point, and s_n is found by the method of multipliers. One
    * sparse Cholesky factorisation per iteration.
+   *
+   * Stresses are to be in equilibrium to rounding. What an iterate lacks is added in
+   * the metric of its cones, which leaves them by the less the farther the iterate
+   * is from their borders: the last one is not always the best of them. Where they
+   * count, the stresses are those of the iterate whose load, scaled back until all
+   * are in their cones, is the highest.
    */
   class InteriorPoint
   {
@@ -44,6 +50,9 @@ namespace geocone
       double       flow_tolerance = 1e-8; ///< |z + Bs q| relative to |Bs q|
       double       equilibrium_tolerance = 1e-4; ///< relative to the forces
       unsigned int max_iterations        = 60;
+
+      /** Whether the stresses of the iterates count, and not the velocities. */
+      bool stresses = false;
     };
 
     static BoundSolution
