@@ -51,6 +51,11 @@ namespace geocone
     side.solution   = InteriorPoint::solve(below, options);
     side.n_unknowns = below.n_unknowns();
     side.bound      = certify_lower(bound, below, side.solution);
+    const auto e    = strain_rates(below, below.B, side.solution.q);
+    side.power.assign(below.n_cells(), 0.);
+    for (unsigned int p = 0; p < below.n_points(); ++p)
+      side.power[p / 3] +=
+        below.volume[p] * std::abs(side.solution.s[p].dot(e[p]));
     return side;
   }
 
@@ -62,7 +67,23 @@ namespace geocone
     bounds.upper             = solve_upper(bound, above, tolerance);
     bounds.lower             = certified_lower(bound, tolerance);
 
-    bounds.gap = gap_of_cells(above, bounds.upper.bound, bounds.lower.bound);
+    bounds.gap    = gap_of_cells(above, bounds.upper.bound, bounds.lower.bound);
+    bounds.uneven = bounds.gap;
+    // Where stresses are at their limit although the mechanism of the upper bound
+    // is elsewhere.
+    std::vector<double> power      = bounds.lower.power;
+    double              sum_of_gap = 0., sum_of_power = 0.;
+    for (unsigned int c = 0; c < power.size(); ++c)
+      {
+        power[c] *= std::sqrt(bound.triangles.area(c));
+        sum_of_gap += std::max(bounds.gap[c], 0.);
+        sum_of_power += power[c];
+      }
+    constexpr double part = 0.3;
+    if (std::isfinite(sum_of_power) && sum_of_power > 0.)
+      for (unsigned int c = 0; c < power.size(); ++c)
+        bounds.uneven[c] = std::max(bounds.gap[c], 0.) +
+                           part * sum_of_gap / sum_of_power * power[c];
     const double work =
       above.has_factor() ? above.live.dot(bounds.upper.bound.q) : 1.;
     bounds.gap_share =

@@ -58,7 +58,7 @@ namespace geocone
               fault = "the limit load of this scene has no finite bounds";
             else
               {
-                next = sizes_by_gap(triangles, bounds.gap, n_asked);
+                next = sizes_by_gap(triangles, bounds.uneven, n_asked);
                 gap  = upper / lower - 1.;
               }
           }

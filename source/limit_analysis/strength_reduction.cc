@@ -97,7 +97,8 @@ namespace geocone
       {
         level.factor = factor;
         level.bounds = certified_bounds(reduced(factor), tolerance);
-        const auto &[upper, lower, gap, share] = level.bounds;
+        const auto &[upper, lower, gap, uneven, share] = level.bounds;
+        (void)uneven;
         level.iterations_lower += lower.solution.factorisations;
         level.iterations_upper += upper.solution.factorisations;
         checked(factor, upper);

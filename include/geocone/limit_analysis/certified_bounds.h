@@ -19,11 +19,19 @@ namespace geocone
       BoundSolution solution;
       Bound         bound;
       unsigned int  n_unknowns = 0;
+
+      /** Of the lower side: |V s.e| of each triangle for its own velocities. */
+      std::vector<double> power;
     };
     Side upper, lower;
 
     /** The part of each triangle in the gap, see gap_of_cells(). */
     std::vector<double> gap;
+
+    /** What the next mesh is to make equal: those parts, and of the lower bound the power
+     *  on its own velocities times the size of the triangle, which shows where its
+     *  stresses are at their limit although the upper bound's mechanism is elsewhere. */
+    std::vector<double> uneven;
 
     /** Their sum over the gap of the bounds; 1 where both fields are exact. */
     double gap_share = 0.;
@@ -47,7 +55,7 @@ namespace geocone
    * Sizes that make the parts of the gap equal on the next mesh, where a part falls
    * with the size to the power 3: its mean with the cells around counts, as a coarse
    * cell beside others that are refined would have to wait for one more mesh.
-   * @param gap part of each triangle
+   * @param gap CertifiedBounds::uneven
    * @param n_wanted about so many triangles
    */
   CellSizes

@@ -12,6 +12,7 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,6 +51,13 @@ namespace geocone
     }
 
   private:
+    /** Of the interior-point method. */
+    double
+    inner_tolerance() const
+    {
+      return std::min(tolerance, gap_tolerance / 10.);
+    }
+
     /** @throws InputError if the table of water cuts cells of the first mesh */
     void
     check_water() const;
@@ -123,7 +131,7 @@ namespace geocone
     double       growth        = 2.;
     unsigned int most_cells    = 20000;
     unsigned int most_levels   = 12;
-    double       tolerance     = 1e-4;
+    double       tolerance     = 1e-3;
 
     std::optional<CellSizes> sizes; ///< of the next mesh
     std::vector<BoundLevel>  levels;
