@@ -22,8 +22,7 @@ namespace geocone
     /** What rounding may leave: of equilibrium and incompressibility, and of the
      *  strength where there is no cohesion to scale by, as at a free surface, where
      *  stresses are at the apex. */
-    constexpr double rounding          = 1e-8;
-    constexpr double rounding_strength = 1e-8;
+    constexpr double rounding = 1e-8;
 
     double
     excess(const PointCone &cone, const Vector3d &s)

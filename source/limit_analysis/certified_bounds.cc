@@ -47,6 +47,7 @@ namespace geocone
     options.flow_tolerance        = tolerance;
     options.equilibrium_tolerance = 1e-7; // the repair may leave the cone
     options.stresses              = true;
+    options.admissible            = 0.5 * rounding_strength;
     CertifiedBounds::Side side;
     side.solution   = InteriorPoint::solve(below, options);
     side.n_unknowns = below.n_unknowns();

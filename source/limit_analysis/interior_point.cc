@@ -397,17 +397,25 @@ namespace geocone
     double
     Solver::admissible_load() const
     {
-      double part = 1.;
-      for (unsigned int p = 0; p < n; ++p)
-        {
-          const double k = problem.cone[p].k;
-          if (const double f = x[p].tail<2>().norm() - x[p][0]; f > 0.)
-            part = std::min(part, k / (k + f));
-        }
       if (!(equilibrium < 1e-10) || !std::isfinite(load))
         return -1.;
-      // Beside a dead load nothing can be scaled back.
-      return part < 1. && problem.dead.squaredNorm() > 0. ? 0. : part * load;
+      const Points s    = stresses();
+      double       part = 1., beyond = 0., largest = 0.;
+      for (unsigned int p = 0; p < n; ++p)
+        {
+          const PointCone &cone = problem.cone[p];
+          const double     s_n  = cone.is_cylinder() ? 0. : s[p][0] / cone.a;
+          largest = std::max(largest, std::hypot(s_n, s[p].tail<2>().norm()));
+          if (const double f = x[p].tail<2>().norm() - x[p][0]; f > 0.)
+            {
+              beyond = std::max(beyond, f);
+              part   = std::min(part, cone.k / (cone.k + f));
+            }
+        }
+      if (problem.dead.squaredNorm() == 0. && part > 0.)
+        return part * load;
+      // Nothing can be scaled back: what is beyond must be rounding.
+      return beyond < options.admissible * largest ? load : 0.;
     }
 
     void
@@ -432,7 +440,8 @@ namespace geocone
     {
       BoundSolution solution;
       start();
-      double most = 0.; // largest stress of the last iterate
+      double       most            = 0.; // largest stress of the last iterate
+      unsigned int first_converged = options.max_iterations + 1;
       for (unsigned int iteration = 0;; ++iteration)
         {
           evaluate();
@@ -453,6 +462,12 @@ namespace geocone
               flow < options.flow_tolerance &&
               equilibrium < options.equilibrium_tolerance &&
               std::abs(r_g) < options.tolerance)
+            first_converged = std::min(first_converged, iteration);
+          // What cannot be scaled back is beyond its cones in proportion to the gap:
+          // it needs a sharper optimum.
+          if (iteration >= first_converged &&
+              (!options.stresses || most_admissible > 0. ||
+               iteration == first_converged + 6))
             {
               solution.converged = true;
               break;

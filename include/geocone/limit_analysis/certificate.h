@@ -11,6 +11,10 @@
 
 namespace geocone
 {
+  /** What stresses may be beyond their cones where they cannot be scaled back, over the
+   *  largest of them. */
+  constexpr double rounding_strength = 1e-8;
+
   /**
    * A bound, and what proves it: all is computed anew from the fields, whatever
    * solver made them. In units of the problem.

@@ -53,6 +53,10 @@ namespace geocone
 
       /** Whether the stresses of the iterates count, and not the velocities. */
       bool stresses = false;
+
+      /** How far beyond their cones they may be where nothing can be scaled back, over
+       *  the largest of them. */
+      double admissible = 0.;
     };
 
     static BoundSolution
