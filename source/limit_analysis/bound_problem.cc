@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <vector>
 
 namespace geocone
@@ -22,6 +23,15 @@ namespace geocone
     return std::any_of(cone.begin(), cone.end(), [](const PointCone &one) {
       return one.is_cylinder();
     });
+  }
+
+  bool
+  BoundProblem::can_be_scaled() const
+  {
+    return dead.squaredNorm() == 0. &&
+           std::all_of(cone.begin(), cone.end(), [](const PointCone &one) {
+             return one.k > 0.;
+           });
   }
 
   unsigned int
@@ -72,6 +82,9 @@ namespace geocone
 
   namespace
   {
+    /** The cone of a point that has no part in anything: its B is zero. */
+    constexpr PointCone nothing = {0., 1.};
+
     /** sym(b x g) of the unit vector b along a component, in cone axes. */
     Mandel
     symmetric_part(const unsigned int component, const Tensor<1, dim> &g)
@@ -98,7 +111,9 @@ namespace geocone
             problem.volume.push_back(triangles.area(c) / 3. / (L * L));
             problem.cone.push_back(bound.cones[triangles.material[c]]);
           }
+      problem.n_triangles = triangles.cells.size();
       problem.is_prescribed.assign(n_dofs, false);
+      problem.has_no_force.assign(n_dofs, false);
       problem.prescribed.setZero(n_dofs);
       problem.dead.setZero(n_dofs);
       problem.live.setZero(n_dofs);
@@ -157,19 +172,6 @@ namespace geocone
       return -1. * g / g.norm();
     }
 
-    /** The component along which a normal is. @throws InputError if oblique */
-    unsigned int
-    axis_of(const Tensor<1, dim> &n, const BoundaryCondition &condition)
-    {
-      for (unsigned int d = 0; d < dim; ++d)
-        if (std::abs(n[1 - d]) < 1e-9)
-          return d;
-      throw InputError(condition.parameter("Velocity normal"),
-                       condition.formula(dim),
-                       "sides along x or y with 'Analysis/Kind' = limit load",
-                       "prescribe both components, or turn the scene");
-    }
-
     /** Calls f(component, value) for what a condition prescribes at x. */
     template <typename Function>
     void
@@ -182,9 +184,9 @@ namespace geocone
       for (unsigned int d = 0; d < dim; ++d)
         if (condition.components[d])
           f(d, condition.components[d]->value(x, 0.) / unit);
-      if (condition.normal)
+      if (condition.normal && is_along_axis(n)) // else there is an interface
         {
-          const unsigned int d = axis_of(n, condition);
+          const unsigned int d = std::abs(n[0]) > 0.5 ? 0 : 1;
           f(d, n[d] * condition.normal->value(x, 0.) / unit);
         }
     }
@@ -253,6 +255,91 @@ namespace geocone
           }
     }
 
+    /** What a point of an interface is made of. */
+    struct InterfacePoint
+    {
+      double part = 0.; ///< of the edge's length
+
+      /** The x dofs of the edge's nodes, and their parts in the velocity. */
+      std::vector<std::pair<unsigned int, double>> nodes;
+    };
+
+    /** Adds the interfaces as cells, and prescribes the obstacles' velocities.
+     *  @param points_of (edge) -> its three points
+     *  @param first_dof of the obstacles */
+    template <typename PointsOfEdge>
+    void
+    add_interfaces(const BoundScene   &bound,
+                   const PointsOfEdge &points_of,
+                   const unsigned int  first_dof,
+                   BoundProblem       &problem)
+    {
+      const Obstacles &obstacles = bound.scene.obstacles;
+      for (unsigned int o = 0; o < obstacles.list.size(); ++o)
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            problem.is_prescribed[first_dof + dim * o + d] = true;
+            problem.prescribed[first_dof + dim * o + d] =
+              obstacles.list[o]->velocity(0.)[d] / bound.units.velocity;
+          }
+      for (const Interface &interface : bound.interfaces)
+        {
+          const auto  &ends = bound.triangles.edges[interface.held.edge].vertices;
+          const double length =
+            bound.triangles.vertices[ends[0]].distance(
+              bound.triangles.vertices[ends[1]]) /
+            bound.units.length;
+          const std::array<InterfacePoint, 3> points =
+            points_of(interface.held.edge);
+          const Tensor<1, dim> &N = interface.normal, T({-N[1], N[0]});
+          for (const Interface::Face &face : interface.faces)
+            {
+              // The dofs that any of the points knows, and of the obstacle.
+              std::vector<unsigned int> dofs;
+              const auto                column = [&](const unsigned int dof) {
+                const auto found = std::find(dofs.begin(), dofs.end(), dof);
+                if (found != dofs.end())
+                  return unsigned(found - dofs.begin());
+                dofs.push_back(dof);
+                return unsigned(dofs.size() - 1);
+              };
+              BoundProblem::Strains B =
+                BoundProblem::Strains::Zero(9, problem.n_local);
+              for (unsigned int i = 0; i < 3; ++i)
+                {
+                  const InterfacePoint &point = points[i];
+                  const bool            acts =
+                    !point.nodes.empty() &&
+                    !problem.has_no_force[point.nodes.front().first];
+                  problem.volume.push_back(length * point.part);
+                  problem.cone.push_back(
+                    acts ? PointCone{face.a, face.k / bound.units.stress} :
+                           nothing);
+                  const auto add = [&](const unsigned int dof, const double part) {
+                    for (unsigned int d = 0; d < dim; ++d)
+                      {
+                        const unsigned int j = column(dof + d);
+                        if (face.has_normal)
+                          B(3 * i, j) -= part * N[d];
+                        if (face.has_tangential)
+                          B(3 * i + 1, j) -= part * T[d];
+                      }
+                  };
+                  if (acts)
+                    for (const auto &[dof, part] : point.nodes)
+                      add(dof, part);
+                  if (acts && interface.obstacle >= 0)
+                    add(first_dof + dim * interface.obstacle, -1.);
+                }
+              // Unused columns are zero.
+              dofs.resize(problem.n_local, dofs.empty() ? 0 : dofs.front());
+              problem.dofs.insert(problem.dofs.end(), dofs.begin(), dofs.end());
+              problem.B.push_back(B);
+              problem.owner.push_back(interface.held.cell);
+            }
+        }
+    }
+
     /** Strains at the vertices of a cell of quadratic velocities, in cone axes. */
     BoundProblem::Strains
     strains_of_quadratic(const Triangles &triangles, const unsigned int cell)
@@ -282,14 +369,67 @@ namespace geocone
 
   } // namespace
 
+  namespace
+  {
+    /** Takes the stress out where soil without cohesion is free.
+     *  @param end_dof (edge, vertex) -> its x dof */
+    template <typename EndDof>
+    void
+    free_surfaces_without_cohesion(const BoundScene &bound,
+                                   const EndDof     &end_dof,
+                                   BoundProblem     &problem)
+    {
+      const Triangles  &triangles = bound.triangles;
+      std::vector<bool> is_apex(triangles.vertices.size(), false);
+      std::set<unsigned int> slides;
+      for (const Interface &interface : bound.interfaces)
+        slides.insert(interface.held.edge);
+      for (const auto &outer : triangles.outer_edges())
+        if (slides.count(outer.edge) == 0)
+          for (const unsigned int v : triangles.edges[outer.edge].vertices)
+            {
+              bool is_free = true;
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  const unsigned int dof = end_dof(outer.edge, v) + d;
+                  is_free = is_free && !problem.is_prescribed[dof] &&
+                            problem.dead[dof] == 0. && problem.live[dof] == 0.;
+                }
+              if (is_free)
+                is_apex[v] = true;
+            }
+      for (unsigned int c = 0; c < triangles.cells.size(); ++c)
+        if (problem.cone[3 * c].k > 0.)
+          for (const unsigned int v : triangles.cells[c])
+            is_apex[v] = false;
+      for (unsigned int c = 0; c < triangles.cells.size(); ++c)
+        for (unsigned int i = 0; i < 3; ++i)
+          if (const unsigned int v = triangles.cells[c][i]; is_apex[v])
+            {
+              problem.cone[3 * c + i] = nothing;
+              problem.B[c].middleRows<3>(3 * i).setZero();
+              for (const unsigned int e : {(i + 1) % 3, (i + 2) % 3})
+                for (unsigned int d = 0; d < dim; ++d)
+                  {
+                    const unsigned int dof =
+                      end_dof(triangles.edges_of_cell[c][e], v) + d;
+                    problem.has_no_force[dof]  = true;
+                    problem.is_prescribed[dof] = true;
+                    problem.prescribed[dof]    = 0.;
+                  }
+            }
+    }
+  } // namespace
+
   BoundProblem
   upper_problem(const BoundScene &bound)
   {
     const Triangles   &triangles  = bound.triangles;
     const double       L          = bound.units.length;
     const unsigned int n_vertices = triangles.vertices.size();
-    BoundProblem       problem =
-      begin_problem(bound, 12, dim * (n_vertices + triangles.edges.size()));
+    const unsigned int n_nodes    = n_vertices + triangles.edges.size();
+    BoundProblem       problem    = begin_problem(
+      bound, 12, dim * (n_nodes + bound.scene.obstacles.list.size()));
     std::vector<bool> is_used(n_vertices, false);
     for (unsigned int c = 0; c < triangles.cells.size(); ++c)
       {
@@ -330,6 +470,19 @@ namespace geocone
            {dim * (n_vertices + edge), middle, middle, 2. / 3.}}};
       },
       problem);
+    add_interfaces(
+      bound,
+      [&](const unsigned int edge) {
+        const auto        &ends = triangles.edges[edge].vertices;
+        const unsigned int a = dim * ends[0], b = dim * ends[1],
+                           m = dim * (n_vertices + edge);
+        return std::array<InterfacePoint, 3>{
+          {{1. / 3., {{a, 1.}}},
+           {1. / 3., {{m, 2.}, {a, -0.5}, {b, -0.5}}},
+           {1. / 3., {{b, 1.}}}}};
+      },
+      dim * n_nodes,
+      problem);
     return problem;
   }
 
@@ -339,8 +492,9 @@ namespace geocone
     const Triangles   &triangles = bound.triangles;
     const double       L         = bound.units.length;
     const unsigned int n_cells   = triangles.cells.size();
-    BoundProblem       problem =
-      begin_problem(bound, 14, dim * (n_cells + 2 * triangles.edges.size()));
+    const unsigned int n_nodes   = n_cells + 2 * triangles.edges.size();
+    BoundProblem       problem   = begin_problem(
+      bound, 14, dim * (n_nodes + bound.scene.obstacles.list.size()));
     const auto end_dof = [&](const unsigned int edge,
                              const unsigned int vertex,
                              const unsigned int component) {
@@ -397,6 +551,23 @@ namespace geocone
           }
         return nodes;
       },
+      problem);
+    free_surfaces_without_cohesion(
+      bound,
+      [&](const unsigned int edge, const unsigned int vertex) {
+        return end_dof(edge, vertex, 0);
+      },
+      problem);
+    add_interfaces(
+      bound,
+      [&](const unsigned int edge) {
+        const auto &ends = triangles.edges[edge].vertices;
+        return std::array<InterfacePoint, 3>{
+          {{1. / 2., {{end_dof(edge, ends[0], 0), 1.}}},
+           {1. / 2., {{end_dof(edge, ends[1], 0), 1.}}},
+           {1. / 2., {}}}};
+      },
+      dim * n_nodes,
       problem);
     return problem;
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
 #include <geocone/limit_analysis/bounded_load.h>
 
 #include <algorithm>
@@ -24,15 +25,17 @@ namespace geocone
       // Rigid motions in the dofs that are prescribed: translations and a rotation.
       Eigen::Matrix3d  squares   = Eigen::Matrix3d::Zero();
       const Triangles &triangles = bound.triangles;
-      const auto       add = [&](const unsigned int node, const Point<dim> &x) {
+      const auto hold      = [&](const Point<dim> &x, const Tensor<1, dim> &n) {
+        const Eigen::Vector3d row(n[0],
+                                  n[1],
+                                  (x[0] * n[1] - x[1] * n[0]) /
+                                    bound.units.length);
+        squares += row * row.transpose();
+      };
+      const auto add = [&](const unsigned int node, const Point<dim> &x) {
         for (unsigned int d = 0; d < dim; ++d)
           if (problem.is_prescribed[dim * node + d])
-            {
-              Eigen::Vector3d row = Eigen::Vector3d::Zero();
-              row[d]              = 1.;
-              row[2] = (d == 0 ? -x[1] : x[0]) / bound.units.length;
-              squares += row * row.transpose();
-            }
+            hold(x, Point<dim>::unit_vector(d));
       };
       std::vector<bool> is_used(triangles.vertices.size(), false);
       for (const auto &cell : triangles.cells)
@@ -48,6 +51,17 @@ namespace geocone
                            &b    = triangles.vertices[ends[1]];
           add(triangles.vertices.size() + e, Point<dim>(a + (b - a) / 2.));
         }
+      for (const Interface &interface : bound.interfaces)
+        for (const unsigned int v :
+             triangles.edges[interface.held.edge].vertices)
+          for (const Interface::Face &face : interface.faces)
+            {
+              const Tensor<1, dim> &n = interface.normal;
+              if (face.has_normal)
+                hold(triangles.vertices[v], n);
+              if (face.has_tangential)
+                hold(triangles.vertices[v], Tensor<1, dim>({-n[1], n[0]}));
+            }
       const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares);
       if (solver.eigenvalues()[0] > 1e-10 * solver.eigenvalues()[2])
         return;
@@ -62,6 +76,46 @@ namespace geocone
            : std::abs(free[1]) > 0.7 ? "translation along y"
                                      : "translation") +
           " of the body, so no load has a limit: hold another side");
+    }
+
+    /** @throws InputError if a vertex that is held is in the way of an obstacle
+     *  @param problem of quadratic velocities */
+    void
+    check_ways(const BoundScene &bound, const BoundProblem &problem)
+    {
+      const Triangles &triangles = bound.triangles;
+      for (const Interface &interface : bound.interfaces)
+        for (const unsigned int v :
+             triangles.edges[interface.held.edge].vertices)
+          {
+            if (interface.obstacle < 0)
+              continue;
+            const Obstacle &obstacle =
+              *bound.scene.obstacles.list[interface.obstacle];
+            const Tensor<1, dim> V = obstacle.velocity(0.);
+            double               u_N     = 0.;
+            bool                 is_free = false;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                const double n = interface.normal[d];
+                if (std::abs(n) < 1e-9)
+                  continue;
+                is_free = is_free || !problem.is_prescribed[dim * v + d];
+                u_N += n * (problem.prescribed[dim * v + d] *
+                              bound.units.velocity -
+                            V[d]);
+              }
+            if (!is_free && u_N < -1e-9 * bound.units.velocity)
+              throw InputError(
+                obstacle.parameter("Velocity x"),
+                dealii::Patterns::Tools::to_string(V),
+                "a motion to which the body can give way",
+                format("the body is held at (%g, %g), where the obstacle "
+                       "touches it: let it slide there; a rough side can be an "
+                       "obstacle, too, with 'Friction coefficient' = tan(phi)",
+                       triangles.vertices[v][0],
+                       triangles.vertices[v][1]));
+          }
     }
   } // namespace
 
@@ -117,6 +171,7 @@ namespace geocone
     const BoundScene   bound   = on(scene, triangles);
     const BoundProblem problem = upper_problem(bound);
     check_supports(bound, problem);
+    check_ways(bound, problem);
     if (chosen != LoadFactor::velocity && !problem.has_factor())
       throw InputError(chosen == LoadFactor::all ? "Gravity/Acceleration"
                                                  : "Analysis/Load factor of",
@@ -163,6 +218,20 @@ namespace geocone
                                    const Triangles &triangles) const
   {
     std::optional<Tensor<1, dim>> velocity;
+    const std::string one_velocity =
+      "one velocity for all that is pushed, with 'Analysis/Kind' = limit load";
+    const std::string remedy = "the bounded load is the reaction to one "
+                               "translation";
+    for (const auto &obstacle : scene.obstacles.list)
+      if (const Tensor<1, dim> own = obstacle->velocity(0.); own.norm() > 0.)
+        {
+          if (velocity && (*velocity - own).norm() > 1e-9 * own.norm())
+            throw InputError(obstacle->parameter("Velocity x"),
+                             dealii::Patterns::Tools::to_string(own[0]),
+                             one_velocity,
+                             remedy);
+          velocity = own;
+        }
     for (const auto &condition : scene.dirichlet.list)
       for (const auto &held : triangles.held_edges(*condition))
         for (const unsigned int v : triangles.edges[held.edge].vertices)
@@ -184,9 +253,8 @@ namespace geocone
                 condition->parameter(here[1] != 0. ? "Velocity y"
                                                    : "Velocity x"),
                 condition->formula(here[1] != 0. ? 1 : 0),
-                "one velocity for all that is pushed, with 'Analysis/Kind' = "
-                "limit load",
-                "the bounded load is the reaction to one translation");
+                one_velocity,
+                remedy);
             velocity = here;
           }
     return velocity;
@@ -272,7 +340,8 @@ namespace geocone
   BoundScene
   BoundedLoad::on(const Scene &scene, const Triangles &triangles) const
   {
-    BoundScene bound = {scene, triangles, chosen, units, {}};
+    BoundScene bound = {
+      scene, triangles, chosen, units, {}, interfaces(scene, triangles)};
     for (const FlowCone &cone : flow_cones)
       bound.cones.push_back({cone.a, cone.k / units.stress});
     return bound;

@@ -27,7 +27,7 @@ namespace geocone
           {
             const int row    = row_of_dof[problem.dofs[n * c + i]],
                       column = row_of_dof[problem.dofs[n * c + j]];
-            if (column >= 0 && row >= column)
+            if (row >= 0 && column >= row)
               entries.emplace_back(row, column, 1);
           }
     Eigen::SparseMatrix<char> pattern(n_rows, n_rows);
@@ -43,7 +43,7 @@ namespace geocone
           {
             const int row    = row_of_dof[problem.dofs[n * c + i]],
                       column = row_of_dof[problem.dofs[n * c + j]];
-            if (column >= 0 && row >= column)
+            if (row >= 0 && column >= row)
               place[(c * n + i) * n + j] =
                 std::lower_bound(
                   rows + first[column], rows + first[column + 1], row) -
@@ -71,8 +71,8 @@ namespace geocone
             if (const int k = place[(c * n + i) * n + j]; k >= 0)
               values[k] += cell(i, j);
       }
-    for (int j = 0; j < matrix.cols(); ++j) // the diagonal comes first
-      values[matrix.outerIndexPtr()[j]] *= 1. + 1e-15;
+    for (int j = 0; j < matrix.cols(); ++j) // the diagonal comes last
+      values[matrix.outerIndexPtr()[j + 1] - 1] *= 1. + 1e-15;
     factors.factorize(matrix);
     ++n_factorisations;
     return factors.info() == Eigen::Success;

@@ -70,6 +70,25 @@ namespace geocone
       return sum;
     }
 
+    /** What the body exerts on the obstacles, in all dofs. */
+    VectorXd
+    interface_forces(const BoundProblem          &problem,
+                     const std::vector<Vector3d> &s)
+    {
+      VectorXd           f = VectorXd::Zero(problem.n_dofs());
+      const unsigned int n = problem.n_local;
+      for (unsigned int c = problem.n_triangles; c < problem.n_cells(); ++c)
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            const VectorXd own =
+              problem.B[c].middleRows<3>(3 * i).transpose() *
+              (problem.volume[3 * c + i] * s[3 * c + i]);
+            for (unsigned int j = 0; j < n; ++j)
+              f[problem.dofs[n * c + j]] += own[j];
+          }
+      return f;
+    }
+
     /** What linear stresses have to do with the loads of a lower problem. */
     struct Statics
     {
@@ -109,7 +128,8 @@ namespace geocone
                                 F[dim * c + d] / (3. * problem.volume[3 * c])) *
                          std::sqrt(triangles.area(c)) / L);
         }
-      const auto tractions = tractions_at_ends(triangles, s);
+      const auto     tractions   = tractions_at_ends(triangles, s);
+      const VectorXd at_interfaces = interface_forces(problem, s);
       for (unsigned int e = 0; e < triangles.edges.size(); ++e)
         {
           const auto  &ends = triangles.edges[e].vertices;
@@ -121,13 +141,17 @@ namespace geocone
               {
                 const unsigned int dof = dim * (n_cells + 2 * e + end) + d;
                 const double       t   = tractions[2 * e + end][d];
-                if (problem.is_prescribed[dof])
-                  result.power += (t * half - F[dof]) * problem.prescribed[dof];
+                const double left = t * half + at_interfaces[dof] - F[dof];
+                if (problem.is_prescribed[dof] && !problem.has_no_force[dof])
+                  result.power += left * problem.prescribed[dof];
                 else
-                  result.error =
-                    std::max(result.error, std::abs(t - F[dof] / half));
+                  result.error = std::max(result.error, std::abs(left) / half);
               }
         }
+      for (unsigned int dof = dim * (n_cells + 2 * triangles.edges.size());
+           dof < problem.n_dofs();
+           ++dof)
+        result.power += at_interfaces[dof] * problem.prescribed[dof];
       result.error /= largest;
       return result;
     }
@@ -217,6 +241,8 @@ namespace geocone
     for (unsigned int p = 0; p < problem.n_points(); ++p)
       {
         const PointCone &cone = problem.cone[p];
+        if (problem.B[p / 3].middleRows<3>(3 * (p % 3)).isZero(0.))
+          result.s[p].setZero(); // it has no part in anything
         largest               = std::max(largest, result.s[p].norm());
         if (const double f = excess(cone, result.s[p]); f > 0.)
           {
@@ -225,7 +251,7 @@ namespace geocone
           }
       }
     result.violation /= largest;
-    const bool is_scaled = problem.dead.squaredNorm() == 0. && theta > 0.;
+    const bool is_scaled = problem.can_be_scaled();
     if (!is_scaled)
       theta = 1.;
     const Statics found = statics(bound, problem, result.s, solution.load);
@@ -299,8 +325,8 @@ namespace geocone
           {
             // Its strain is a uniaxial extension: -w_n = |w_t| = 1/sqrt2.
             double a = 0.;
-            for (const PointCone &cone : problem.cone)
-              a = std::max(a, cone.a);
+            for (unsigned int p = 0; p < 3 * problem.n_triangles; ++p)
+              a = std::max(a, problem.cone[p].a);
             const double delta = 1.001 * result.violation * sqrt2 / (1. - a);
             result.q += delta * w;
             scale = 1. + delta * slope;
@@ -343,8 +369,8 @@ namespace geocone
                const Bound        &lower)
   {
     const auto          e = strain_rates(problem, problem.B, upper.q);
-    std::vector<double> gap(problem.n_cells(), 0.);
-    for (unsigned int c = 0; c < problem.n_cells(); ++c)
+    std::vector<double> gap(problem.n_triangles, 0.);
+    for (unsigned int c = 0; c < problem.n_triangles; ++c)
       for (unsigned int i = 0; i < 3; ++i)
         {
           const unsigned int p = 3 * c + i;
@@ -352,6 +378,20 @@ namespace geocone
           for (unsigned int j = 0; j < 3; ++j)
             gap[c] -= problem.volume[p] / 4. * (i == j ? 2. : 1.) *
                       lower.s[p].dot(e[3 * c + j]);
+        }
+    // Of Bernstein's functions with those of linear reactions.
+    constexpr double share[3][2] = {{1. / 4., 1. / 12.},
+                                    {1. / 6., 1. / 6.},
+                                    {1. / 12., 1. / 4.}};
+    for (unsigned int c = problem.n_triangles; c < problem.n_cells(); ++c)
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          const unsigned int p      = 3 * c + i;
+          double            &of_own = gap[problem.owner[c - problem.n_triangles]];
+          of_own += problem.volume[p] * dissipation(problem.cone[p], e[p]);
+          for (unsigned int j = 0; j < 2; ++j)
+            of_own -= 3. * problem.volume[p] * share[i][j] *
+                      lower.s[3 * c + j].dot(e[p]);
         }
     return gap;
   }

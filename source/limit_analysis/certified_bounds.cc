@@ -24,6 +24,9 @@ namespace geocone
       // What is missed is repaired, which is dear; a projection takes care of
       // phi = 0.
       options.flow_tolerance = above.has_cylinders() ? 1e-6 : 1e-8;
+      // No field is known that repairs what is missed beside obstacles.
+      if (!above.owner.empty())
+        options.flow_margin = 10. * options.flow_tolerance;
       CertifiedBounds::Side side;
       side.solution   = InteriorPoint::solve(above, options);
       side.n_unknowns = above.n_unknowns();
@@ -47,16 +50,21 @@ namespace geocone
     options.flow_tolerance        = tolerance;
     options.equilibrium_tolerance = 1e-7; // the repair may leave the cone
     options.stresses              = true;
-    options.admissible            = 0.5 * rounding_strength;
+    if (!below.can_be_scaled())
+      options.strength_margin = 1e-5;
     CertifiedBounds::Side side;
     side.solution   = InteriorPoint::solve(below, options);
     side.n_unknowns = below.n_unknowns();
     side.bound      = certify_lower(bound, below, side.solution);
     const auto e    = strain_rates(below, below.B, side.solution.q);
-    side.power.assign(below.n_cells(), 0.);
+    side.power.assign(below.n_triangles, 0.);
     for (unsigned int p = 0; p < below.n_points(); ++p)
-      side.power[p / 3] +=
-        below.volume[p] * std::abs(side.solution.s[p].dot(e[p]));
+      {
+        const unsigned int c = p / 3;
+        side.power[c < below.n_triangles ? c :
+                                           below.owner[c - below.n_triangles]] +=
+          below.volume[p] * std::abs(side.solution.s[p].dot(e[p]));
+      }
     return side;
   }
 

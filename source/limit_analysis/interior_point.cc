@@ -179,9 +179,16 @@ namespace geocone
       {
         Points s = x;
         for (unsigned int p = 0; p < n; ++p)
-          s[p][0] = problem.cone[p].is_cylinder() ? s_n[p]
-                                                  : x[p][0] - problem.cone[p].k;
+          s[p][0] =
+            problem.cone[p].is_cylinder() ? s_n[p] : x[p][0] - strength(p);
         return s;
+      }
+
+      /** k of a point, less the margin. */
+      double
+      strength(const unsigned int p) const
+      {
+        return problem.cone[p].k - options.strength_margin;
       }
 
       VectorXd
@@ -225,6 +232,7 @@ namespace geocone
       std::vector<BoundProblem::Strains> strains; ///< Bs
       CellMatrix                         matrix;
       std::vector<double>                omega;
+      double                             margin = 0.; ///< of the rates of cones
 
       Points   x, z, dx, dz;
       VectorXd s_n, ds_n, q, dq;
@@ -278,16 +286,18 @@ namespace geocone
           V += problem.volume[p];
           mean += problem.volume[p] * z[p].squaredNorm();
         }
-      mean = std::sqrt(mean / V);
+      mean   = std::sqrt(mean / V);
+      margin = options.flow_margin * mean;
       x.assign(n, Vector3d::Zero());
       for (unsigned int p = 0; p < n; ++p)
         {
           const PointCone &cone = problem.cone[p];
           z[p][0]          = std::max(z[p][0], z[p].tail<2>().norm() + mean);
-          const double K_p = (1. + cone.a) / (1. - cone.a);
+          const double a   = std::min(cone.a, 0.9); // of interfaces also more
+          const double K_p = (1. + a) / (1. - a);
           // Also where there is no cohesion.
           x[p][0] =
-            cone.is_cylinder() ? cone.k : K_p * K_p * std::max(cone.k, 0.1);
+            cone.is_cylinder() ? strength(p) : K_p * K_p * std::max(cone.k, 0.1);
         }
       s_n.setZero(n);
       lambda = 0.;
@@ -309,6 +319,8 @@ namespace geocone
           r_p[p] = z[p] + omega[p] * rate[p];
           if (problem.cone[p].is_cylinder()) // its normal rate is to vanish
             r_p[p][0] = omega[p] * rate[p][0];
+          else
+            r_p[p][0] += omega[p] * margin;
           miss += problem.volume[p] * (r_p[p] / omega[p]).squaredNorm();
           if (problem.cone[p].is_cylinder())
             r_p[p][0] = 0.;
@@ -399,23 +411,23 @@ namespace geocone
     {
       if (!(equilibrium < 1e-10) || !std::isfinite(load))
         return -1.;
-      const Points s    = stresses();
-      double       part = 1., beyond = 0., largest = 0.;
+      double part = 1.;
+      bool   ok   = true;
       for (unsigned int p = 0; p < n; ++p)
         {
-          const PointCone &cone = problem.cone[p];
-          const double     s_n  = cone.is_cylinder() ? 0. : s[p][0] / cone.a;
-          largest = std::max(largest, std::hypot(s_n, s[p].tail<2>().norm()));
-          if (const double f = x[p].tail<2>().norm() - x[p][0]; f > 0.)
+          const double k = problem.cone[p].k;
+          if (const double f =
+                x[p].tail<2>().norm() - x[p][0] - options.strength_margin;
+              f > 0.)
             {
-              beyond = std::max(beyond, f);
-              part   = std::min(part, cone.k / (cone.k + f));
+              ok   = false;
+              part = std::min(part, k / (k + f));
             }
         }
-      if (problem.dead.squaredNorm() == 0. && part > 0.)
-        return part * load;
-      // Nothing can be scaled back: what is beyond must be rounding.
-      return beyond < options.admissible * largest ? load : 0.;
+      if (ok)
+        return load;
+      // Dead loads, and soil without cohesion, cannot be scaled back.
+      return problem.dead.squaredNorm() == 0. ? part * load : 0.;
     }
 
     void
@@ -458,11 +470,17 @@ namespace geocone
               break;
             }
           most = stress / std::max(strength, 1.);
-          if (gap < options.tolerance * std::abs(load) &&
-              flow < options.flow_tolerance &&
-              equilibrium < options.equilibrium_tolerance &&
-              std::abs(r_g) < options.tolerance)
+          const double allowed   = options.tolerance * std::abs(load);
+          const bool   is_closed = gap < allowed && flow < options.flow_tolerance &&
+                                 std::abs(r_g) < options.tolerance;
+          if (is_closed && equilibrium < options.equilibrium_tolerance)
             first_converged = std::min(first_converged, iteration);
+          // Stresses that are kept are in equilibrium and in their cones.
+          if (is_closed && most_admissible > load - 0.3 * allowed)
+            {
+              solution.converged = true;
+              break;
+            }
           // What cannot be scaled back is beyond its cones in proportion to the gap:
           // it needs a sharper optimum.
           if (iteration >= first_converged &&

@@ -130,8 +130,7 @@ namespace geocone
     scene.water.prepare(scene.gravity);
     scene.dirichlet.prepare();
     scene.tractions.prepare();
-    scene.obstacles.refuse("Analysis/Kind = limit load or strength reduction",
-                           "hold the body by 'Boundary conditions'");
+    scene.obstacles.prepare();
     scene.observation.prepare(scene.supports(), scene.materials, scene.gravity);
     for (const auto &condition : scene.dirichlet.list)
       if (condition->moves())

@@ -82,6 +82,17 @@ namespace geocone
   }
 
   std::vector<Triangles::HeldEdge>
+  Triangles::outer_edges() const
+  {
+    std::vector<HeldEdge> outer;
+    for (unsigned int c = 0; c < cells.size(); ++c)
+      for (unsigned int i = 0; i < 3; ++i)
+        if (edges[edges_of_cell[c][i]].side >= 0)
+          outer.push_back({edges_of_cell[c][i], c, i});
+    return outer;
+  }
+
+  std::vector<Triangles::HeldEdge>
   Triangles::held_edges(const BoundaryCondition &condition) const
   {
     std::set<dealii::types::boundary_id> all;
@@ -90,31 +101,30 @@ namespace geocone
         all.insert(edge.side);
     const auto ids = side_ids(condition, sides, {all.begin(), all.end()});
     std::vector<HeldEdge> held;
-    for (unsigned int c = 0; c < cells.size(); ++c)
-      for (unsigned int i = 0; i < 3; ++i)
-        {
-          const Edge &edge = edges[edges_of_cell[c][i]];
-          if (edge.side < 0 || ids.count(edge.side) == 0)
-            continue;
-          const Point<dim> &a = vertices[edge.vertices[0]],
-                           &b = vertices[edge.vertices[1]];
-          const double part   = part_in_box(condition, a, b);
-          if (part == 0.)
-            continue;
-          if (part < 1.)
-            throw InputError(
-              condition.parameter("Box"),
-              condition.part(),
-              "a box that ends at vertices of the mesh",
-              format("the edge from (%g, %g) to (%g, %g) is partly in it, "
-                     "but a bound needs the exact part; add the ends of the "
-                     "box to 'Mesh/Grading points'",
-                     a[0],
-                     a[1],
-                     b[0],
-                     b[1]));
-          held.push_back({edges_of_cell[c][i], c, i});
-        }
+    for (const HeldEdge &outer : outer_edges())
+      {
+        const Edge &edge = edges[outer.edge];
+        if (ids.count(edge.side) == 0)
+          continue;
+        const Point<dim> &a = vertices[edge.vertices[0]],
+                         &b = vertices[edge.vertices[1]];
+        const double part   = part_in_box(condition, a, b);
+        if (part == 0.)
+          continue;
+        if (part < 1.)
+          throw InputError(
+            condition.parameter("Box"),
+            condition.part(),
+            "a box that ends at vertices of the mesh",
+            format("the edge from (%g, %g) to (%g, %g) is partly in it, "
+                   "but a bound needs the exact part; add the ends of the "
+                   "box to 'Mesh/Grading points'",
+                   a[0],
+                   a[1],
+                   b[0],
+                   b[1]));
+        held.push_back(outer);
+      }
     condition.check_selection(held.size());
     return held;
   }

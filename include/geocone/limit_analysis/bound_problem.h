@@ -4,6 +4,7 @@
 #ifndef geocone_limit_analysis_bound_problem_h
 #define geocone_limit_analysis_bound_problem_h
 
+#include <geocone/limit_analysis/interfaces.h>
 #include <geocone/limit_analysis/triangles.h>
 #include <geocone/scene/scene.h>
 
@@ -55,6 +56,10 @@ namespace geocone
    * Strains and stresses are in cone axes (second_order_cone.h), all in units.
    * Either f q = 1, and lambda is the load, or some velocities are prescribed, and
    * the load is the power of their reactions.
+   *
+   * After the triangles come the faces of the interfaces, as cells of the same form:
+   * V is a part of an edge's length, B q the velocity of the body relative to the
+   * obstacle, whose own velocity has the last dofs.
    */
   struct BoundProblem
   {
@@ -66,7 +71,11 @@ namespace geocone
     std::vector<double>       volume;      ///< of each point
     std::vector<PointCone>    cone;        ///< of each point
 
+    unsigned int              n_triangles = 0;
+    std::vector<unsigned int> owner; ///< the triangle at each later cell
+
     std::vector<bool> is_prescribed; ///< by dof
+    std::vector<bool> has_no_force;  ///< prescribed, too: no stress is there
     Eigen::VectorXd   prescribed;    ///< values there, or 0
     Eigen::VectorXd   dead, live;    ///< F0 and f by dof; f = 0: no factor
 
@@ -92,6 +101,11 @@ namespace geocone
     }
     bool
     has_cylinders() const;
+
+    /** Whether stresses that are scaled down bear a load that is scaled down: no
+     *  load is dead, and there is cohesion everywhere. */
+    bool
+    can_be_scaled() const;
     unsigned int
     n_unknowns() const;
   };
@@ -104,6 +118,7 @@ namespace geocone
     LoadFactor             factor;
     BoundUnits             units;
     std::vector<PointCone> cones; ///< of the materials, in units
+    std::vector<Interface> interfaces;
   };
 
   /**
@@ -111,7 +126,8 @@ namespace geocone
    * cell, so flow that is admissible at its vertices is so everywhere, and the
    * dissipation of the vertices is an upper estimate (exact for a > 0): what it
    * gives is an upper bound (Makrodimopoulos and Martin 2007). Dofs: x and y of
-   * the vertices, then of the edges.
+   * the vertices, then of the edges, then of the obstacles. Points of an interface
+   * are the values of Bernstein's basis, between which the relative velocity is.
    */
   BoundProblem
   upper_problem(const BoundScene &scene);
@@ -122,7 +138,14 @@ namespace geocone
    *   B_i q = -3 sym(u x grad lambda_i) + 3/(2A) sum_{e at i} L_e sym(w_ei x n_e).
    * Equilibrium of these rows is that of the continuum, so each admissible state
    * is a lower bound (dual of Makrodimopoulos and Martin 2006). Dofs: x and y of
-   * the triangles, then of the two ends of the edges.
+   * the triangles, then of the two ends of the edges, then of the obstacles. Points
+   * of an interface are the ends of its edge, half of its length each, and one that
+   * has no part in anything.
+   *
+   * At a free surface soil without cohesion has no stress: tractions vanish on the
+   * surface, so the stress is at the apex, so they vanish on all edges from there.
+   * No stress is inside its cone there, as an interior-point method asks; so points
+   * and ends at such vertices have no part in anything either.
    */
   BoundProblem
   lower_problem(const BoundScene &scene);

@@ -46,8 +46,11 @@ namespace geocone
     const std::vector<BoundProblem::Strains> &strains;
     std::vector<int>                          row_of_dof; ///< or -1
     std::vector<int>            place;  ///< of entries of the cells
-    Eigen::SparseMatrix<double> matrix; ///< lower triangle
-    mutable Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>> factors;
+    /** Its upper triangle, which CHOLMOD permutes in half of the time. */
+    Eigen::SparseMatrix<double> matrix;
+    mutable Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>,
+                                        Eigen::Upper>
+      factors;
   };
 } // namespace geocone
 

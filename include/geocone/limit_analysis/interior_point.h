@@ -48,15 +48,16 @@ namespace geocone
     {
       double       tolerance      = 1e-4; ///< inner gap, relative to the load
       double       flow_tolerance = 1e-8; ///< |z + Bs q| relative to |Bs q|
+      double       flow_margin = 0.; ///< -Bs q is to be so far in K, likewise
       double       equilibrium_tolerance = 1e-4; ///< relative to the forces
       unsigned int max_iterations        = 60;
 
       /** Whether the stresses of the iterates count, and not the velocities. */
       bool stresses = false;
 
-      /** How far beyond their cones they may be where nothing can be scaled back, over
-       *  the largest of them. */
-      double admissible = 0.;
+      /** What stresses are to be in their cones by, as if k were so much less: what
+       *  cannot be scaled back into them is then in them soon. */
+      double strength_margin = 0.;
     };
 
     static BoundSolution

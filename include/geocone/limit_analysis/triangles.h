@@ -43,6 +43,10 @@ namespace geocone
     std::vector<HeldEdge>
     held_edges(const BoundaryCondition &condition) const;
 
+    /** All edges of the boundary. */
+    std::vector<HeldEdge>
+    outer_edges() const;
+
     double
     area(const unsigned int cell) const;
 
