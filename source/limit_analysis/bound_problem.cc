@@ -46,17 +46,19 @@ namespace geocone
                const Eigen::VectorXd                    &q)
   {
     std::vector<Eigen::Vector3d> all(problem.n_points());
-    const unsigned int           n = problem.n_local;
-    Eigen::VectorXd              own(n);
-    Eigen::Matrix<double, 9, 1>  e;
-    for (unsigned int c = 0; c < problem.n_cells(); ++c)
-      {
-        for (unsigned int i = 0; i < n; ++i)
-          own[i] = q[problem.dofs[n * c + i]];
-        e.noalias() = strains[c] * own;
-        for (unsigned int i = 0; i < 3; ++i)
-          all[3 * c + i] = e.segment<3>(3 * i);
-      }
+    with_n_local(problem, [&](const auto size) {
+      constexpr int               n = decltype(size)::value;
+      Eigen::Matrix<double, n, 1> own;
+      for (unsigned int c = 0; c < problem.n_cells(); ++c)
+        {
+          for (unsigned int i = 0; i < n; ++i)
+            own[i] = q[problem.dofs[n * c + i]];
+          const Eigen::Matrix<double, 9, 1> e =
+            fixed<n>(strains[c]).lazyProduct(own);
+          for (unsigned int i = 0; i < 3; ++i)
+            all[3 * c + i] = e.template segment<3>(3 * i);
+        }
+    });
     return all;
   }
 
@@ -65,18 +67,21 @@ namespace geocone
                   const std::vector<BoundProblem::Strains> &strains,
                   const std::vector<Eigen::Vector3d>       &s)
   {
-    Eigen::VectorXd             f = Eigen::VectorXd::Zero(problem.n_dofs());
-    const unsigned int          n = problem.n_local;
-    Eigen::VectorXd             own(n);
-    Eigen::Matrix<double, 9, 1> weighted;
-    for (unsigned int c = 0; c < problem.n_cells(); ++c)
-      {
-        for (unsigned int i = 0; i < 3; ++i)
-          weighted.segment<3>(3 * i) = problem.volume[3 * c + i] * s[3 * c + i];
-        own.noalias() = strains[c].transpose() * weighted;
-        for (unsigned int i = 0; i < n; ++i)
-          f[problem.dofs[n * c + i]] += own[i];
-      }
+    Eigen::VectorXd f = Eigen::VectorXd::Zero(problem.n_dofs());
+    with_n_local(problem, [&](const auto size) {
+      constexpr int               n = decltype(size)::value;
+      Eigen::Matrix<double, 9, 1> weighted;
+      for (unsigned int c = 0; c < problem.n_cells(); ++c)
+        {
+          for (unsigned int i = 0; i < 3; ++i)
+            weighted.segment<3>(3 * i) =
+              problem.volume[3 * c + i] * s[3 * c + i];
+          const Eigen::Matrix<double, n, 1> own =
+            fixed<n>(strains[c]).transpose().lazyProduct(weighted);
+          for (unsigned int i = 0; i < n; ++i)
+            f[problem.dofs[n * c + i]] += own[i];
+        }
+    });
     return f;
   }
 
@@ -284,11 +289,11 @@ namespace geocone
           }
       for (const Interface &interface : bound.interfaces)
         {
-          const auto  &ends = bound.triangles.edges[interface.held.edge].vertices;
-          const double length =
-            bound.triangles.vertices[ends[0]].distance(
-              bound.triangles.vertices[ends[1]]) /
-            bound.units.length;
+          const auto &ends =
+            bound.triangles.edges[interface.held.edge].vertices;
+          const double length = bound.triangles.vertices[ends[0]].distance(
+                                  bound.triangles.vertices[ends[1]]) /
+                                bound.units.length;
           const std::array<InterfacePoint, 3> points =
             points_of(interface.held.edge);
           const Tensor<1, dim> &N = interface.normal, T({-N[1], N[0]});
@@ -313,9 +318,10 @@ namespace geocone
                     !problem.has_no_force[point.nodes.front().first];
                   problem.volume.push_back(length * point.part);
                   problem.cone.push_back(
-                    acts ? PointCone{face.a, face.k / bound.units.stress} :
-                           nothing);
-                  const auto add = [&](const unsigned int dof, const double part) {
+                    acts ? PointCone{face.a, face.k / bound.units.stress}
+                         : nothing);
+                  const auto add = [&](const unsigned int dof,
+                                       const double       part) {
                     for (unsigned int d = 0; d < dim; ++d)
                       {
                         const unsigned int j = column(dof + d);
@@ -379,8 +385,8 @@ namespace geocone
                                    const EndDof     &end_dof,
                                    BoundProblem     &problem)
     {
-      const Triangles  &triangles = bound.triangles;
-      std::vector<bool> is_apex(triangles.vertices.size(), false);
+      const Triangles       &triangles = bound.triangles;
+      std::vector<bool>      is_apex(triangles.vertices.size(), false);
       std::set<unsigned int> slides;
       for (const Interface &interface : bound.interfaces)
         slides.insert(interface.held.edge);

@@ -25,11 +25,9 @@ namespace geocone
       // Rigid motions in the dofs that are prescribed: translations and a rotation.
       Eigen::Matrix3d  squares   = Eigen::Matrix3d::Zero();
       const Triangles &triangles = bound.triangles;
-      const auto hold      = [&](const Point<dim> &x, const Tensor<1, dim> &n) {
-        const Eigen::Vector3d row(n[0],
-                                  n[1],
-                                  (x[0] * n[1] - x[1] * n[0]) /
-                                    bound.units.length);
+      const auto hold = [&](const Point<dim> &x, const Tensor<1, dim> &n) {
+        const Eigen::Vector3d row(
+          n[0], n[1], (x[0] * n[1] - x[1] * n[0]) / bound.units.length);
         squares += row * row.transpose();
       };
       const auto add = [&](const unsigned int node, const Point<dim> &x) {
@@ -92,7 +90,7 @@ namespace geocone
               continue;
             const Obstacle &obstacle =
               *bound.scene.obstacles.list[interface.obstacle];
-            const Tensor<1, dim> V = obstacle.velocity(0.);
+            const Tensor<1, dim> V       = obstacle.velocity(0.);
             double               u_N     = 0.;
             bool                 is_free = false;
             for (unsigned int d = 0; d < dim; ++d)
@@ -101,9 +99,9 @@ namespace geocone
                 if (std::abs(n) < 1e-9)
                   continue;
                 is_free = is_free || !problem.is_prescribed[dim * v + d];
-                u_N += n * (problem.prescribed[dim * v + d] *
-                              bound.units.velocity -
-                            V[d]);
+                u_N +=
+                  n * (problem.prescribed[dim * v + d] * bound.units.velocity -
+                       V[d]);
               }
             if (!is_free && u_N < -1e-9 * bound.units.velocity)
               throw InputError(
@@ -218,7 +216,7 @@ namespace geocone
                                    const Triangles &triangles) const
   {
     std::optional<Tensor<1, dim>> velocity;
-    const std::string one_velocity =
+    const std::string             one_velocity =
       "one velocity for all that is pushed, with 'Analysis/Kind' = limit load";
     const std::string remedy = "the bounded load is the reaction to one "
                                "translation";
@@ -249,12 +247,11 @@ namespace geocone
             if (here.norm() == 0.)
               continue;
             if (velocity && (*velocity - here).norm() > 1e-9 * here.norm())
-              throw InputError(
-                condition->parameter(here[1] != 0. ? "Velocity y"
-                                                   : "Velocity x"),
-                condition->formula(here[1] != 0. ? 1 : 0),
-                one_velocity,
-                remedy);
+              throw InputError(condition->parameter(
+                                 here[1] != 0. ? "Velocity y" : "Velocity x"),
+                               condition->formula(here[1] != 0. ? 1 : 0),
+                               one_velocity,
+                               remedy);
             velocity = here;
           }
     return velocity;

@@ -80,9 +80,8 @@ namespace geocone
       for (unsigned int c = problem.n_triangles; c < problem.n_cells(); ++c)
         for (unsigned int i = 0; i < 3; ++i)
           {
-            const VectorXd own =
-              problem.B[c].middleRows<3>(3 * i).transpose() *
-              (problem.volume[3 * c + i] * s[3 * c + i]);
+            const VectorXd own = problem.B[c].middleRows<3>(3 * i).transpose() *
+                                 (problem.volume[3 * c + i] * s[3 * c + i]);
             for (unsigned int j = 0; j < n; ++j)
               f[problem.dofs[n * c + j]] += own[j];
           }
@@ -128,7 +127,7 @@ namespace geocone
                                 F[dim * c + d] / (3. * problem.volume[3 * c])) *
                          std::sqrt(triangles.area(c)) / L);
         }
-      const auto     tractions   = tractions_at_ends(triangles, s);
+      const auto     tractions     = tractions_at_ends(triangles, s);
       const VectorXd at_interfaces = interface_forces(problem, s);
       for (unsigned int e = 0; e < triangles.edges.size(); ++e)
         {
@@ -141,7 +140,7 @@ namespace geocone
               {
                 const unsigned int dof = dim * (n_cells + 2 * e + end) + d;
                 const double       t   = tractions[2 * e + end][d];
-                const double left = t * half + at_interfaces[dof] - F[dof];
+                const double left      = t * half + at_interfaces[dof] - F[dof];
                 if (problem.is_prescribed[dof] && !problem.has_no_force[dof])
                   result.power += left * problem.prescribed[dof];
                 else
@@ -243,7 +242,7 @@ namespace geocone
         const PointCone &cone = problem.cone[p];
         if (problem.B[p / 3].middleRows<3>(3 * (p % 3)).isZero(0.))
           result.s[p].setZero(); // it has no part in anything
-        largest               = std::max(largest, result.s[p].norm());
+        largest = std::max(largest, result.s[p].norm());
         if (const double f = excess(cone, result.s[p]); f > 0.)
           {
             result.violation = std::max(result.violation, f);
@@ -380,14 +379,13 @@ namespace geocone
                       lower.s[p].dot(e[3 * c + j]);
         }
     // Of Bernstein's functions with those of linear reactions.
-    constexpr double share[3][2] = {{1. / 4., 1. / 12.},
-                                    {1. / 6., 1. / 6.},
-                                    {1. / 12., 1. / 4.}};
+    constexpr double share[3][2] = {
+      {1. / 4., 1. / 12.}, {1. / 6., 1. / 6.}, {1. / 12., 1. / 4.}};
     for (unsigned int c = problem.n_triangles; c < problem.n_cells(); ++c)
       for (unsigned int i = 0; i < 3; ++i)
         {
-          const unsigned int p      = 3 * c + i;
-          double            &of_own = gap[problem.owner[c - problem.n_triangles]];
+          const unsigned int p = 3 * c + i;
+          double &of_own       = gap[problem.owner[c - problem.n_triangles]];
           of_own += problem.volume[p] * dissipation(problem.cone[p], e[p]);
           for (unsigned int j = 0; j < 2; ++j)
             of_own -= 3. * problem.volume[p] * share[i][j] *

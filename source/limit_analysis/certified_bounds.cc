@@ -61,8 +61,9 @@ namespace geocone
     for (unsigned int p = 0; p < below.n_points(); ++p)
       {
         const unsigned int c = p / 3;
-        side.power[c < below.n_triangles ? c :
-                                           below.owner[c - below.n_triangles]] +=
+        side
+          .power[c < below.n_triangles ? c
+                                       : below.owner[c - below.n_triangles]] +=
           below.volume[p] * std::abs(side.solution.s[p].dot(e[p]));
       }
     return side;

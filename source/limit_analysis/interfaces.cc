@@ -18,7 +18,7 @@ namespace geocone
     std::vector<Interface::Face>
     faces_of(const Obstacle &obstacle)
     {
-      const double                 mu = obstacle.friction, c = obstacle.adhesion;
+      const double mu = obstacle.friction, c = obstacle.adhesion;
       std::vector<Interface::Face> faces;
       if (mu > 0. || c > 0.)
         faces.push_back({mu, c, mu > 0., true});
@@ -74,8 +74,8 @@ namespace geocone
             const double         tolerance = 1e-6 * a.distance(b);
             const Tensor<1, dim> n         = normal_into_body(held);
             const auto           found     = distances(obstacle, a, b, n);
-            const std::string    where =
-              format("the edge from (%g, %g) to (%g, %g)", a[0], a[1], b[0], b[1]);
+            const std::string    where     = format(
+              "the edge from (%g, %g) to (%g, %g)", a[0], a[1], b[0], b[1]);
             if (*std::min_element(found.begin(), found.end()) < -tolerance)
               throw InputError(obstacle.parameter("Shape"),
                                obstacle.name,
@@ -95,8 +95,9 @@ namespace geocone
                 obstacle.parameter("Shape"),
                 obstacle.name,
                 "a side that ends at vertices of the mesh",
-                where + " touches it in part, but a bound needs the exact part; "
-                        "add the ends of that side to 'Mesh/Grading points'");
+                where +
+                  " touches it in part, but a bound needs the exact part; "
+                  "add the ends of that side to 'Mesh/Grading points'");
           }
         if (!touches)
           throw InputError(obstacle.parameter("Shape"),

@@ -296,8 +296,8 @@ namespace geocone
           const double a   = std::min(cone.a, 0.9); // of interfaces also more
           const double K_p = (1. + a) / (1. - a);
           // Also where there is no cohesion.
-          x[p][0] =
-            cone.is_cylinder() ? strength(p) : K_p * K_p * std::max(cone.k, 0.1);
+          x[p][0] = cone.is_cylinder() ? strength(p)
+                                       : K_p * K_p * std::max(cone.k, 0.1);
         }
       s_n.setZero(n);
       lambda = 0.;
@@ -469,9 +469,10 @@ namespace geocone
               solution.grows  = most > 1e5;
               break;
             }
-          most = stress / std::max(strength, 1.);
+          most                   = stress / std::max(strength, 1.);
           const double allowed   = options.tolerance * std::abs(load);
-          const bool   is_closed = gap < allowed && flow < options.flow_tolerance &&
+          const bool   is_closed = gap < allowed &&
+                                 flow < options.flow_tolerance &&
                                  std::abs(r_g) < options.tolerance;
           if (is_closed && equilibrium < options.equilibrium_tolerance)
             first_converged = std::min(first_converged, iteration);
@@ -525,7 +526,9 @@ namespace geocone
                 "the matrix is singular: some velocities have no resistance";
               break;
             }
-          if (options.stresses && gap < 0.05 * std::abs(load))
+          if (options.stresses &&
+              gap < std::max(4. * allowed,
+                             0.05 * std::abs(load) * !problem.can_be_scaled()))
             keep_stresses();
           if (problem.has_factor())
             x_2 = matrix.solve(problem.live);

@@ -312,7 +312,7 @@ namespace geocone
         const double wanted =
           level.cells *
           (level.certified()
-             ? std::clamp(level.gap / (0.85 * gap_tolerance), 1.2, growth)
+             ? std::clamp(level.gap / (0.95 * gap_tolerance), 1.2, growth)
              : growth);
         sizes = sizes_by_gap(*triangles, bounds.uneven, wanted);
       }

@@ -10,6 +10,7 @@
 
 #include <Eigen/Dense>
 
+#include <type_traits>
 #include <vector>
 
 namespace geocone
@@ -149,6 +150,25 @@ namespace geocone
    */
   BoundProblem
   lower_problem(const BoundScene &scene);
+
+  /** Calls f with the number of dofs of a cell as a constant. */
+  template <typename Function>
+  void
+  with_n_local(const BoundProblem &problem, const Function &f)
+  {
+    if (problem.n_local == 12)
+      f(std::integral_constant<int, 12>());
+    else
+      f(std::integral_constant<int, 14>());
+  }
+
+  /** B of a cell as a matrix of a known size. */
+  template <int n>
+  Eigen::Map<const Eigen::Matrix<double, 9, n>>
+  fixed(const BoundProblem::Strains &B)
+  {
+    return Eigen::Map<const Eigen::Matrix<double, 9, n>>(B.data());
+  }
 
   /** Strain rates B q of all points.
    *  @param strains B of each cell, or scaled ones */

@@ -46,11 +46,25 @@ namespace geocone
     const std::vector<BoundProblem::Strains> &strains;
     std::vector<int>                          row_of_dof; ///< or -1
     std::vector<int>            place;  ///< of entries of the cells
-    /** Its upper triangle, which CHOLMOD permutes in half of the time. */
-    Eigen::SparseMatrix<double> matrix;
-    mutable Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>,
-                                        Eigen::Upper>
-      factors;
+    Eigen::SparseMatrix<double> matrix; ///< lower triangle
+
+    /** Makes the matrix, empty, of the rows as they are numbered. */
+    void
+    set_pattern(const unsigned int n_rows);
+
+    class Factors
+      : public Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>>
+    {
+    public:
+      /** The place of each row in an order of elimination with little fill. */
+      std::vector<int>
+      fill_reducing_order(const Eigen::SparseMatrix<double> &matrix);
+
+      /** For a matrix that is in such an order. */
+      void
+      analyse_as_it_is(const Eigen::SparseMatrix<double> &matrix);
+    };
+    mutable Factors factors;
   };
 } // namespace geocone
 
