@@ -267,9 +267,19 @@ namespace geocone
 
       /** The x dofs of the edge's nodes, and their parts in the velocity. */
       std::vector<std::pair<unsigned int, double>> nodes;
+
+      /** Where the velocity of an obstacle, which is linear, counts. */
+      Point<dim> place;
     };
 
-    /** Adds the interfaces as cells, and prescribes the obstacles' velocities.
+    unsigned int
+    n_dofs_of_obstacles(const BoundScene &bound)
+    {
+      return RigidMotion::n_components * bound.scene.obstacles.list.size();
+    }
+
+    /** Adds the interfaces as cells, and prescribes the obstacles' velocities, or loads
+     *  those that are free.
      *  @param points_of (edge) -> its three points
      *  @param first_dof of the obstacles */
     template <typename PointsOfEdge>
@@ -279,14 +289,34 @@ namespace geocone
                    const unsigned int  first_dof,
                    BoundProblem       &problem)
     {
-      const Obstacles &obstacles = bound.scene.obstacles;
+      const Obstacles       &obstacles = bound.scene.obstacles;
+      constexpr unsigned int n_motions = RigidMotion::n_components;
+      const double           L         = bound.units.length;
       for (unsigned int o = 0; o < obstacles.list.size(); ++o)
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            problem.is_prescribed[first_dof + dim * o + d] = true;
-            problem.prescribed[first_dof + dim * o + d] =
-              obstacles.list[o]->velocity(0.)[d] / bound.units.velocity;
-          }
+        {
+          const Obstacle   &obstacle = *obstacles.list[o];
+          const RigidMotion velocity = obstacle.velocity(0.),
+                            force    = obstacle.load(0.);
+          const Tensor<1, dim> weight =
+            obstacle.inertia(0) *
+            bound.scene.gravity.at(std::numeric_limits<double>::max());
+          for (unsigned int k = 0; k < n_motions; ++k)
+            {
+              const unsigned int dof     = first_dof + n_motions * o + k;
+              const double       turn    = k < dim ? 1. : L;
+              problem.is_prescribed[dof] = !obstacle.is_free(k);
+              problem.prescribed[dof] =
+                velocity[k] * turn / bound.units.velocity;
+              if (!obstacle.is_free(k))
+                continue;
+              const double unit = bound.units.stress * L * turn;
+              loads(problem, bound, LoadFactor::tractions)[dof] +=
+                force[k] / unit;
+              if (k < dim)
+                loads(problem, bound, LoadFactor::weight)[dof] +=
+                  weight[k] / unit;
+            }
+        }
       for (const Interface &interface : bound.interfaces)
         {
           const auto &ends =
@@ -320,22 +350,27 @@ namespace geocone
                   problem.cone.push_back(
                     acts ? PointCone{face.a, face.k / bound.units.stress}
                          : nothing);
-                  const auto add = [&](const unsigned int dof,
-                                       const double       part) {
-                    for (unsigned int d = 0; d < dim; ++d)
-                      {
-                        const unsigned int j = column(dof + d);
-                        if (face.has_normal)
-                          B(3 * i, j) -= part * N[d];
-                        if (face.has_tangential)
-                          B(3 * i + 1, j) -= part * T[d];
-                      }
+                  // The velocity of the body here, for 1 in a dof.
+                  const auto add = [&](const unsigned int    dof,
+                                       const Tensor<1, dim> &G) {
+                    const unsigned int j = column(dof);
+                    if (face.has_normal)
+                      B(3 * i, j) -= G * N;
+                    if (face.has_tangential)
+                      B(3 * i + 1, j) -= G * T;
                   };
-                  if (acts)
-                    for (const auto &[dof, part] : point.nodes)
-                      add(dof, part);
-                  if (acts && interface.obstacle >= 0)
-                    add(first_dof + dim * interface.obstacle, -1.);
+                  if (!acts)
+                    continue;
+                  for (const auto &[dof, part] : point.nodes)
+                    for (unsigned int d = 0; d < dim; ++d)
+                      add(dof + d, part * Point<dim>::unit_vector(d));
+                  if (const int o = interface.obstacle; o >= 0)
+                    for (unsigned int k = 0; k < n_motions; ++k)
+                      add(first_dof + n_motions * o + k,
+                          -1. *
+                            RigidMotion::of_point(
+                              k,
+                              (point.place - obstacles.list[o]->centre()) / L));
                 }
               // Unused columns are zero.
               dofs.resize(problem.n_local, dofs.empty() ? 0 : dofs.front());
@@ -434,8 +469,8 @@ namespace geocone
     const double       L          = bound.units.length;
     const unsigned int n_vertices = triangles.vertices.size();
     const unsigned int n_nodes    = n_vertices + triangles.edges.size();
-    BoundProblem       problem    = begin_problem(
-      bound, 12, dim * (n_nodes + bound.scene.obstacles.list.size()));
+    BoundProblem       problem =
+      begin_problem(bound, 12, dim * n_nodes + n_dofs_of_obstacles(bound));
     std::vector<bool> is_used(n_vertices, false);
     for (unsigned int c = 0; c < triangles.cells.size(); ++c)
       {
@@ -482,10 +517,13 @@ namespace geocone
         const auto        &ends = triangles.edges[edge].vertices;
         const unsigned int a = dim * ends[0], b = dim * ends[1],
                            m = dim * (n_vertices + edge);
-        return std::array<InterfacePoint, 3>{
-          {{1. / 3., {{a, 1.}}},
-           {1. / 3., {{m, 2.}, {a, -0.5}, {b, -0.5}}},
-           {1. / 3., {{b, 1.}}}}};
+        const Point<dim> &x  = triangles.vertices[ends[0]],
+                         &y  = triangles.vertices[ends[1]];
+        return std::array<InterfacePoint, 3>{{{1. / 3., {{a, 1.}}, x},
+                                              {1. / 3.,
+                                               {{m, 2.}, {a, -0.5}, {b, -0.5}},
+                                               Point<dim>(x + (y - x) / 2.)},
+                                              {1. / 3., {{b, 1.}}, y}}};
       },
       dim * n_nodes,
       problem);
@@ -499,8 +537,8 @@ namespace geocone
     const double       L         = bound.units.length;
     const unsigned int n_cells   = triangles.cells.size();
     const unsigned int n_nodes   = n_cells + 2 * triangles.edges.size();
-    BoundProblem       problem   = begin_problem(
-      bound, 14, dim * (n_nodes + bound.scene.obstacles.list.size()));
+    BoundProblem       problem =
+      begin_problem(bound, 14, dim * n_nodes + n_dofs_of_obstacles(bound));
     const auto end_dof = [&](const unsigned int edge,
                              const unsigned int vertex,
                              const unsigned int component) {
@@ -568,10 +606,13 @@ namespace geocone
       bound,
       [&](const unsigned int edge) {
         const auto &ends = triangles.edges[edge].vertices;
+        // As with w: the third points.
+        const Point<dim>    &x     = triangles.vertices[ends[0]];
+        const Tensor<1, dim> third = (triangles.vertices[ends[1]] - x) / 3.;
         return std::array<InterfacePoint, 3>{
-          {{1. / 2., {{end_dof(edge, ends[0], 0), 1.}}},
-           {1. / 2., {{end_dof(edge, ends[1], 0), 1.}}},
-           {1. / 2., {}}}};
+          {{1. / 2., {{end_dof(edge, ends[0], 0), 1.}}, x + third},
+           {1. / 2., {{end_dof(edge, ends[1], 0), 1.}}, x + 2. * third},
+           {1. / 2., {}, x}}};
       },
       dim * n_nodes,
       problem);

@@ -52,14 +52,16 @@ namespace geocone
       for (const Interface &interface : bound.interfaces)
         for (const unsigned int v :
              triangles.edges[interface.held.edge].vertices)
-          for (const Interface::Face &face : interface.faces)
-            {
-              const Tensor<1, dim> &n = interface.normal;
-              if (face.has_normal)
-                hold(triangles.vertices[v], n);
-              if (face.has_tangential)
-                hold(triangles.vertices[v], Tensor<1, dim>({-n[1], n[0]}));
-            }
+          if (interface.obstacle < 0 ||
+              !bound.scene.obstacles.list[interface.obstacle]->is_free())
+            for (const Interface::Face &face : interface.faces)
+              {
+                const Tensor<1, dim> &n = interface.normal;
+                if (face.has_normal)
+                  hold(triangles.vertices[v], n);
+                if (face.has_tangential)
+                  hold(triangles.vertices[v], Tensor<1, dim>({-n[1], n[0]}));
+              }
       const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares);
       if (solver.eigenvalues()[0] > 1e-10 * solver.eigenvalues()[2])
         return;
@@ -90,7 +92,9 @@ namespace geocone
               continue;
             const Obstacle &obstacle =
               *bound.scene.obstacles.list[interface.obstacle];
-            const Tensor<1, dim> V       = obstacle.velocity(0.);
+            if (obstacle.is_free())
+              continue;
+            const Tensor<1, dim> V       = obstacle.velocity(0.).centre;
             double               u_N     = 0.;
             bool                 is_free = false;
             for (unsigned int d = 0; d < dim; ++d)
@@ -221,7 +225,13 @@ namespace geocone
     const std::string remedy = "the bounded load is the reaction to one "
                                "translation";
     for (const auto &obstacle : scene.obstacles.list)
-      if (const Tensor<1, dim> own = obstacle->velocity(0.); own.norm() > 0.)
+      if (obstacle->velocity(0.).angle != 0.)
+        throw InputError(obstacle->parameter("Angular velocity"),
+                         obstacle->velocity(0.).angle,
+                         "0 or free, with 'Analysis/Kind' = limit load",
+                         remedy);
+      else if (const Tensor<1, dim> own = obstacle->velocity(0.).centre;
+               own.norm() > 0.)
         {
           if (velocity && (*velocity - own).norm() > 1e-9 * own.norm())
             throw InputError(obstacle->parameter("Velocity x"),

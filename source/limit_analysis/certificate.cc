@@ -150,7 +150,11 @@ namespace geocone
       for (unsigned int dof = dim * (n_cells + 2 * triangles.edges.size());
            dof < problem.n_dofs();
            ++dof)
-        result.power += at_interfaces[dof] * problem.prescribed[dof];
+        if (problem.is_prescribed[dof])
+          result.power += at_interfaces[dof] * problem.prescribed[dof];
+        else
+          result.error =
+            std::max(result.error, std::abs(at_interfaces[dof] - F[dof]));
       result.error /= largest;
       return result;
     }

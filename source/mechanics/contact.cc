@@ -3,7 +3,11 @@
 
 #include <geocone/mechanics/contact.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace geocone
 {
@@ -13,6 +17,17 @@ namespace geocone
   {
     /** A support's free direction counts as the normal up to here (10 degrees). */
     const double along = std::cos(radians(10.));
+
+    constexpr unsigned int n_motions = RigidMotion::n_components;
+
+    void
+    sum_over_ranks(std::vector<double> &x, const MPI_Comm comm)
+    {
+      dealii::Utilities::MPI::sum(
+        dealii::ArrayView<const double>(x.data(), x.size()),
+        comm,
+        dealii::ArrayView<double>(x.data(), x.size()));
+    }
   } // namespace
 
   unsigned int
@@ -23,11 +38,32 @@ namespace geocone
     return x && y ? 2 : x ? 0 : y ? 1 : 3;
   }
 
+  template <typename Function>
   void
-  Contact::begin_step(std::vector<ContactNode> nodes)
+  Contact::for_free_motions(const unsigned int obstacle,
+                            const Function    &f) const
   {
+    unsigned int number = first_free[obstacle];
+    for (unsigned int k = 0; k < n_motions; ++k)
+      if (bodies[obstacle].is_free[k])
+        f(k, number++);
+  }
+
+  void
+  Contact::begin_step(ContactStep step)
+  {
+    bodies = std::move(step.bodies);
+    motion.clear();
+    first_free.clear();
+    n_free = 0;
+    for (const ObstacleBody &body : bodies)
+      {
+        motion.push_back(body.without_contact);
+        first_free.push_back(n_free);
+        n_free += body.n_free();
+      }
     list.clear();
-    for (ContactNode &node : nodes)
+    for (ContactNode &node : step.nodes)
       {
         const unsigned int direction = free_direction(node.node);
         if (direction == 3 ||
@@ -45,91 +81,213 @@ namespace geocone
       }
   }
 
+  Contact::Projection
+  Contact::project(const ContactNode &node,
+                   const Local       &at,
+                   const Force       &velocity)
+  {
+    Projection   result;
+    const Force &n = node.normal;
+    const Force  t = Force({-n[1], n[0]}), u = at.v - velocity;
+    const double rho = at.rho, w = u * n - node.least, p = at.r * n - rho * w;
+    result.F = at.r;
+    // What rests without a force is held: it may have no other support.
+    if (!(p >= 0.))
+      return result;
+    const double bound = node.friction * p + node.adhesion;
+    const double pull  = at.r * t - rho * (u * t);
+    double       F_t, q_t;
+    result.Q = outer_product(n, n);
+    if (bound > 0. && std::abs(pull) <= bound)
+      {
+        result.state = State::stick;
+        F_t          = rho * (u * t);
+        q_t          = pull;
+        result.Q += outer_product(t, t);
+      }
+    else
+      {
+        result.state = State::slip;
+        q_t          = std::copysign(bound, pull);
+        F_t          = at.r * t - q_t;
+        result.Q += std::copysign(node.friction, pull) * outer_product(t, n);
+      }
+    result.F = rho * w * n + F_t * t;
+    result.q = p * n + q_t * t;
+    return result;
+  }
+
+  void
+  Contact::move_bodies(const std::vector<Local> &locals, const MPI_Comm comm)
+  {
+    mobility.assign(bodies.size(), Eigen::Matrix3d::Zero());
+    body_error = 0.;
+    if (n_free == 0)
+      return;
+    using Vector3 = Eigen::Vector3d;
+    // Of all obstacles at given motions: residuals, E, and the size of the sums.
+    struct Balance
+    {
+      std::vector<Vector3>         R;
+      std::vector<Eigen::Matrix3d> E;
+      std::vector<double>          size;
+    };
+    constexpr unsigned int stride  = n_motions + n_motions * n_motions + 1;
+    const auto             balance = [&]() {
+      std::vector<double> sums(stride * bodies.size(), 0.);
+      for (unsigned int i = 0; i < list.size(); ++i)
+        if (const ContactNode &node = list[i];
+            is_owned(node) && bodies[node.obstacle].n_free() > 0)
+          {
+            const Projection at =
+              project(node, locals[i], motion[node.obstacle].at(node.arm));
+            double *const own = &sums[stride * node.obstacle];
+            for (unsigned int k = 0; k < n_motions; ++k)
+              {
+                const Force G = RigidMotion::of_point(k, node.arm);
+                own[k] += G * at.q;
+                for (unsigned int l = 0; l < n_motions; ++l)
+                  own[n_motions + n_motions * k + l] +=
+                    locals[i].rho *
+                    (G * (at.Q * RigidMotion::of_point(l, node.arm)));
+              }
+            own[stride - 1] += at.q.norm() * (1. + node.arm.norm());
+          }
+      sum_over_ranks(sums, comm);
+      Balance result;
+      for (unsigned int o = 0; o < bodies.size(); ++o)
+        {
+          const double *const own  = &sums[stride * o];
+          Vector3             R    = Vector3::Zero();
+          Eigen::Matrix3d     E    = Eigen::Matrix3d::Identity();
+          double              size = own[stride - 1];
+          for (unsigned int k = 0; k < n_motions; ++k)
+            if (bodies[o].is_free[k])
+              {
+                const double inertia = bodies[o].inertia[k];
+                R[k] = inertia * (motion[o][k] - bodies[o].without_contact[k]) +
+                       own[k];
+                size += inertia * (std::abs(motion[o][k]) +
+                                   std::abs(bodies[o].without_contact[k]));
+                for (unsigned int l = 0; l < n_motions; ++l)
+                  if (bodies[o].is_free[l])
+                    E(k, l) = own[n_motions + n_motions * k + l] +
+                              (k == l ? inertia : 0.);
+              }
+          result.R.push_back(R);
+          result.E.push_back(E);
+          result.size.push_back(size);
+        }
+      return result;
+    };
+    const auto norm = [](const Balance &at, const Balance &scale) {
+      double sum = 0.;
+      for (unsigned int o = 0; o < at.R.size(); ++o)
+        for (unsigned int k = 0; k < n_motions; ++k)
+          sum += at.R[o][k] * at.R[o][k] / scale.E[o](k, k);
+      return std::sqrt(sum);
+    };
+
+    // Newton's method from the last motions, in shorter steps where it must.
+    Balance now = balance();
+    for (unsigned int iteration = 0; iteration < 50; ++iteration)
+      {
+        bool is_solved = true;
+        for (unsigned int o = 0; o < bodies.size(); ++o)
+          is_solved = is_solved && now.R[o].norm() <= 1e-14 * now.size[o];
+        if (is_solved)
+          break;
+        const std::vector<RigidMotion> before = motion;
+        const Balance                  old    = now;
+        for (double step = 1.; step > 1e-4; step /= 2.)
+          {
+            for (unsigned int o = 0; o < bodies.size(); ++o)
+              {
+                const Vector3 change = old.E[o].partialPivLu().solve(old.R[o]);
+                for (unsigned int k = 0; k < n_motions; ++k)
+                  motion[o][k] = before[o][k] - step * change[k];
+              }
+            now = balance();
+            if (norm(now, old) <= (1. - 0.1 * step) * norm(old, old))
+              break;
+          }
+        if (norm(now, old) >= norm(old, old)) // rounding, or nothing better
+          break;
+      }
+    for (unsigned int o = 0; o < bodies.size(); ++o)
+      {
+        body_error += now.R[o].norm();
+        const Eigen::Matrix3d inverse = now.E[o].inverse();
+        for (unsigned int k = 0; k < n_motions; ++k)
+          for (unsigned int l = 0; l < n_motions; ++l)
+            if (bodies[o].is_free[k] && bodies[o].is_free[l])
+              mobility[o](k, l) = inverse(k, l);
+      }
+    body_error /= dealii::Utilities::MPI::n_mpi_processes(comm);
+  }
+
   void
   Contact::replace(Vector &residual, const Vector &v, const Vector &scale)
   {
     touch.assign(list.size(), Touch());
-    B.assign(list.size(), Matrix());
+    rho_Q.assign(list.size(), Matrix());
+    rho.assign(list.size(), 0.);
     for (Vector &row : row_A)
       if (row.size() == 0)
         row.reinit(residual);
       else
         row.zero_out_ghost_values();
-    const unsigned int n_owned = residual.locally_owned_size() / dim;
+    std::vector<Local> locals(list.size());
+    for (unsigned int i = 0; i < list.size(); ++i)
+      if (const unsigned int node = list[i].node; is_owned(list[i]))
+        {
+          const unsigned int direction = free_direction(node);
+          for (unsigned int d = 0; d < dim; ++d)
+            if (direction == 2 || direction == d)
+              {
+                const unsigned int dof = dim * node + d;
+                locals[i].r[d]         = residual.local_element(dof);
+                locals[i].v[d]         = v.local_element(dof);
+                locals[i].rho +=
+                  scale.local_element(dof) / (direction == 2 ? 2. : 1.);
+              }
+        }
+    move_bodies(locals, residual.get_mpi_communicator());
     for (unsigned int i = 0; i < list.size(); ++i)
       {
-        const ContactNode &c = list[i];
-        if (c.node >= n_owned)
+        ContactNode &node = list[i];
+        node.velocity     = motion[node.obstacle].at(node.arm);
+        if (!is_owned(node))
           continue;
-        const unsigned int direction = free_direction(c.node);
-        Tensor<1, dim>     r, u;
-        double             rho = 0.;
-        for (unsigned int d = 0; d < dim; ++d)
-          if (direction == 2 || direction == d)
-            {
-              r[d] = residual.local_element(dim * c.node + d);
-              u[d] = v.local_element(dim * c.node + d) - c.velocity[d];
-              rho += scale.local_element(dim * c.node + d) /
-                     (direction == 2 ? 2. : 1.);
-            }
-        const Tensor<1, dim> &n = c.normal;
-        const Tensor<1, dim>  t({-n[1], n[0]});
-        const double          w = u * n - c.least, p = r * n - rho * w;
-        // Along n and t: F, and the rows of A and B.
-        double F_n = r * n, F_t = r * t;
-        double A_n[] = {1., 0.}, A_t[] = {0., 1.};
-        double B_n[] = {0., 0.}, B_t[] = {0., 0.};
-        // What rests without a force is held: it may have no other support.
-        if (p >= 0.)
-          {
-            F_n                = rho * w;
-            A_n[0]             = 0.;
-            B_n[0]             = rho;
-            const double bound = c.friction * p + c.adhesion;
-            const double pull  = r * t - rho * (u * t);
-            if (bound > 0. && std::abs(pull) <= bound)
-              {
-                touch[i].state = State::stick;
-                F_t            = rho * (u * t);
-                A_t[1]         = 0.;
-                B_t[1]         = rho;
-              }
-            else
-              {
-                touch[i].state  = State::slip;
-                const double mu = std::copysign(c.friction, pull);
-                F_t             = r * t - std::copysign(bound, pull);
-                A_t[0]          = -mu;
-                B_t[0]          = mu * rho;
-              }
-          }
-        const Tensor<1, dim> F = F_n * n + F_t * t;
-        touch[i].force         = r;
+        const unsigned int direction = free_direction(node.node);
+        // What a support holds does not move against the obstacle, either.
+        Force velocity = node.velocity;
+        if (direction < 2)
+          velocity[1 - direction] = 0.;
+        const Projection at = project(node, locals[i], velocity);
+        touch[i].force      = locals[i].r;
+        touch[i].state      = at.state;
+        rho[i]              = locals[i].rho;
+        rho_Q[i]            = locals[i].rho * at.Q;
         for (unsigned int a = 0; a < dim; ++a)
           for (unsigned int b = 0; b < dim; ++b)
-            {
-              row_A[a].local_element(dim * c.node + b) =
-                n[a] * (A_n[0] * n[b] + A_n[1] * t[b]) +
-                t[a] * (A_t[0] * n[b] + A_t[1] * t[b]);
-              B[i][a][b] = n[a] * (B_n[0] * n[b] + B_n[1] * t[b]) +
-                           t[a] * (B_t[0] * n[b] + B_t[1] * t[b]);
-            }
+            row_A[a].local_element(dim * node.node + b) =
+              (a == b ? 1. : 0.) - at.Q[a][b];
         for (unsigned int d = 0; d < dim; ++d)
           if (direction == 2 || direction == d)
             {
-              residual.local_element(dim * c.node + d) = F[d];
-              touch[i].error = std::hypot(touch[i].error, F[d]);
+              residual.local_element(dim * node.node + d) = at.F[d];
+              touch[i].error = std::hypot(touch[i].error, at.F[d]);
             }
       }
     for (Vector &row : row_A)
       row.update_ghost_values();
   }
 
-  void
+  LowRank
   Contact::linearise(const JacobianPattern &pattern, SparseMatrix &matrix) const
   {
-    const unsigned int n_owned =
-      list.empty() ? 0 : row_A[0].locally_owned_size() / dim;
+    const LowRank of_obstacles = low_rank(matrix);
     for (unsigned int i = 0; i < list.size(); ++i)
       {
         const unsigned int node = list[i].node;
@@ -158,34 +316,113 @@ namespace geocone
                    k < matrix.row_start[row[d] + 1];
                    ++k)
                 matrix.value[k] *= A(d, d);
-        if (node < n_owned)
+        if (is_owned(list[i]))
           for (unsigned int a = 0; a < dim; ++a)
             for (unsigned int b = 0; b < dim; ++b)
               if (row[a] >= 0 && row[b] >= 0)
-                pattern.add_entry(row[a], row[b], B[i][a][b], matrix);
+                pattern.add_entry(row[a], row[b], rho_Q[i][a][b], matrix);
       }
+    return of_obstacles;
+  }
+
+  LowRank
+  Contact::low_rank(const SparseMatrix &matrix) const
+  {
+    LowRank update;
+    update.U = update.W = Eigen::MatrixXd::Zero(matrix.n_owned, n_free);
+    if (n_free == 0)
+      return update;
+    // Rows of the matrix are sums over ranks, each of which has those of its cells.
+    std::vector<unsigned int> dof_of(matrix.global_index.size());
+    for (unsigned int dof = 0; dof < unknowns.free_row.size(); ++dof)
+      if (unknowns.free_row[dof] >= 0)
+        dof_of[unknowns.free_row[dof]] = dof;
+    std::vector<Vector> sums(n_free); // of G' Q (K - rho)
+    for (Vector &sum : sums)
+      sum.reinit(row_A[0]);
+    for (unsigned int i = 0; i < list.size(); ++i)
+      for_free_motions(
+        list[i].obstacle, [&](const unsigned int k, const unsigned int number) {
+          const unsigned int node = list[i].node;
+          const Force        G    = RigidMotion::of_point(k, list[i].arm);
+          Force              GQ   = G; // G' Q, Q = 1 - A
+          for (unsigned int a = 0; a < dim; ++a)
+            for (unsigned int b = 0; b < dim; ++b)
+              GQ[b] -= G[a] * row_A[a].local_element(dim * node + b);
+          for (unsigned int d = 0; d < dim; ++d)
+            if (const int row = unknowns.free_row[dim * node + d]; row >= 0)
+              {
+                for (int j = matrix.row_start[row];
+                     j < matrix.row_start[row + 1];
+                     ++j)
+                  sums[number].local_element(dof_of[matrix.column[j]]) +=
+                    GQ[d] * matrix.value[j];
+                if (!is_owned(list[i]))
+                  continue;
+                sums[number].local_element(dim * node + d) -= rho[i] * GQ[d];
+                update.U(row, number) += rho_Q[i][d] * G;
+              }
+        });
+    for (Vector &sum : sums)
+      sum.compress(dealii::VectorOperation::add);
+    for (unsigned int o = 0; o < bodies.size(); ++o)
+      for_free_motions(o, [&](const unsigned int k, const unsigned int number) {
+        for_free_motions(
+          o, [&](const unsigned int l, const unsigned int other) {
+            for (unsigned int i = 0; i < sums[other].locally_owned_size(); ++i)
+              if (const int row = unknowns.free_row[i]; row >= 0)
+                update.W(row, number) +=
+                  mobility[o](k, l) * sums[other].local_element(i);
+          });
+      });
+    return update;
   }
 
   void
   Contact::apply_tangent(Vector &dst, const Vector &dv) const
   {
-    const unsigned int n_owned = dst.locally_owned_size() / dim;
+    const auto at = [&](const Vector &x, const unsigned int node) {
+      Force value;
+      for (unsigned int d = 0; d < dim; ++d)
+        if (unknowns.is_free(dim * node + d))
+          value[d] = x.local_element(dim * node + d);
+      return value;
+    };
+    // How free obstacles give way.
+    std::vector<RigidMotion> change(bodies.size());
+    if (n_free > 0)
+      {
+        std::vector<double> sums(n_motions * bodies.size(), 0.);
+        for (unsigned int i = 0; i < list.size(); ++i)
+          if (const ContactNode &node = list[i]; is_owned(node))
+            {
+              const Force p =
+                rho_Q[i] * (at(dst, node.node) / rho[i] - at(dv, node.node));
+              for (unsigned int k = 0; k < n_motions; ++k)
+                sums[n_motions * node.obstacle + k] +=
+                  RigidMotion::of_point(k, node.arm) * p;
+            }
+        sum_over_ranks(sums, dst.get_mpi_communicator());
+        for (unsigned int o = 0; o < bodies.size(); ++o)
+          for (unsigned int k = 0; k < n_motions; ++k)
+            for (unsigned int l = 0; l < n_motions; ++l)
+              change[o][k] -= mobility[o](k, l) * sums[n_motions * o + l];
+      }
     for (unsigned int i = 0; i < list.size(); ++i)
       {
-        const unsigned int node = list[i].node;
-        if (node >= n_owned)
+        const ContactNode &node = list[i];
+        if (!is_owned(node))
           continue;
-        const double old[] = {dst.local_element(dim * node),
-                              dst.local_element(dim * node + 1)};
+        const Force dr = at(dst, node.node),
+                    du = at(dv, node.node) - change[node.obstacle].at(node.arm);
         for (unsigned int a = 0; a < dim; ++a)
-          if (unknowns.is_free(dim * node + a))
+          if (unknowns.is_free(dim * node.node + a))
             {
-              double sum = 0.;
+              double sum = rho_Q[i][a] * du;
               for (unsigned int b = 0; b < dim; ++b)
-                if (unknowns.is_free(dim * node + b))
-                  sum += row_A[a].local_element(dim * node + b) * old[b] +
-                         B[i][a][b] * dv.local_element(dim * node + b);
-              dst.local_element(dim * node + a) = sum;
+                if (unknowns.is_free(dim * node.node + b))
+                  sum += row_A[a].local_element(dim * node.node + b) * dr[b];
+              dst.local_element(dim * node.node + a) = sum;
             }
       }
   }

@@ -48,7 +48,7 @@ namespace geocone
                                  const Vector            *external_force,
                                  const Vector            &v,
                                  const Vector            &prescribed_velocity,
-                                 std::vector<ContactNode> touching)
+                                 ContactStep              touching)
   {
     if (contact_term)
       contact_term->begin_step(std::move(touching));
@@ -154,14 +154,13 @@ namespace geocone
     return matrix;
   }
 
-  void
+  LowRank
   IncrementalProblem::linearise(SparseMatrix &matrix, const double blend) const
   {
     std::fill(matrix.value.begin(), matrix.value.end(), 0.);
     for (const Term *term : terms)
       term->linearise(pattern, blend, matrix);
-    if (contact_term)
-      contact_term->linearise(pattern, matrix);
+    return contact_term ? contact_term->linearise(pattern, matrix) : LowRank();
   }
 
   void

@@ -31,6 +31,7 @@ namespace geocone
     , comm(mesh.triangulation().get_communicator())
     , mesh_is_body(mesh_is_body)
     , displacement(scene.obstacles.list.size())
+    , velocity(scene.obstacles.list.size())
   {
     if (!exists())
       return;
@@ -89,15 +90,32 @@ namespace geocone
     return x;
   }
 
-  std::vector<ContactNode>
-  ObstacleContact::nodes(const Vector              &velocity_n,
+  ContactStep
+  ObstacleContact::begin(const Vector              &velocity_n,
                          const double               t,
                          const double               h,
                          const std::vector<Vector> &gaps) const
   {
-    std::vector<ContactNode> result;
-    std::string              twice;
-    const auto              &list = scene.obstacles.list;
+    const auto &list = scene.obstacles.list;
+    ContactStep step;
+    step.bodies.resize(list.size());
+    for (unsigned int o = 0; o < list.size(); ++o)
+      {
+        const Obstacle &obstacle = *list[o];
+        ObstacleBody   &body     = step.bodies[o];
+        body.without_contact     = obstacle.velocity(t + h);
+        RigidMotion force        = obstacle.load(t + h);
+        force.centre += obstacle.inertia(0) * scene.gravity.at(t + h);
+        for (unsigned int k = 0; k < RigidMotion::n_components; ++k)
+          if (obstacle.is_free(k))
+            {
+              body.is_free[k] = true;
+              body.inertia[k] = obstacle.inertia(k) / h;
+              body.without_contact[k] =
+                velocity[o][k] + force[k] / body.inertia[k];
+            }
+      }
+    std::string twice;
     for (const unsigned int node : candidates)
       {
         const Point<dim> x = place(node);
@@ -109,7 +127,8 @@ namespace geocone
         unsigned int n_touch = 0;
         for (unsigned int o = 0; o < list.size(); ++o)
           {
-            const Tensor<1, dim>    V = list[o]->velocity(t + h);
+            const Tensor<1, dim>    arm = x - centre(o);
+            const Tensor<1, dim>    V = step.bodies[o].without_contact.at(arm);
             const Obstacle::Nearest at =
               list[o]->nearest(x, displacement[o], V - v);
             // Of a background mesh only what is in or on the obstacle: the others
@@ -126,6 +145,7 @@ namespace geocone
             contact.node     = node;
             contact.obstacle = o;
             contact.normal   = at.normal;
+            contact.arm      = arm;
             contact.velocity = V;
             contact.least    = -gap / h;
             contact.friction = list[o]->friction;
@@ -141,14 +161,14 @@ namespace geocone
           twice = format(
             "the node at (%g, %g) touches two obstacles at once", x[0], x[1]);
         if (std::isfinite(nearest))
-          result.push_back(contact);
+          step.nodes.push_back(contact);
       }
     twice = text_of_any_rank(comm, twice);
     if (!twice.empty())
       throw StepFailure(twice +
                         "\n  remedy:  hold one of the two sides by a boundary "
                         "condition, or leave the corner out of the body");
-    return result;
+    return step;
   }
 
   ContactReport
@@ -231,10 +251,10 @@ namespace geocone
         const unsigned int direction = contact.free_direction(nodes[i].node);
         if (direction < 2)
           r[1 - direction] = 0.;
-        const unsigned int o      = nodes[i].obstacle;
-        const Point<dim>   centre = scene.observation.moment_centre().value_or(
-          list[o]->centre() + displacement[o]);
-        const Tensor<1, dim> arm = place(nodes[i].node) - centre;
+        const unsigned int o = nodes[i].obstacle;
+        const Point<dim>   about =
+          scene.observation.moment_centre().value_or(centre(o));
+        const Tensor<1, dim> arm = place(nodes[i].node) - about;
         sums[3 * o] += r[0];
         sums[3 * o + 1] += r[1];
         sums[3 * o + 2] += arm[0] * r[1] - arm[1] * r[0];
@@ -253,10 +273,19 @@ namespace geocone
   }
 
   void
-  ObstacleContact::commit(const Vector &v, const double t, const double h)
+  ObstacleContact::commit(const Contact &contact,
+                          const Vector  &v,
+                          const double   h,
+                          const bool     moves)
   {
+    velocity = contact.motions();
+    if (!moves)
+      return;
     for (unsigned int o = 0; o < displacement.size(); ++o)
-      displacement[o] += h * scene.obstacles.list[o]->velocity(t + h);
+      {
+        displacement[o].centre += h * velocity[o].centre;
+        displacement[o].angle += h * velocity[o].angle;
+      }
     if (mesh_is_body && exists())
       {
         path.zero_out_ghost_values();

@@ -23,6 +23,19 @@ namespace geocone
     {
       return Point<dim>(b[1] - a[1], a[0] - b[0]);
     }
+
+    Tensor<1, dim>
+    turned(const Tensor<1, dim> &x, const double angle)
+    {
+      if (angle == 0.)
+        return x;
+      const double c = std::cos(angle), s = std::sin(angle);
+      return Point<dim>(c * x[0] - s * x[1], s * x[0] + c * x[1]);
+    }
+
+    const char *const velocity_names[] = {
+      "Velocity x", "Velocity y", "Angular velocity"};
+    const char *const load_names[] = {"Force x", "Force y", "Moment"};
   } // namespace
 
   Obstacle::Obstacle(const std::string &name)
@@ -49,10 +62,27 @@ namespace geocone
                   vertices,
                   "Vertices x, y; x, y; ... (m) of a convex polygon at the "
                   "start, counterclockwise.");
-    for (unsigned int d = 0; d < dim; ++d)
-      add_parameter(std::string("Velocity ") + "xy"[d],
-                    texts[d],
-                    "Velocity of the obstacle (m/s) as a formula in t (s).");
+    for (unsigned int k = 0; k < n_motions; ++k)
+      add_parameter(velocity_names[k],
+                    velocity_texts[k],
+                    std::string("Velocity of the obstacle") +
+                      (k < dim
+                         ? "'s centre (m/s)"
+                         : " about its centre (rad/s), counterclockwise,") +
+                      " as a formula in t (s); or free: it obeys the forces.");
+    for (unsigned int k = 0; k < n_motions; ++k)
+      add_parameter(load_names[k],
+                    load_texts[k],
+                    std::string("Force on a free obstacle") +
+                      (k < dim ? ", at its centre (N/m)"
+                               : ": moment about its centre (N)") +
+                      ", beside its weight, as a formula in t (s).");
+    add_parameter("Mass", mass, "Mass of a free obstacle (kg/m).");
+    add_parameter(
+      "Moment of inertia",
+      moment_of_inertia,
+      "About the centre, of an obstacle that is free to turn (kg m); "
+      "of a rectangle M (a^2 + b^2)/12.");
     add_parameter(
       "Friction coefficient", friction, "mu of Coulomb's law; 0: smooth.");
     add_parameter("Adhesion",
@@ -75,9 +105,28 @@ namespace geocone
   void
   Obstacle::prepare()
   {
-    for (unsigned int d = 0; d < dim; ++d)
-      velocities[d].prepare(texts[d],
-                            parameter(std::string("Velocity ") + "xy"[d]));
+    for (unsigned int k = 0; k < n_motions; ++k)
+      {
+        free[k] = velocity_texts[k] == "free";
+        if (!free[k])
+          velocities[k].prepare(velocity_texts[k],
+                                parameter(velocity_names[k]));
+        loads[k].prepare(load_texts[k], parameter(load_names[k]));
+        if (!free[k] && load_texts[k] != "0")
+          throw InputError(parameter(load_names[k]),
+                           load_texts[k],
+                           std::string("0 where '") + velocity_names[k] +
+                             "' is not free",
+                           "a motion has a velocity or a force: set it free");
+        const char *const name = k < dim ? "Mass" : "Moment of inertia";
+        if (free[k] && !(inertia(k) > 0. && std::isfinite(inertia(k))))
+          throw InputError(parameter(name),
+                           inertia(k),
+                           std::string("> 0 where '") + velocity_names[k] +
+                             "' is free",
+                           "what moves by forces needs inertia, also where the "
+                           "soil has none; a small one lets it follow fast");
+      }
     if (!std::isfinite(place.square()))
       throw InputError(parameter("Point"),
                        dealii::Patterns::Tools::to_string(place),
@@ -132,13 +181,23 @@ namespace geocone
                        "0: no rebound; 1: elastic impact");
   }
 
-  Tensor<1, dim>
+  RigidMotion
   Obstacle::velocity(const double t) const
   {
-    Tensor<1, dim> v;
-    for (unsigned int d = 0; d < dim; ++d)
-      v[d] = velocities[d].value(place, t);
+    RigidMotion v;
+    for (unsigned int k = 0; k < n_motions; ++k)
+      if (!free[k])
+        v[k] = velocities[k].value(place, t);
     return v;
+  }
+
+  RigidMotion
+  Obstacle::load(const double t) const
+  {
+    RigidMotion force;
+    for (unsigned int k = 0; k < n_motions; ++k)
+      force[k] = loads[k].value(place, t);
+    return force;
   }
 
   double
@@ -168,10 +227,21 @@ namespace geocone
 
   Obstacle::Nearest
   Obstacle::nearest(const Point<dim>     &x,
-                    const Tensor<1, dim> &moved,
+                    const RigidMotion    &moved,
                     const Tensor<1, dim> &approach) const
   {
-    const Point<dim> at = x - moved;
+    if (moved.angle != 0.)
+      {
+        // In the frame that turns with it.
+        const Point<dim> X = centre();
+        Nearest          found =
+          nearest(Point<dim>(X + turned(x - X - moved.centre, -moved.angle)),
+                  {},
+                  turned(approach, -moved.angle));
+        found.normal = turned(found.normal, moved.angle);
+        return found;
+      }
+    const Point<dim> at = x - moved.centre;
     if (shape == Shape::half_plane)
       return {(at - place) * normal, normal};
     if (shape == Shape::disc)

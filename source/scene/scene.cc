@@ -98,7 +98,8 @@ namespace geocone
     for (const auto &obstacle : obstacles.list)
       add(
         std::min({body.side_length(0), body.side_length(1), obstacle->width()}),
-        speed_of([&](const double t) { return obstacle->velocity(t).norm(); }));
+        speed_of(
+          [&](const double t) { return obstacle->velocity(t).centre.norm(); }));
     for (unsigned int c = 0; c < dirichlet.list.size(); ++c)
       {
         const BoundaryCondition &condition = *dirichlet.list[c];

@@ -11,6 +11,18 @@ namespace geocone
 {
   using dealii::TimerOutput;
 
+  namespace
+  {
+    void
+    sum_over_ranks(Eigen::MatrixXd &A, const MPI_Comm comm)
+    {
+      dealii::Utilities::MPI::sum(
+        dealii::ArrayView<const double>(A.data(), A.size()),
+        comm,
+        dealii::ArrayView<double>(A.data(), A.size()));
+    }
+  } // namespace
+
   LinearSystem::LinearSystem(const std::string &solver_name,
                              const MPI_Comm     comm,
                              const bool         symmetric)
@@ -39,10 +51,41 @@ namespace geocone
   {
     {
       TimerOutput::Scope scope(timer, "assemble");
-      problem.linearise(matrix, elastic_blend);
+      low_rank = problem.linearise(matrix, elastic_blend);
     }
     TimerOutput::Scope scope(timer, "factorise");
-    return solver->factorise(matrix);
+    if (!solver->factorise(matrix))
+      return false;
+    const unsigned int m = low_rank.rank();
+    if (m == 0)
+      return true;
+    std::vector<double> columns(low_rank.U.data(),
+                                low_rank.U.data() + low_rank.U.size());
+    solver->solve(columns, m);
+    solved_U =
+      Eigen::Map<Eigen::MatrixXd>(columns.data(), low_rank.U.rows(), m);
+    Eigen::MatrixXd S = low_rank.W.transpose() * solved_U;
+    sum_over_ranks(S, comm);
+    const Eigen::FullPivLU<Eigen::MatrixXd> factors(
+      Eigen::MatrixXd::Identity(m, m) + S);
+    if (!factors.isInvertible())
+      return false;
+    to_change = factors.inverse();
+    return true;
+  }
+
+  void
+  LinearSystem::solve_columns(std::vector<double> &columns,
+                              const unsigned int   n_columns)
+  {
+    solver->solve(columns, n_columns);
+    if (low_rank.rank() == 0)
+      return;
+    Eigen::Map<Eigen::MatrixXd> x(
+      columns.data(), columns.size() / n_columns, n_columns);
+    Eigen::MatrixXd products = low_rank.W.transpose() * x;
+    sum_over_ranks(products, comm);
+    x -= solved_U * (to_change * products);
   }
 
   void
@@ -54,7 +97,7 @@ namespace geocone
     const unsigned int m    = rows.n_rows();
     if (m == 0)
       {
-        solver->solve(x);
+        solve_columns(x, 1);
         return;
       }
     using Matrix          = Eigen::MatrixXd;
@@ -67,17 +110,14 @@ namespace geocone
     for (unsigned int k = 0; k < m; ++k)
       for (unsigned int j = 0; j < places.size(); ++j)
         columns[n * (k + 1) + places[j]] = rows.coefficients()(k, j);
-    solver->solve(columns, m + 1);
+    solve_columns(columns, m + 1);
 
     const Eigen::Map<const Matrix> solved(columns.data(), n, m + 1);
     Matrix                         touched(places.size(), m + 1);
     for (unsigned int j = 0; j < places.size(); ++j)
       touched.row(j) = solved.row(places[j]);
     Matrix products = rows.coefficients() * touched;
-    dealii::Utilities::MPI::sum(
-      dealii::ArrayView<const double>(products.data(), products.size()),
-      comm,
-      dealii::ArrayView<double>(products.data(), products.size()));
+    sum_over_ranks(products, comm);
     const Eigen::VectorXd change =
       products.rightCols(m).partialPivLu().solve(defect - products.col(0));
     Eigen::Map<Eigen::VectorXd>(x.data(), n) =

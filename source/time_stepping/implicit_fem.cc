@@ -142,11 +142,11 @@ namespace geocone
       constraints->turn(force);
     velocity_n = kinematics.velocity;
     constraints->turn(velocity_n);
-    std::vector<ContactNode> touching;
+    ContactStep touching;
     if (obstacles->exists())
       {
         kinematics.velocity.update_ghost_values();
-        touching = obstacles->nodes(kinematics.velocity, t, h);
+        touching = obstacles->begin(kinematics.velocity, t, h);
         kinematics.velocity.zero_out_ghost_values();
       }
     problem->begin_step(h,
@@ -211,14 +211,14 @@ namespace geocone
         for (const Reaction &reaction :
              obstacles->reactions(problem->contact()))
           report.reactions.push_back(reaction);
-        obstacles->commit(v, t, h);
+        obstacles->commit(problem->contact(), v, h, true);
       }
     for (unsigned int c = 0; c < scene->dirichlet.list.size(); ++c)
       for (unsigned int d = 0; d < dim; ++d)
         kinematics.supports[c][d] += h * constraints->mean(v, c, d);
     for (unsigned int o = 0; o < scene->obstacles.list.size(); ++o)
       kinematics.supports[scene->dirichlet.list.size() + o] +=
-        h * scene->obstacles.list[o]->velocity(t + h);
+        h * obstacles->velocities()[o].centre;
     report.energies = state_energies(kinematics, points, t + h);
     report.largest_plastic_strain =
       largest_plastic_strain(points, v.get_mpi_communicator());

@@ -528,7 +528,7 @@ namespace geocone
     const Multipliers     &rows   = constraints->multipliers;
     for (unsigned int o = 0; o < scene->obstacles.list.size(); ++o)
       kinematics.supports[scene->dirichlet.list.size() + o] +=
-        step.h * scene->obstacles.list[o]->velocity(step.solved_at);
+        step.h * obstacles->velocities()[o].centre;
     for (unsigned int c = 0; c < scene->dirichlet.list.size(); ++c)
       {
         const bool moves = scene->dirichlet.list[c]->moves();
@@ -578,8 +578,8 @@ namespace geocone
                         velocity_L,
                         v,
                         obstacles->exists()
-                          ? obstacles->nodes(velocity_L, t, h, gaps(points))
-                          : std::vector<ContactNode>());
+                          ? obstacles->begin(velocity_L, t, h, gaps(points))
+                          : ContactStep());
     report.newton =
       solve(step, kinematics, newton, freezer, timer, v, residual);
     if (!report.newton.converged)
@@ -631,12 +631,11 @@ namespace geocone
     const double memory_work =
       (step.h / step.solved_h) * problem->internal_forces().memory_work();
     const double dissipation = update_points(step, moved, points);
+    if (obstacles->exists())
+      obstacles->commit(problem->contact(), v, h, advection != Advection::none);
     update_supports(step, v, kinematics, report.reactions);
     if (advection != Advection::none)
-      {
-        moving->move(v, h, step.solved_at);
-        obstacles->commit(v, t, h);
-      }
+      moving->move(v, h, step.solved_at);
 
     had_mass.resize(v.locally_owned_size());
     for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
@@ -662,7 +661,7 @@ namespace geocone
   ImplicitMPM::gap(const MaterialPoints &points,
                    const unsigned int    p,
                    const unsigned int    obstacle,
-                   const Tensor<1, dim> &moved) const
+                   const RigidMotion    &moved) const
   {
     const double half = std::sqrt(points.weight[p]) / 2.;
     return scene->obstacles.list[obstacle]
@@ -677,7 +676,7 @@ namespace geocone
     std::vector<Vector> all(scene->obstacles.list.size());
     for (unsigned int o = 0; o < all.size(); ++o)
       {
-        const Tensor<1, dim> moved = obstacles->moved()[o];
+        const RigidMotion &moved = obstacles->moved()[o];
         all[o].reinit(space->partitioner());
         for (unsigned int node = 0; node < space->n_local_nodes(); ++node)
           all[o].local_element(dim * node) = 1e300;

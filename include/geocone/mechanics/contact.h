@@ -6,7 +6,11 @@
 
 #include <geocone/base/sparse_matrix.h>
 #include <geocone/mechanics/jacobian_pattern.h>
+#include <geocone/mechanics/low_rank.h>
 #include <geocone/mechanics/unknowns.h>
+#include <geocone/scene/rigid_motion.h>
+
+#include <Eigen/Dense>
 
 #include <array>
 #include <vector>
@@ -19,7 +23,8 @@ namespace geocone
     unsigned int           node;     ///< local, also a ghost
     unsigned int           obstacle; ///< its number
     dealii::Tensor<1, dim> normal;   ///< out of the obstacle
-    dealii::Tensor<1, dim> velocity; ///< of the obstacle (m/s)
+    dealii::Tensor<1, dim> arm;      ///< from the obstacle's centre (m)
+    dealii::Tensor<1, dim> velocity; ///< of the obstacle here (m/s)
 
     /** Least relative normal velocity: -g/h for a gap g, or -e u_N of the beginning
      *  where the node rebounds (m/s). */
@@ -27,6 +32,31 @@ namespace geocone
 
     double friction = 0.; ///< mu
     double adhesion = 0.; ///< borne besides friction, while closed (N/m)
+  };
+
+  /** How an obstacle moves in a step. */
+  struct ObstacleBody
+  {
+    /** Its velocity y_0 at the end where nothing touches it. */
+    RigidMotion without_contact;
+
+    std::array<bool, RigidMotion::n_components> is_free = {};
+
+    RigidMotion inertia; ///< M/h of what is free
+
+    unsigned int
+    n_free() const
+    {
+      return is_free[0] + is_free[1] + is_free[2];
+    }
+  };
+
+  /** What may touch in a step. */
+  struct ContactStep
+  {
+    std::vector<ContactNode>
+      nodes; ///< all of this rank, with ghosts, each once
+    std::vector<ObstacleBody> bodies; ///< the obstacles
   };
 
   /**
@@ -45,6 +75,17 @@ namespace geocone
    * identity's multiples or zero but for sliding nodes. rho is the node's mean of
    * IncrementalProblem::scale().
    *
+   * So F = r - q, q the projection of p = r - rho (u - least n). A free obstacle has no
+   * unknowns here either: its velocity y at the end of the step, which is G_i y at node
+   * i, is that for which the projected forces are in equilibrium with its own,
+   *   M (y - y_0)/h + sum_i G_i' q_i = 0:
+   * a function of v, found by three equations of its own. (By the forces r, which are
+   * far off before Newton's method has converged, a light obstacle would be thrown
+   * about.) With Q = dq/dp and E = M/h + sum rho G' Q G,
+   *   dF = (1 - Q) dr + rho Q (dv - G dy),   E dy = -sum G' Q (dr - rho dv):
+   * a part U W' of rank three per obstacle in the Jacobian, U = rho Q G, W' = E^-1 sum
+   * G' Q (K - rho), K the rows of the Jacobian before they are combined.
+   *
    * A node that a support holds in one direction is in contact only in the other
    * one, without friction.
    */
@@ -55,9 +96,8 @@ namespace geocone
       : unknowns(unknowns)
     {}
 
-    /** @param nodes all that this rank knows, with ghosts, each once */
     void
-    begin_step(std::vector<ContactNode> nodes);
+    begin_step(ContactStep step);
 
     /**
      * Replaces the forces r in the rows of contact by F, and keeps both.
@@ -67,8 +107,10 @@ namespace geocone
     void
     replace(Vector &residual, const Vector &v, const Vector &scale);
 
-    /** A and B of the last replace() in place of the Jacobian's rows. */
-    void
+    /** A and B of the last replace() in place of the Jacobian's rows. Collective
+     *  where obstacles are free.
+     *  @return what free obstacles add to it */
+    LowRank
     linearise(const JacobianPattern &pattern, SparseMatrix &matrix) const;
 
     /** The same for a product: dst = A dst + B dv, in owned rows. */
@@ -80,7 +122,7 @@ namespace geocone
     double
     size() const
     {
-      double square = 0.;
+      double square = body_error * body_error;
       for (const Touch &at : touch)
         square += at.error * at.error;
       return square;
@@ -114,19 +156,71 @@ namespace geocone
       return touch;
     }
 
+    /** The velocities of the obstacles at the last replace(). */
+    const std::vector<RigidMotion> &
+    motions() const
+    {
+      return motion;
+    }
+
     /** The free direction of a node: 0 or 1 where a support holds the other one, 2
      *  where both are free, and nothing (3) where none is. */
     unsigned int
     free_direction(const unsigned int node) const;
 
   private:
-    using Matrix = std::array<std::array<double, dim>, dim>;
+    using Force  = dealii::Tensor<1, dim>;
+    using Matrix = dealii::Tensor<2, dim>;
+
+    /** Of an owned node: what replace() starts from, of free directions only. */
+    struct Local
+    {
+      Force  r, v;
+      double rho = 0.;
+    };
+
+    /** q of a node, F, and Q. */
+    struct Projection
+    {
+      Force  q, F;
+      Matrix Q;
+      State  state = State::open;
+    };
+    static Projection
+    project(const ContactNode &node, const Local &at, const Force &velocity);
+
+    /** Finds the motions of the free obstacles. Collective. */
+    void
+    move_bodies(const std::vector<Local> &locals, const MPI_Comm comm);
+
+    /** Calls f(motion, number) for each free motion of a node's obstacle. */
+    template <typename Function>
+    void
+    for_free_motions(const unsigned int obstacle, const Function &f) const;
+
+    /** What free obstacles add to the Jacobian. @param matrix before linearise() */
+    LowRank
+    low_rank(const SparseMatrix &matrix) const;
+
+    bool
+    is_owned(const ContactNode &node) const
+    {
+      return dim * node.node < row_A[0].locally_owned_size();
+    }
 
     const Unknowns          &unknowns;
     std::vector<ContactNode> list;
     std::vector<Touch>       touch;
-    std::vector<Matrix>      B;     ///< of owned ones
-    std::array<Vector, dim>  row_A; ///< by component of F, at the node's dofs
+    std::vector<Matrix>      rho_Q; ///< of owned ones
+    std::vector<double>      rho;
+    std::array<Vector, dim>
+      row_A; ///< 1 - Q by component of F, at the node's dofs
+    std::vector<ObstacleBody>    bodies;
+    std::vector<RigidMotion>     motion;
+    std::vector<Eigen::Matrix3d> mobility; ///< E^-1, zero for what is driven
+    std::vector<unsigned int> first_free; ///< number of an obstacle's first one
+    unsigned int              n_free     = 0;  ///< motions of all obstacles
+    double                    body_error = 0.; ///< of their equilibrium (N/m)
   };
 } // namespace geocone
 

@@ -76,11 +76,11 @@ namespace geocone
      * @param touching what may touch, see Contact
      */
     void
-    begin_step(const double             h,
-               const Vector            *force,
-               const Vector            &velocity_L,
-               const Vector            &prescribed,
-               std::vector<ContactNode> touching = {});
+    begin_step(const double  h,
+               const Vector *force,
+               const Vector &velocity_L,
+               const Vector &prescribed,
+               ContactStep   touching = {});
 
     /**
      * Evaluates trial states and R(v) in all rows by a local law; in prescribed
@@ -148,8 +148,9 @@ namespace geocone
     /**
      * Generalised Jacobian dR/dv = M/h + h sum V B' C B at the last residual(),
      * with C replaced by (1 - w) C + w D, w the elastic blend.
+     * @return what free obstacles add to it
      */
-    void
+    LowRank
     linearise(SparseMatrix &matrix, const double elastic_blend = 0.) const;
 
     /** dst = (dR/dv) dv in all rows, at the last residual(). */

@@ -70,14 +70,14 @@ namespace geocone
     }
 
     /**
-     * The nodes of a step from t to t + h.
+     * The nodes and the obstacles of a step from t to t + h.
      * @param velocity_n at t_n, with ghosts
      * @param gaps of a background mesh: per obstacle the gap to it of the nearest
      * particle that a node moves, by its first dof, with ghosts
      * @throws StepFailure if a node touches two obstacles at once
      */
-    std::vector<ContactNode>
-    nodes(const Vector              &velocity_n,
+    ContactStep
+    begin(const Vector              &velocity_n,
           const double               t,
           const double               h,
           const std::vector<Vector> &gaps = {}) const;
@@ -90,24 +90,36 @@ namespace geocone
     std::vector<Reaction>
     reactions(const Contact &contact) const;
 
-    /** Moves the obstacles and, where the mesh is the body, its nodes. */
+    /** Takes the velocities of the obstacles, and moves them and, where the mesh is
+     *  the body, its nodes.
+     *  @param moves whether places change, and not velocities only */
     void
-    commit(const Vector &v, const double t, const double h);
+    commit(const Contact &contact,
+           const Vector  &v,
+           const double   h,
+           const bool     moves);
 
-    /** What the obstacles have moved (m). */
-    const std::vector<dealii::Tensor<1, dim>> &
+    /** What the obstacles have moved. */
+    const std::vector<RigidMotion> &
     moved() const
     {
       return displacement;
     }
 
-    /** @name The state: displacements of the obstacles and, where the mesh is the
-     *  body, of its nodes, both since the start */
+    /** Their velocities in the last step. */
+    const std::vector<RigidMotion> &
+    velocities() const
+    {
+      return velocity;
+    }
+
+    /** @name The state: of the obstacles what they have moved, and their velocities;
+     *  where the mesh is the body, displacements of its nodes, since the start */
     /** @{ */
     void
     state(StateRow &row)
     {
-      row(displacement);
+      row(displacement, velocity);
     }
     Vector &
     displacement_of_nodes()
@@ -126,11 +138,19 @@ namespace geocone
     dealii::Point<dim>
     place(const unsigned int node) const;
 
+    /** The obstacle's centre as it is. */
+    dealii::Point<dim>
+    centre(const unsigned int obstacle) const
+    {
+      return scene.obstacles.list[obstacle]->centre() +
+             displacement[obstacle].centre;
+    }
+
     std::vector<unsigned int> candidates; ///< local nodes, with ghosts
     Vector                    length;     ///< int N_i dA (m)
     double                    size = 0.;  ///< of a cell (m)
-    std::vector<dealii::Tensor<1, dim>> displacement;
-    Vector                              path; ///< of the nodes of the body (m)
+    std::vector<RigidMotion>  displacement, velocity;
+    Vector                    path; ///< of the nodes of the body (m)
   };
 } // namespace geocone
 

@@ -8,6 +8,7 @@
 #include <geocone/base/parameter_file.h>
 #include <geocone/base/types.h>
 #include <geocone/scene/expression.h>
+#include <geocone/scene/rigid_motion.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/point.h>
@@ -20,9 +21,11 @@ namespace geocone
 {
   /**
    * A rigid body that the soil may touch, rub on and leave, but not enter: a
-   * half-plane, a disc or a convex polygon, at rest or driven. Where they touch the
-   * force r of the obstacle on the body and the relative velocity u obey Signorini's
-   * and Coulomb's laws (see Contact).
+   * half-plane, a disc or a convex polygon, at rest, driven or free. Where they touch
+   * the force r of the obstacle on the body and the relative velocity u obey
+   * Signorini's and Coulomb's laws (see Contact). Each of its motions, of its centre
+   * along x and y and about it, is driven by a formula or free; a free one obeys
+   *   M dV/dt = F + M g - sum r,  J dw/dt = T - sum (x - X) x r.
    */
   class Obstacle : public dealii::ParameterAcceptor
   {
@@ -44,24 +47,48 @@ namespace geocone
      * The distance is a convex function of the place, which its tangent along the
      * normal does not exceed.
      * @param x a place (m)
-     * @param moved what the obstacle has moved since the start (m)
+     * @param moved what the obstacle has moved since the start
      * @param approach direction in which it moves past x: at a corner of a polygon
      * the side that comes nearer
      */
     Nearest
     nearest(const dealii::Point<dim>     &x,
-            const dealii::Tensor<1, dim> &moved,
+            const RigidMotion            &moved,
             const dealii::Tensor<1, dim> &approach) const;
 
-    /** Its velocity at time t (m/s). */
-    dealii::Tensor<1, dim>
+    /** Its velocity at time t where it is driven, else 0. */
+    RigidMotion
     velocity(const double t) const;
+
+    /** Whether a motion (0, 1: of the centre; 2: about it) is free. */
+    bool
+    is_free(const unsigned int k) const
+    {
+      return free[k];
+    }
+    bool
+    is_free() const
+    {
+      return free[0] || free[1] || free[2];
+    }
+
+    /** Mass (kg/m), or moment of inertia (kg m), of a motion. */
+    double
+    inertia(const unsigned int k) const
+    {
+      return k < dim ? mass : moment_of_inertia;
+    }
+
+    /** The given forces at time t, without weight. */
+    RigidMotion
+    load(const double t) const;
 
     /** Its greatest width, infinite for a half-plane (m). */
     double
     width() const;
 
-    /** A place that moves with it, which moments are about. */
+    /** A place that moves with it, which moments are about: the mean of a polygon's
+     *  vertices, at the start. */
     dealii::Point<dim>
     centre() const;
 
@@ -90,8 +117,13 @@ namespace geocone
     dealii::Tensor<1, dim>          normal = dealii::Point<dim>(0., 1.);
     double                          radius = 1.;
     std::vector<dealii::Point<dim>> vertices;
-    std::array<std::string, dim>    texts = {{"0", "0"}};
-    std::array<Expression, dim>     velocities;
+
+    static constexpr unsigned int      n_motions = RigidMotion::n_components;
+    std::array<std::string, n_motions> velocity_texts = {{"0", "0", "0"}},
+                                       load_texts     = {{"0", "0", "0"}};
+    std::array<Expression, n_motions> velocities, loads;
+    std::array<bool, n_motions>       free = {{false, false, false}};
+    double                            mass = 0., moment_of_inertia = 0.;
   };
 
   /** The obstacles of a scene, named in the list "Obstacles/Names". */

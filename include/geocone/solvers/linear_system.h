@@ -20,7 +20,8 @@ namespace geocone
    *   [K -H'; H 0] (dv, dlambda) = (r, q),   K = dR/dv on the free dofs:
    * their matrix, its factors, and the solver that makes them. With rows H they
    * are solved by the Schur complement H K^-1 H', which takes as many more
-   * right-hand sides as there are rows.
+   * right-hand sides as there are rows. What free obstacles add to K, a part U W' of
+   * low rank, is inverted by Woodbury's formula, with one more for each column of U.
    */
   class LinearSystem
   {
@@ -78,7 +79,14 @@ namespace geocone
     std::unique_ptr<LinearSolver> solver;
     MPI_Comm                      comm;
     SparseMatrix                  matrix;
-    bool                          has_pattern = false;
+    LowRank                       low_rank;
+    Eigen::MatrixXd               solved_U;  ///< K^-1 U, without its own part
+    Eigen::MatrixXd               to_change; ///< (1 + W' K^-1 U)^-1
+
+    /** Solves with K, the part of low rank too. @param columns of n_owned_rows() */
+    void
+    solve_columns(std::vector<double> &columns, const unsigned int n_columns);
+    bool has_pattern = false;
   };
 } // namespace geocone
 

@@ -159,9 +159,9 @@ namespace geocone
     gap(const MaterialPoints         &points,
         const unsigned int            p,
         const unsigned int            obstacle,
-        const dealii::Tensor<1, dim> &moved) const;
+        const RigidMotion            &moved) const;
 
-    /** Of the nearest particle of each node, for ObstacleContact::nodes(). */
+    /** Of the nearest particle of each node, for ObstacleContact::begin(). */
     std::vector<Vector>
     gaps(const MaterialPoints &points) const;
 
