@@ -23,6 +23,9 @@ namespace geocone
      *  strength, lengths and velocities are of order one. */
     constexpr double bulk = 1e6;
 
+    /** A load below all others: of stresses that prove none. */
+    constexpr double nothing = -std::numeric_limits<double>::infinity();
+
     double
     root_of_determinant(const Vector3d &x)
     {
@@ -217,7 +220,7 @@ namespace geocone
       polish();
 
       /** What of the load is left when the stresses are scaled back into their
-       *  cones; nothing below zero where they miss equilibrium. */
+       *  cones; nothing where that cannot be, or where they miss equilibrium. */
       double
       admissible_load() const;
 
@@ -245,7 +248,7 @@ namespace geocone
       std::vector<Scaling> scaling;
 
       Points kept; ///< stresses() of the best iterate, and what they bear
-      double kept_load = 0., most_admissible = -1.;
+      double kept_load = 0., most_admissible = nothing;
     };
 
     void
@@ -410,7 +413,7 @@ namespace geocone
     Solver::admissible_load() const
     {
       if (!(equilibrium < 1e-10) || !std::isfinite(load))
-        return -1.;
+        return nothing;
       double part = 1.;
       bool   ok   = true;
       for (unsigned int p = 0; p < n; ++p)
@@ -427,7 +430,8 @@ namespace geocone
       if (ok)
         return load;
       // Dead loads, and soil without cohesion, cannot be scaled back.
-      return problem.dead.squaredNorm() == 0. ? part * load : 0.;
+      return problem.dead.squaredNorm() == 0. && part > 0. ? part * load
+                                                           : nothing;
     }
 
     void
@@ -485,7 +489,7 @@ namespace geocone
           // What cannot be scaled back is beyond its cones in proportion to the gap:
           // it needs a sharper optimum.
           if (iteration >= first_converged &&
-              (!options.stresses || most_admissible > 0. ||
+              (!options.stresses || most_admissible > nothing ||
                iteration == first_converged + 6))
             {
               solution.converged = true;
