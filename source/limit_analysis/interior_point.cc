@@ -440,7 +440,10 @@ namespace geocone
       const Points   x_before   = x;
       const VectorXd s_n_before = s_n;
       polish();
-      if (const double bears = admissible_load(); bears > most_admissible)
+      // The last ones where none prove anything yet.
+      const double bears = admissible_load();
+      if (bears > most_admissible ||
+          (most_admissible == nothing && std::isfinite(load)))
         {
           most_admissible = bears;
           kept            = stresses();
@@ -584,7 +587,8 @@ namespace geocone
         polish();
       solution.q = q;
       solution.s = stresses();
-      if (options.stresses && most_admissible > admissible_load())
+      if (!kept.empty() &&
+          (most_admissible > admissible_load() || !std::isfinite(load)))
         {
           solution.s = kept;
           load       = kept_load;
