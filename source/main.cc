@@ -17,7 +17,9 @@
 
 #include <omp.h>
 
+#include <cstdlib>
 #include <iostream>
+#include <sstream>
 
 #include <dlfcn.h>
 
@@ -151,8 +153,13 @@ namespace
       {
         if (first)
           {
-            std::cout << usage << "\nAll parameters, with their defaults:\n\n";
-            print_defaults(std::cout, call.overrides);
+            // In one piece, for the reader of a pipe may have seen enough of it.
+            std::ostringstream text;
+            print_defaults(text, call.overrides);
+            std::cout << usage << "\nAll parameters, with their defaults:\n\n"
+                      << text.str() << std::flush;
+            if (!std::cout)
+              std::_Exit(0); // or else libraries complain of the closed pipe
           }
         return 0;
       }

@@ -267,8 +267,10 @@ namespace geocone
         const Projection at = project(node, locals[i], velocity);
         touch[i].force      = locals[i].r;
         touch[i].state      = at.state;
-        rho[i]              = locals[i].rho;
-        rho_Q[i]            = locals[i].rho * at.Q;
+        touch[i].size =
+          locals[i].r.norm() + locals[i].rho * (locals[i].v - velocity).norm();
+        rho[i]   = locals[i].rho;
+        rho_Q[i] = locals[i].rho * at.Q;
         for (unsigned int a = 0; a < dim; ++a)
           for (unsigned int b = 0; b < dim; ++b)
             row_A[a].local_element(dim * node.node + b) =

@@ -94,23 +94,25 @@ namespace geocone
   ObstacleContact::begin(const Vector              &velocity_n,
                          const double               t,
                          const double               h,
+                         const double               solved_h,
                          const std::vector<Vector> &gaps) const
   {
-    const auto &list = scene.obstacles.list;
-    ContactStep step;
+    const double solved_at = t + solved_h;
+    const auto  &list      = scene.obstacles.list;
+    ContactStep  step;
     step.bodies.resize(list.size());
     for (unsigned int o = 0; o < list.size(); ++o)
       {
         const Obstacle &obstacle = *list[o];
         ObstacleBody   &body     = step.bodies[o];
-        body.without_contact     = obstacle.velocity(t + h);
-        RigidMotion force        = obstacle.load(t + h);
-        force.centre += obstacle.inertia(0) * scene.gravity.at(t + h);
+        body.without_contact     = obstacle.velocity(solved_at);
+        RigidMotion force        = obstacle.load(solved_at);
+        force.centre += obstacle.inertia(0) * scene.gravity.at(solved_at);
         for (unsigned int k = 0; k < RigidMotion::n_components; ++k)
           if (obstacle.is_free(k))
             {
               body.is_free[k] = true;
-              body.inertia[k] = obstacle.inertia(k) / h;
+              body.inertia[k] = obstacle.inertia(k) / solved_h;
               body.without_contact[k] =
                 velocity[o][k] + force[k] / body.inertia[k];
             }
@@ -176,8 +178,8 @@ namespace geocone
                           const Vector  &v,
                           const double   h) const
   {
-    // Open, stick, slip, work, dissipation, width, force; error, penetration,
-    // pressure.
+    // Open, stick, slip, work, dissipation, width, size of F; error,
+    // penetration, pressure.
     std::array<double, 7> sums  = {};
     std::array<double, 3> most  = {};
     const auto           &nodes = contact.nodes();
@@ -195,6 +197,7 @@ namespace geocone
           u[d] = v.local_element(dim * node + d);
         const Tensor<1, dim> relative = u - nodes[i].velocity;
         most[0]                       = std::max(most[0], touch.error);
+        sums[6] += touch.size;
         // g of the end: that of the beginning is -least h, but where it rebounds.
         if (scene.obstacles.list[nodes[i].obstacle]->restitution == 0.)
           most[1] = std::max(
@@ -206,7 +209,6 @@ namespace geocone
         const unsigned int direction = contact.free_direction(node);
         if (direction < 2)
           r[1 - direction] = 0.;
-        sums[6] += r.norm();
         if (mesh_is_body)
           {
             const double l = length.local_element(dim * node);
@@ -276,16 +278,20 @@ namespace geocone
   ObstacleContact::commit(const Contact &contact,
                           const Vector  &v,
                           const double   h,
+                          const double   solved_h,
                           const bool     moves)
   {
-    velocity = contact.motions();
+    for (unsigned int o = 0; o < displacement.size(); ++o)
+      for (unsigned int k = 0; k < RigidMotion::n_components; ++k)
+        {
+          const double solved = contact.motions()[o][k];
+          if (moves)
+            displacement[o][k] += h * solved;
+          velocity[o][k] =
+            h == solved_h ? solved : 2. * solved - velocity[o][k];
+        }
     if (!moves)
       return;
-    for (unsigned int o = 0; o < displacement.size(); ++o)
-      {
-        displacement[o].centre += h * velocity[o].centre;
-        displacement[o].angle += h * velocity[o].angle;
-      }
     if (mesh_is_body && exists())
       {
         path.zero_out_ghost_values();

@@ -373,6 +373,12 @@ namespace geocone
                   id,
                   "Number of the physical surface of the .msh file that this "
                   "material fills, or -1.");
+    points.declare(
+      *this,
+      "Points",
+      " of this material with implicit MPM. Fixed: they stay in the "
+      "background mesh and strains are small, as with finite "
+      "elements, beside material that moves.");
   }
 
   Regions::Regions(const ParameterFile &parameter_file)
@@ -403,6 +409,18 @@ namespace geocone
                            "but the first",
                            "say where this material is");
       }
+  }
+
+  void
+  Regions::refuse_fixed(const std::string &method) const
+  {
+    for (const auto &region : regions)
+      if (region->points == Points::fixed)
+        throw InputError(
+          region->get_section_name().substr(1) + "/Points",
+          "fixed",
+          "moving with " + method,
+          "set Discretisation/Method = MPM, or move all of them");
   }
 
   std::vector<Polygon>

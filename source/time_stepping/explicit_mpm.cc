@@ -101,6 +101,7 @@ namespace geocone
     scene->water.refuse("explicit MPM",
                         "set Discretisation/Method = FEM or MPM, or give "
                         "buoyant densities");
+    scene->regions.refuse_fixed("explicit MPM");
     scene->obstacles.refuse("explicit MPM",
                             "set Discretisation/Method = FEM or MPM, or hold "
                             "the body by 'Boundary conditions'");

@@ -20,6 +20,11 @@ namespace geocone
                   "false: quasi-static, no mass is assembled and the density "
                   "enters only the weight. true: lumped mass (row sums; for P2 "
                   "the scaled diagonal).");
+    integration.declare(
+      *this,
+      "Integration",
+      ", of FEM with inertia. Midpoint: of order two; elastic "
+      "motion loses no energy, and waves are not damped.");
   }
 
   std::string
@@ -41,6 +46,19 @@ namespace geocone
                          "nodes with FEM",
                          "impose it on nodes, or set Discretisation/Method = "
                          "MPM");
+    if (integration == Integration::midpoint && !inertia)
+      throw InputError("Time stepping/Integration",
+                       integration.word(),
+                       "backward Euler without inertia",
+                       "set Time stepping/Inertia = true: without it there is "
+                       "nothing to be kept");
+    for (const auto &obstacle : scene->obstacles.list)
+      if (integration == Integration::midpoint && obstacle->restitution > 0.)
+        throw InputError(obstacle->parameter("Restitution"),
+                         obstacle->restitution,
+                         "0 with Integration = midpoint",
+                         "by the midpoint rule a node that hits an obstacle "
+                         "rebounds elastically as it is");
     if (scene->initial_velocity.is_given() && !inertia)
       throw InputError("Initial velocity/Velocity x",
                        "a formula",
@@ -133,10 +151,14 @@ namespace geocone
                        const double           t,
                        const double           h)
   {
+    // The midpoint rule is backward Euler over half of the step, doubled.
+    const bool   midpoint  = integration == Integration::midpoint;
+    const double solved_h  = midpoint ? h / 2. : h;
+    const double solved_at = t + solved_h;
     if (loads->exist())
-      loads->evaluate(force, weight_per_g, t + h);
+      loads->evaluate(force, weight_per_g, solved_at);
     Vector prescribed = problem->make_vector();
-    constraints->set_values(prescribed, t + h);
+    constraints->set_values(prescribed, solved_at);
     // Where dofs are turned, the problem has its vectors along them.
     if (loads->exist())
       constraints->turn(force);
@@ -146,10 +168,10 @@ namespace geocone
     if (obstacles->exists())
       {
         kinematics.velocity.update_ghost_values();
-        touching = obstacles->begin(kinematics.velocity, t, h);
+        touching = obstacles->begin(kinematics.velocity, t, h, solved_h);
         kinematics.velocity.zero_out_ghost_values();
       }
-    problem->begin_step(h,
+    problem->begin_step(solved_h,
                         loads->exist() ? &force : nullptr,
                         velocity_n,
                         prescribed,
@@ -177,9 +199,21 @@ namespace geocone
         if (constraints->is_prescribed(i))
           sums[0] += h * residual.local_element(i) * v.local_element(i);
       }
+    std::vector<double> history = forces.trial_history();
+    extrapolate(integration, points.history, history);
+    std::vector<EndOfStep> ends;
+    ends.reserve(points.n_points());
     for (unsigned int p = 0; p < points.n_points(); ++p)
-      sums[1] += points.weight[p] * forces.trial_stress()[p].dot(
-                                      forces.plastic_strain_increment(p));
+      {
+        ends.push_back(
+          end_of_step(integration,
+                      forces,
+                      p,
+                      scene->materials[points.material[p]],
+                      points.stress[p],
+                      history.data() + std::size_t(points.n_history) * p));
+        sums[1] += points.weight[p] * ends.back().dissipation;
+      }
     dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums.data(), 2),
                                 v.get_mpi_communicator(),
                                 dealii::ArrayView<double>(sums.data(), 2));
@@ -188,37 +222,44 @@ namespace geocone
         report.contact = obstacles->report(problem->contact(), v, h);
         sums[0] += report.contact.work;
       }
-    report.identity_error = energy_identity_error(
-      *problem, points, scene->materials, velocity_n, v, sums[0]);
-    const double memory_work = forces.memory_work();
+    report.identity_error    = energy_identity_error(*problem,
+                                                  points,
+                                                  scene->materials,
+                                                  velocity_n,
+                                                  v,
+                                                  (solved_h / h) * sums[0]);
+    const double memory_work = (h / solved_h) * forces.memory_work();
 
     for (unsigned int p = 0; p < points.n_points(); ++p)
       {
-        const Mandel plastic = forces.plastic_strain_increment(p);
+        const Mandel &plastic = ends[p].plastic;
+        points.stress[p]      = ends[p].stress;
         points.plastic_strain[p] += plastic;
         points.cumulative_plastic_strain[p] += plastic.norm();
         points.plastic_strain_rate[p] = plastic.norm() / h;
       }
-    points.history = forces.trial_history();
-    points.stress  = forces.trial_stress();
+    points.history = std::move(history);
     constraints->turn_back(v);
-    kinematics.velocity = v;
+    if (midpoint)
+      kinematics.velocity.sadd(-1., 2., v);
+    else
+      kinematics.velocity = v;
     kinematics.displacement.add(h, v);
-    report.reactions =
-      constraints->reactions(residual, points, points.stress, t + h);
+    report.reactions = constraints->reactions(
+      residual, points, forces.trial_stress(), solved_at);
     if (obstacles->exists())
       {
         for (const Reaction &reaction :
              obstacles->reactions(problem->contact()))
           report.reactions.push_back(reaction);
-        obstacles->commit(problem->contact(), v, h, true);
+        obstacles->commit(problem->contact(), v, h, solved_h, true);
       }
     for (unsigned int c = 0; c < scene->dirichlet.list.size(); ++c)
       for (unsigned int d = 0; d < dim; ++d)
         kinematics.supports[c][d] += h * constraints->mean(v, c, d);
     for (unsigned int o = 0; o < scene->obstacles.list.size(); ++o)
       kinematics.supports[scene->dirichlet.list.size() + o] +=
-        h * obstacles->velocities()[o].centre;
+        h * problem->contact().motions()[o].centre;
     report.energies = state_energies(kinematics, points, t + h);
     report.largest_plastic_strain =
       largest_plastic_strain(points, v.get_mpi_communicator());

@@ -470,35 +470,38 @@ namespace geocone
   }
 
   double
+  ImplicitMPM::work_on_fixed_points(const Step               &step,
+                                    const MaterialPoints     &points,
+                                    const std::vector<Moved> &moved) const
+  {
+    const Tensor<1, dim> g    = scene->gravity.at(step.solved_at);
+    double               work = 0.;
+    for (unsigned int p = 0; p < points.n_points(); ++p)
+      if (scene->regions.are_fixed(points.material[p]))
+        work += points.mass[p] * (g * moved[p].displacement);
+    return Utilities::MPI::sum(work, force.get_mpi_communicator());
+  }
+
+  double
   ImplicitMPM::update_points(const Step               &step,
                              const std::vector<Moved> &moved,
                              MaterialPoints           &points) const
   {
     const InternalForces &internal    = problem->internal_forces();
-    const bool            midpoint    = integration == Integration::midpoint;
     double                dissipation = 0.;
     std::vector<double>   history     = internal.trial_history();
-    if (midpoint) // extrapolated to the end, as the stress
-      for (std::size_t i = 0; i < history.size(); ++i)
-        history[i] = 2. * history[i] - points.history[i];
+    extrapolate(integration, points.history, history);
     points.history = std::move(history);
     for (unsigned int p = 0; p < points.n_points(); ++p)
       {
-        Mandel       stress  = internal.trial_stress()[p];
-        Mandel       plastic = internal.plastic_strain_increment(p);
-        const double volume  = points.weight[p];
-        dissipation += (step.h / step.solved_h) * volume * stress.dot(plastic);
-        if (midpoint)
-          {
-            // Extrapolated to the end, and back into what the soil can bear.
-            const Material &material = scene->materials[points.material[p]];
-            const Mandel    beyond   = 2. * stress - points.stress[p];
-            stress = material.nearest_admissible(beyond, points.history_of(p));
-            const Mandel back =
-              material.elasticity().strain(Mandel(beyond - stress));
-            dissipation += volume * stress.dot(back);
-            plastic = 2. * plastic + back;
-          }
+        const auto [stress, plastic, dissipated] =
+          end_of_step(integration,
+                      internal,
+                      p,
+                      scene->materials[points.material[p]],
+                      points.stress[p],
+                      points.history_of(p));
+        dissipation += points.weight[p] * dissipated;
         points.stress[p] = turn(stress, moved[p].spin);
         points.plastic_strain[p] =
           turn(points.plastic_strain[p] + plastic, moved[p].spin);
@@ -528,7 +531,7 @@ namespace geocone
     const Multipliers     &rows   = constraints->multipliers;
     for (unsigned int o = 0; o < scene->obstacles.list.size(); ++o)
       kinematics.supports[scene->dirichlet.list.size() + o] +=
-        step.h * obstacles->velocities()[o].centre;
+        step.h * problem->contact().motions()[o].centre;
     for (unsigned int c = 0; c < scene->dirichlet.list.size(); ++c)
       {
         const bool moves = scene->dirichlet.list[c]->moves();
@@ -573,13 +576,14 @@ namespace geocone
     report.multipliers = constraints->multipliers.n_rows();
     report.rows        = constraints->multipliers.n_given();
 
-    problem->begin_step(solved_h,
-                        &force,
-                        velocity_L,
-                        v,
-                        obstacles->exists()
-                          ? obstacles->begin(velocity_L, t, h, gaps(points))
-                          : ContactStep());
+    problem->begin_step(
+      solved_h,
+      &force,
+      velocity_L,
+      v,
+      obstacles->exists()
+        ? obstacles->begin(velocity_L, t, h, solved_h, gaps(points))
+        : ContactStep());
     report.newton =
       solve(step, kinematics, newton, freezer, timer, v, residual);
     if (!report.newton.converged)
@@ -626,13 +630,17 @@ namespace geocone
     // as with FEM, the work of the weight is that of an external force. Gravity
     // that changes works on points at rest.
     const double external_work =
-      work.of_others + (advection == Advection::none ? work.of_weight : 0.) +
+      work.of_others +
+      (advection == Advection::none
+         ? work.of_weight
+         : work_on_fixed_points(step, points, moved)) +
       work_of_changing_gravity(step, points) + report.contact.dissipation;
     const double memory_work =
       (step.h / step.solved_h) * problem->internal_forces().memory_work();
     const double dissipation = update_points(step, moved, points);
     if (obstacles->exists())
-      obstacles->commit(problem->contact(), v, h, advection != Advection::none);
+      obstacles->commit(
+        problem->contact(), v, h, solved_h, advection != Advection::none);
     update_supports(step, v, kinematics, report.reactions);
     if (advection != Advection::none)
       moving->move(v, h, step.solved_at);
@@ -821,7 +829,8 @@ namespace geocone
             next.displacement[d] =
               h * (follows_grid ? mean[d] : next.velocity[d]);
           }
-        if (advection == Advection::none)
+        if (advection == Advection::none ||
+            scene->regions.are_fixed(points.material[p]))
           gradient = 0.;
         else
           move = next.displacement;

@@ -141,6 +141,7 @@ namespace geocone
       dealii::Tensor<1, dim> force; ///< of the obstacle on the body (N/m)
       State                  state = State::open;
       double                 error = 0.; ///< |F| (N/m)
+      double size = 0.; ///< |r| + rho |u|, of what F is made of (N/m)
     };
 
     const std::vector<ContactNode> &

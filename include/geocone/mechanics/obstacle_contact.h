@@ -18,7 +18,7 @@ namespace geocone
   struct ContactReport
   {
     unsigned int open = 0, stick = 0, slip = 0; ///< nodes
-    double       error       = 0.; ///< largest |F| over the sum of the forces
+    double       error = 0.; ///< largest |F| over the sum of |r| + rho |u|
     double       penetration = 0.; ///< greatest (m)
     double       width       = 0.; ///< of what is closed (m), and the greatest
     double       pressure = 0.; ///< pressure (Pa), where the mesh is the body
@@ -72,6 +72,7 @@ namespace geocone
     /**
      * The nodes and the obstacles of a step from t to t + h.
      * @param velocity_n at t_n, with ghosts
+     * @param solved_h what is solved for: h, or h/2 by the midpoint rule
      * @param gaps of a background mesh: per obstacle the gap to it of the nearest
      * particle that a node moves, by its first dof, with ghosts
      * @throws StepFailure if a node touches two obstacles at once
@@ -80,6 +81,7 @@ namespace geocone
     begin(const Vector              &velocity_n,
           const double               t,
           const double               h,
+          const double               solved_h,
           const std::vector<Vector> &gaps = {}) const;
 
     /** What came of a step, before commit(). Collective. */
@@ -97,6 +99,7 @@ namespace geocone
     commit(const Contact &contact,
            const Vector  &v,
            const double   h,
+           const double   solved_h,
            const bool     moves);
 
     /** What the obstacles have moved. */
@@ -104,13 +107,6 @@ namespace geocone
     moved() const
     {
       return displacement;
-    }
-
-    /** Their velocities in the last step. */
-    const std::vector<RigidMotion> &
-    velocities() const
-    {
-      return velocity;
     }
 
     /** @name The state: of the obstacles what they have moved, and their velocities;

@@ -170,13 +170,33 @@ namespace geocone
     unsigned int
     material_at(const dealii::Point<dim> &x, const int id) const;
 
+    /** Whether the points of a material stay where they are while others move, as
+     *  those of finite elements do. */
+    bool
+    are_fixed(const unsigned int material) const
+    {
+      return regions[material]->points == Points::fixed;
+    }
+
+    /** @throws InputError if a material's points are fixed, with what moves all */
+    void
+    refuse_fixed(const std::string &method) const;
+
   private:
+    enum class Points
+    {
+      moving,
+      fixed
+    };
+
     class Region : public dealii::ParameterAcceptor
     {
     public:
       explicit Region(const std::string &name);
       std::vector<dealii::Point<dim>> polygon;
-      int                             id = -1;
+      int                             id     = -1;
+      Choice<Points>                  points = {
+                         {{"moving", Points::moving}, {"fixed", Points::fixed}}};
     };
     std::vector<std::unique_ptr<Region>> regions;
   };

@@ -7,13 +7,14 @@
 #include <geocone/mechanics/constraints.h>
 #include <geocone/mechanics/loads.h>
 #include <geocone/mechanics/obstacle_contact.h>
+#include <geocone/time_stepping/midpoint_rule.h>
 #include <geocone/time_stepping/time_stepper.h>
 
 namespace geocone
 {
   /**
-   * Backward Euler for the finite element method with points that do not move
-   * (small strains).
+   * Steps of the finite element method with points that do not move (small strains):
+   * backward Euler, or the midpoint rule.
    */
   class ImplicitFEM : public TimeStepper, public dealii::ParameterAcceptor
   {
@@ -77,7 +78,8 @@ namespace geocone
     void
     check_resistance(const MaterialPoints &points, const MPI_Comm comm) const;
 
-    bool inertia = false;
+    bool                inertia     = false;
+    Choice<Integration> integration = integration_choice();
 
     const Scene                        *scene = nullptr;
     const BackgroundMesh               *mesh  = nullptr;

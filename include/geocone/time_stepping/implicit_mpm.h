@@ -8,6 +8,7 @@
 #include <geocone/discretisation/particles.h>
 #include <geocone/mechanics/moving_conditions.h>
 #include <geocone/mechanics/point_functions.h>
+#include <geocone/time_stepping/midpoint_rule.h>
 #include <geocone/time_stepping/time_stepper.h>
 
 namespace geocone
@@ -121,12 +122,6 @@ namespace geocone
       none
     };
 
-    enum class Integration
-    {
-      backward_euler,
-      midpoint
-    };
-
     /** A particle after the step. */
     struct Moved
     {
@@ -156,10 +151,10 @@ namespace geocone
 
     /** Of a particle, as a square of its volume, and an obstacle that has moved. */
     double
-    gap(const MaterialPoints         &points,
-        const unsigned int            p,
-        const unsigned int            obstacle,
-        const RigidMotion            &moved) const;
+    gap(const MaterialPoints &points,
+        const unsigned int    p,
+        const unsigned int    obstacle,
+        const RigidMotion    &moved) const;
 
     /** Of the nearest particle of each node, for ObstacleContact::begin(). */
     std::vector<Vector>
@@ -222,6 +217,13 @@ namespace geocone
     work_of_changing_gravity(const Step           &step,
                              const MaterialPoints &points) const;
 
+    /** What the weight does to points that stay while others move: their potential
+     *  energy does not change, as with FEM (J/m). */
+    double
+    work_on_fixed_points(const Step               &step,
+                         const MaterialPoints     &points,
+                         const std::vector<Moved> &moved) const;
+
     /** Gives the points their state at the end of the step.
      *  @return the dissipation (J/m) */
     double
@@ -250,12 +252,10 @@ namespace geocone
       {{"grid velocity", Advection::grid_velocity},
        {"particle velocity", Advection::particle_velocity},
        {"none", Advection::none}}};
-    Choice<Integration> integration = {
-      {{"backward Euler", Integration::backward_euler},
-       {"midpoint", Integration::midpoint}}};
-    Choice<Start> start_asked = {{{"automatic", Start::automatic},
-                                  {"grid velocity", Start::nodes},
-                                  {"particle velocity", Start::particles}}};
+    Choice<Integration> integration = integration_choice();
+    Choice<Start>       start_asked = {{{"automatic", Start::automatic},
+                                        {"grid velocity", Start::nodes},
+                                        {"particle velocity", Start::particles}}};
 
     /** Which light functions have ghost stiffness. */
     enum class Ghosts

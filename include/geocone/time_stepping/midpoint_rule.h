@@ -1,0 +1,61 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_time_stepping_midpoint_rule_h
+#define geocone_time_stepping_midpoint_rule_h
+
+#include <geocone/base/choice.h>
+#include <geocone/materials/material.h>
+#include <geocone/mechanics/internal_forces.h>
+
+#include <vector>
+
+namespace geocone
+{
+  /** How a step from t to t + h is integrated. */
+  enum class Integration
+  {
+    backward_euler,
+
+    /** Backward Euler over h/2, and all that is linear in time doubled from there: of
+     *  order two; elastic motion loses no energy. What is in contact stays at u_mid =
+     *  -g/h, whose force does no positive work: energy never grows. */
+    midpoint
+  };
+
+  inline Choice<Integration>
+  integration_choice()
+  {
+    return {{{"backward Euler", Integration::backward_euler},
+             {"midpoint", Integration::midpoint}}};
+  }
+
+  /** A point at the end of a step. */
+  struct EndOfStep
+  {
+    Mandel stress;
+    Mandel plastic;     ///< strain increment of the step
+    double dissipation; ///< of the step, per volume (J/m^3)
+  };
+
+  /**
+   * From what was solved for: by the midpoint rule the stress is extrapolated, and
+   * taken back into what the soil can bear, by plastic strain.
+   * @param stress_n at the beginning @param history at the end
+   */
+  EndOfStep
+  end_of_step(const Integration     integration,
+              const InternalForces &solved,
+              const unsigned int    point,
+              const Material       &material,
+              const Mandel         &stress_n,
+              const double         *history);
+
+  /** The histories at the end from those that were solved for. */
+  void
+  extrapolate(const Integration          integration,
+              const std::vector<double> &history_n,
+              std::vector<double>       &history);
+} // namespace geocone
+
+#endif
