@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/discretisation/cell_record.h>
+#include <geocone/discretisation/history_start.h>
 #include <geocone/discretisation/particles.h>
 
 #include <deal.II/base/mpi.h>
@@ -80,7 +81,8 @@ namespace geocone
     unsigned int       first = 0;
     const unsigned int n     = seeds.size();
     MPI_Exscan(&n, &first, 1, MPI_UNSIGNED, MPI_SUM, comm);
-    const auto &conditions = scene.dirichlet.list;
+    const auto  &conditions = scene.dirichlet.list;
+    HistoryStart start;
     for (unsigned int i = 0; i < n; ++i)
       {
         const Seed            &seed = seeds[i];
@@ -90,8 +92,11 @@ namespace geocone
         one.mass[0]                 = seed.volume * law.density();
         one.velocity[0]             = seed.velocity;
         one.stress[0]               = seed.stress;
-        law.initialise(plane_strain_stress(seed.stress, seed.stress_zz),
-                       one.history.data());
+        start.set(law,
+                  plane_strain_stress(seed.stress, seed.stress_zz),
+                  space.band_width(seed.cell),
+                  seed.position,
+                  one.history.data());
         one.held_by[0] = 0;
         for (unsigned int c = 0; c < conditions.size(); ++c)
           if (conditions[c]->holds() == Imposition::On::particles &&
@@ -103,6 +108,8 @@ namespace geocone
         one.state(0, row);
         places.push_back({first + i, unknown_cell, seed.position, {}});
       }
+    std::vector<std::string> remarks; // of laws that are not in closed form
+    start.finish<InputError>(comm, remarks);
     sort();
 
     const unsigned int k    = seeding.points_per_direction();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/discretisation/history_start.h>
 #include <geocone/discretisation/quadrature_points.h>
 
 #include <deal.II/base/mpi.h>
@@ -91,6 +92,7 @@ namespace geocone
     points.n_history = scene.materials.n_history();
     CellValues values(space, mesh, stress_quadrature(space, mesh));
     std::vector<types::global_dof_index> nodes;
+    HistoryStart                         start;
     for (const auto &cell : mesh.own_cells())
       {
         values.reinit(cell);
@@ -109,17 +111,21 @@ namespace geocone
             points.material[p] = material;
             points.stress[p]   = scene.initial_stress.at(
               x, material, scene.materials, scene.regions);
-            scene.materials.law(material).initialise(
-              plane_strain_stress(
-                points.stress[p],
-                scene.initial_stress.zz_at(x, points.stress[p])),
-              &points.history[points.n_history * p]);
+            start.set(scene.materials.law(material),
+                      plane_strain_stress(
+                        points.stress[p],
+                        scene.initial_stress.zz_at(x, points.stress[p])),
+                      space.band_width(BackgroundMesh::size_of(cell)),
+                      x,
+                      &points.history[points.n_history * p]);
             for (unsigned int c = 0; c < dim; ++c)
               for (unsigned int i = 0; i < points.n_nodes; ++i)
                 points.gradients.push_back(values.gradient(i, q)[c]);
           }
         points.first_point.push_back(points.weight.size());
       }
+    std::vector<std::string> remarks; // of laws that are not in closed form
+    start.finish<InputError>(mesh.triangulation().get_communicator(), remarks);
     // The first material has what the others leave, which may be nothing.
     std::vector<unsigned int> n(scene.materials.size(), 0);
     for (const unsigned int material : points.material)

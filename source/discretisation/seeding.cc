@@ -318,6 +318,7 @@ namespace geocone
                  const Detail                       detail,
                  const Take                        &take) const
   {
+    const double size = std::sqrt(grid.axes[0].size * grid.axes[1].size);
     if (points_per_direction() == 0)
       {
         visit_all(scene, [&](Block &block, const Given &given) {
@@ -329,6 +330,7 @@ namespace geocone
                 grid.axes[0].interval(seed.position[0]);
               if (column < columns[0] || column >= columns[1])
                 continue;
+              seed.cell = size;
               describe(seed, scene, given, detail);
               take(seed);
             }
@@ -354,6 +356,7 @@ namespace geocone
               seed.position = x;
               seed.volume   = line.weight(a) * line.weight(b) *
                             grid.axes[0].size * grid.axes[1].size;
+              seed.cell = size;
               describe(seed, scene, Given(), detail);
               take(seed);
             }
@@ -378,6 +381,7 @@ namespace geocone
                 throw outside_mesh(seed.position);
               if (cells.owner(place->cell) != rank)
                 continue;
+              seed.cell = BackgroundMesh::size_of(place->cell);
               describe(seed, scene, given, detail);
               take(seed);
             }
@@ -410,6 +414,7 @@ namespace geocone
               Seed seed;
               seed.position = values.quadrature_point(q);
               seed.volume   = values.JxW(q);
+              seed.cell     = BackgroundMesh::size_of(cell);
               describe(seed, scene, Given(), detail);
               take(seed);
             }

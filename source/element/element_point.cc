@@ -151,7 +151,7 @@ namespace geocone
         now.history.resize(law.n_history());
         const ConstitutiveLaw::Stress s = {
           {stress[0], stress[1], stress[2], stress[3]}};
-        changed  = law.initialise(s, now.history.data());
+        changed  = law.initialise(s, 0., now.history.data());
         now.wave = law.wave_modulus(s, now.history.data());
         trial    = now;
       }

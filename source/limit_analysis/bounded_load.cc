@@ -204,7 +204,7 @@ namespace geocone
                            "load",
                            "what cannot yield bears any load: give it a "
                            "strength, or leave it out of the domain");
-        if (cone->hardening != 0.)
+        if (scene.materials[m].hardens())
           throw InputError(parameter,
                            "a law that hardens",
                            "Mohr-Coulomb | Tresca with 'Analysis/Kind' = limit "

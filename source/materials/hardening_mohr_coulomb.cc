@@ -2,17 +2,44 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
 #include <geocone/materials/hardening_mohr_coulomb.h>
+#include <geocone/materials/varying_cone.h>
+
+#include <algorithm>
 
 namespace geocone
 {
   HardeningMohrCoulomb::HardeningMohrCoulomb(const std::string &section)
     : MohrCoulomb(section)
   {
+    const std::string forms = " with the plastic shear strain: constant; "
+                              "'strain: value, strain: value, "
+                              "...', linear from the initial value at strain 0 "
+                              "to each of them and constant "
+                              "beyond the last; or 'exponential VALUE, "
+                              "STRAIN', which falls or rises to the "
+                              "value by exp(-strain/STRAIN).";
     add_parameter("Hardening modulus",
                   modulus,
                   "H (Pa), >= 0: the cohesion is c + H gamma_p, with gamma_p "
                   "the plastic shear strain.");
+    add_parameter("Cohesion with strain",
+                  cohesion_text,
+                  "How the cohesion (Pa) changes" + forms);
+    add_parameter("Friction angle with strain",
+                  friction_text,
+                  "How the friction angle (degrees) changes" + forms);
+    add_parameter("Dilatancy angle with strain",
+                  dilatancy_text,
+                  "How the dilatancy angle (degrees) changes" + forms);
+    add_parameter(
+      "Softening length",
+      length,
+      "Thickness (m) of the shear band that the strains of the curves "
+      "belong to, > 0 where the strength falls: a band in a mesh is one "
+      "row of cells thick, and takes the same slip. 0: strains of the "
+      "mesh, for strength that only grows.");
   }
 
   void
@@ -20,19 +47,121 @@ namespace geocone
   {
     MohrCoulomb::prepare();
     if (!(modulus >= 0.))
-      throw InputError(parameter("Hardening modulus"),
-                       modulus,
-                       "H >= 0 Pa",
-                       "0 is perfect plasticity; softening would make results "
-                       "depend on the mesh");
+      throw InputError(
+        parameter("Hardening modulus"),
+        modulus,
+        "H >= 0 Pa",
+        "0 is perfect plasticity; for softening give 'Cohesion with "
+        "strain' and a 'Softening length'");
     slope = 2. * modulus * std::cos(radians(friction_angle()));
+
+    const std::string names[] = {"Cohesion with strain",
+                                 "Friction angle with strain",
+                                 "Dilatancy angle with strain"};
+    cohesion_curve.read(parameter(names[0]), cohesion_text, cohesion());
+    friction_curve.read(parameter(names[1]), friction_text, friction_angle());
+    dilatancy_curve.read(
+      parameter(names[2]), dilatancy_text, dilatancy_angle());
+    varies = !(cohesion_curve.is_constant() && friction_curve.is_constant() &&
+               dilatancy_curve.is_constant());
+    if (varies && modulus > 0.)
+      throw InputError(
+        parameter("Hardening modulus"),
+        modulus,
+        "0 beside curves",
+        "write it as a curve, e.g. 'Cohesion with strain' = 1: c + "
+        "H");
+    if (!(cohesion_curve.least() >= 0.))
+      throw InputError(parameter(names[0]),
+                       cohesion_text,
+                       "values >= 0 Pa",
+                       "give the cohesion in Pa");
+    if (!(friction_curve.least() >= 0. && friction_curve.most() < 90.))
+      throw InputError(parameter(names[1]),
+                       friction_text,
+                       "0 <= phi < 90 degrees",
+                       "give the angle in degrees; soils have 0 to 45");
+    std::vector<double> places = cohesion_curve.places();
+    for (const StrainCurve *curve : {&friction_curve, &dilatancy_curve})
+      for (const double place : curve->places())
+        places.push_back(place);
+    for (const double kappa : places)
+      {
+        const double phi   = friction_curve(kappa),
+                     theta = dilatancy_curve(kappa);
+        if (!(theta >= 0. && theta <= phi * (1. + 1e-12)))
+          throw InputError(
+            parameter(names[2]),
+            dilatancy_text,
+            format("0 <= theta <= phi, which is %g degrees at the "
+                   "strain %g",
+                   phi,
+                   kappa),
+            "let the dilatancy fall at least as early as the "
+            "friction; more of it would create energy");
+        if (!(phi > 0. || cohesion_at(kappa) > 0.))
+          throw InputError(
+            parameter(names[0]),
+            cohesion_text,
+            format("> 0 Pa at the strain %g, where phi = 0", kappa),
+            "a material without cohesion and friction has no "
+            "strength at all: leave it a little");
+      }
+
+    if (!(length >= 0.))
+      throw InputError(parameter("Softening length"),
+                       length,
+                       "L > 0 m, or 0",
+                       "shear bands in sand are 10 to 20 grains thick");
+    softens =
+      cohesion_curve.least_slope() < 0. || friction_curve.least_slope() < 0.;
+    if (softens && length == 0.)
+      throw InputError(
+        parameter("Softening length"),
+        length,
+        "> 0 m where the strength falls",
+        "give the thickness of the shear band to which the strains of "
+        "the curves belong: without it the result would depend on the "
+        "cells");
+  }
+
+  double
+  HardeningMohrCoulomb::cohesion_at(const double kappa) const
+  {
+    return cohesion_curve(kappa) + modulus * kappa;
+  }
+
+  FlowCone
+  HardeningMohrCoulomb::cone_at(const double kappa) const
+  {
+    return cone_of(
+      cohesion_at(kappa), friction_curve(kappa), dilatancy_curve(kappa));
   }
 
   std::string
-  HardeningMohrCoulomb::initialise(const Stress &stress, double *history) const
+  HardeningMohrCoulomb::initialise(const Stress &stress,
+                                   const double  size,
+                                   double       *history) const
   {
     history[plastic_shear()] = 0.;
-    return MohrCoulomb::initialise(stress, history);
+    if (length > 0.)
+      {
+        const double G       = elasticity().two_G / 2.;
+        const double steep   = -cohesion_curve.least_slope();
+        const double largest = steep > 0. ? length * G / steep : size;
+        if (size > 0.9 * largest)
+          throw InputError(
+            parameter("Softening length"),
+            length,
+            format(
+              "cells below %g m, for a cell of %g m is unloaded by more than "
+              "its band can take",
+              0.9 * largest,
+              size),
+            "take smaller cells, or curves that fall less steeply");
+        history[plastic_shear() + 1] = size > 0. ? size / length : 1.;
+      }
+    return MohrCoulomb::initialise(stress, size, history);
   }
 
   std::vector<ConstitutiveLaw::Shown>
@@ -40,6 +169,8 @@ namespace geocone
   {
     std::vector<Shown> all = MohrCoulomb::shown();
     all.push_back({"cohesion", "cohesion (Pa)"});
+    if (!friction_curve.is_constant())
+      all.push_back({"friction_angle", "friction angle (degrees)"});
     return all;
   }
 
@@ -49,29 +180,89 @@ namespace geocone
                              double                      *values) const
   {
     MohrCoulomb::show(in_plane, history, values);
-    values[MohrCoulomb::shown().size()] =
-      cohesion() + modulus * history[plastic_shear()];
+    const unsigned int first = MohrCoulomb::shown().size();
+    const double       kappa = history[plastic_shear()];
+    values[first]            = cohesion_at(kappa);
+    if (!friction_curve.is_constant())
+      values[first + 1] = friction_curve(kappa);
   }
 
   std::optional<FlowCone>
   HardeningMohrCoulomb::flow_cone(const double *history) const
   {
-    FlowCone cone = *MohrCoulomb::flow_cone(nullptr);
-    cone.k += slope / sqrt2 * history[plastic_shear()];
+    FlowCone cone  = cone_at(history[plastic_shear()]);
     cone.hardening = slope;
     return cone;
+  }
+
+  std::optional<FlowCone>
+  HardeningMohrCoulomb::exact_end_cone(const double *history_n,
+                                       const double  slip) const
+  {
+    return varies ? cone_at(sheared(history_n, slip))
+                  : MohrCoulomb::exact_end_cone(history_n, slip);
+  }
+
+  std::optional<FlowCone>
+  HardeningMohrCoulomb::end_cone(const Mandel  &stress_n,
+                                 const double  *history_n,
+                                 const StepLaw &step,
+                                 const double   slip) const
+  {
+    return varies
+             ? with_memory(
+                 cone_at(sheared(history_n, slip)), stress_n, history_n, step)
+             : MohrCoulomb::end_cone(stress_n, history_n, step, slip);
+  }
+
+  Mode
+  HardeningMohrCoulomb::return_to_cone(const Mandel  &trial,
+                                       const Mandel  &stress_n,
+                                       const double  *history_n,
+                                       const StepLaw &step,
+                                       Mandel        &stress,
+                                       double        &slip,
+                                       MandelMatrix  *tangent) const
+  {
+    if (!varies)
+      return MohrCoulomb::return_to_cone(
+        trial, stress_n, history_n, step, stress, slip, tangent);
+    return return_map_varying(
+      [&](const double sheared_by) {
+        return with_memory(
+          cone_at(sheared(history_n, sheared_by)), stress_n, history_n, step);
+      },
+      elasticity().normal_stiffness(),
+      elasticity().two_G,
+      trial,
+      stress,
+      tangent,
+      slip);
+  }
+
+  double
+  HardeningMohrCoulomb::non_associativity() const
+  {
+    double              most   = 0.;
+    std::vector<double> places = friction_curve.places();
+    for (const double place : dilatancy_curve.places())
+      places.push_back(place);
+    for (const double place : places)
+      if (const FlowCone cone = cone_at(place); cone.a > 0.)
+        most = std::max(most, (cone.a - cone.b) / cone.a);
+    return most;
   }
 
   bool
   HardeningMohrCoulomb::has_symmetric_tangent() const
   {
-    return MohrCoulomb::has_symmetric_tangent() &&
-           (slope == 0. || friction_angle() == 0.);
+    return MohrCoulomb::has_symmetric_tangent() && !softens &&
+           (!hardens() || friction_curve.most() == 0.);
   }
 
   void
   HardeningMohrCoulomb::add_to_history(const double slip, double *history) const
   {
-    history[plastic_shear()] += sqrt2 * slip;
+    history[plastic_shear()] = sheared(history, slip);
   }
 } // namespace geocone

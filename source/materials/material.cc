@@ -37,7 +37,9 @@ namespace geocone
   }
 
   std::string
-  Material::initialise(const Stress &stress, double *history) const
+  Material::initialise(const Stress &stress,
+                       const double,
+                       double *history) const
   {
     history[0] = stress[2] - poisson_ratio * (stress[0] + stress[1]);
     return "";
@@ -70,6 +72,23 @@ namespace geocone
     return cone;
   }
 
+  std::optional<FlowCone>
+  Material::end_cone(const Mandel  &stress_n,
+                     const double  *history_n,
+                     const StepLaw &step,
+                     const double   slip) const
+  {
+    const auto cone = step_cone(stress_n, history_n, step);
+    return cone ? cone->hardened(slip) : cone;
+  }
+
+  std::optional<FlowCone>
+  Material::exact_end_cone(const double *history_n, const double slip) const
+  {
+    const auto cone = flow_cone(history_n);
+    return cone ? cone->hardened(slip) : cone;
+  }
+
   void
   Material::reduce_strength(const double)
   {
@@ -86,7 +105,7 @@ namespace geocone
   Material::initial_cone() const
   {
     std::vector<double> history(n_history());
-    initialise({}, history.data());
+    initialise({}, 0., history.data());
     return flow_cone(history.data());
   }
 

@@ -76,11 +76,22 @@ namespace geocone
   MohrCoulomb::set_cone(const double F)
   {
     // For F = 1 to the last digit what the file says.
-    const double angle =
-      F == 1. ? radians(phi) : std::atan(std::tan(radians(phi)) / F);
-    cone.a = std::sin(angle);
-    cone.b = theta == phi ? cone.a : std::min(std::sin(radians(theta)), cone.a);
-    cone.k = sqrt2 * c / F * std::cos(angle);
+    const double angle = F == 1. ? phi
+                                 : std::atan(std::tan(radians(phi)) / F) *
+                                     180. / dealii::numbers::PI;
+    cone               = cone_of(c / F, angle, theta == phi ? angle : theta);
+  }
+
+  FlowCone
+  MohrCoulomb::cone_of(const double cohesion,
+                       const double phi,
+                       const double theta)
+  {
+    FlowCone cone;
+    cone.a = std::sin(radians(phi));
+    cone.b = std::min(std::sin(radians(theta)), cone.a);
+    cone.k = sqrt2 * cohesion * std::cos(radians(phi));
+    return cone;
   }
 
   void
@@ -125,11 +136,13 @@ namespace geocone
   }
 
   std::string
-  MohrCoulomb::initialise(const Stress &stress, double *history) const
+  MohrCoulomb::initialise(const Stress &stress,
+                          const double  size,
+                          double       *history) const
   {
     if (tau > 0.)
       history[memory] = -(stress[0] + stress[1]) / sqrt2;
-    return Material::initialise(stress, history);
+    return Material::initialise(stress, size, history);
   }
 
   std::vector<ConstitutiveLaw::Shown>
@@ -156,12 +169,45 @@ namespace geocone
                          const double  *history_n,
                          const StepLaw &step) const
   {
-    if (tau == 0.)
-      return Material::step_cone(stress_n, history_n, step);
+    return with_memory(*flow_cone(history_n), stress_n, history_n, step);
+  }
+
+  FlowCone
+  MohrCoulomb::with_memory(const FlowCone &exact,
+                           const Mandel   &stress_n,
+                           const double   *history_n,
+                           const StepLaw  &step) const
+  {
     // A solver's lag takes more of the past.
-    const double part = remembered(step.size);
-    return flow_cone(history_n)->delayed(part + (1. - part) * step.friction_lag,
-                                         history_n[memory]);
+    if (tau > 0.)
+      {
+        const double part = remembered(step.size);
+        return exact.delayed(part + (1. - part) * step.friction_lag,
+                             history_n[memory]);
+      }
+    return step.friction_lag > 0.
+             ? exact.delayed(step.friction_lag, to_cone_axes(stress_n)[0])
+             : exact;
+  }
+
+  Mode
+  MohrCoulomb::return_to_cone(const Mandel  &trial,
+                              const Mandel  &stress_n,
+                              const double  *history_n,
+                              const StepLaw &step,
+                              Mandel        &stress,
+                              double        &slip,
+                              MandelMatrix  *tangent) const
+  {
+    const double two_G = elasticity().two_G;
+    const Mode   mode  = return_map(*step_cone(stress_n, history_n, step),
+                                 elasticity().normal_stiffness(),
+                                 two_G,
+                                 trial,
+                                 stress,
+                                 tangent);
+    slip = FlowCone::tangential_norm(Mandel(trial - stress)) / two_G;
+    return mode;
   }
 
   std::optional<FlowCone>
@@ -196,26 +242,29 @@ namespace geocone
     for (std::size_t p = 0; p < increment.strain.size(); ++p)
       {
         const std::size_t first = increment.n_history * p;
-        const FlowCone    law   = is_plain ? cone
-                                           : *step_cone(increment.stress_n[p],
-                                                   increment.history_n + first,
-                                                   increment.step);
         const Mandel      trial =
           increment.stress_n[p] + elasticity().stress(increment.strain[p]);
-        const Mandel in_axes = to_cone_axes(trial);
-        Mandel       returned;
-        MandelMatrix tangent;
-        response.mode[p] = return_map(
-          law, K, two_G, in_axes, returned, linear ? &tangent : nullptr);
+        const Mandel        in_axes = to_cone_axes(trial);
+        Mandel              returned;
+        MandelMatrix        tangent;
+        MandelMatrix *const wanted = linear ? &tangent : nullptr;
+        double              slip   = 0.;
+        response.mode[p] =
+          is_plain ? return_map(cone, K, two_G, in_axes, returned, wanted)
+                   : return_to_cone(in_axes,
+                                    increment.stress_n[p],
+                                    increment.history_n + first,
+                                    increment.step,
+                                    returned,
+                                    slip,
+                                    wanted);
         if (!fixed && response.history != nullptr)
           {
             double *history = response.history + first;
             if (tau > 0.)
               history[memory] =
                 part * history[memory] + (1. - part) * returned[0];
-            add_to_history(
-              FlowCone::tangential_norm(Mandel(in_axes - returned)) / two_G,
-              history);
+            add_to_history(slip, history);
           }
         // An elastic point keeps its trial stress to the last digit.
         const bool elastic = response.mode[p] == Mode::elastic;

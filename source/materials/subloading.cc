@@ -463,7 +463,9 @@ namespace geocone
                                SubloadingState<6> &) const;
 
   std::string
-  Subloading::initialise(const Stress &stress, double *history) const
+  Subloading::initialise(const Stress &stress,
+                         const double,
+                         double *history) const
   {
     SubloadingState<4> state;
     const std::string  changed = initial_state<4>(

@@ -378,8 +378,8 @@ namespace geocone
             if (law.friction_memory() > 0. && law.n_history() == 2)
               {
                 const Mandel &s = points.stress[i];
-                law.initialise(plane_strain_stress(s, 0.),
-                               &points.history[2 * i]);
+                law.initialise(
+                  plane_strain_stress(s, 0.), 0., &points.history[2 * i]);
                 if (frozen.n_history == 1)
                   points.history[2 * i] = frozen.history[i];
                 remembered = true;

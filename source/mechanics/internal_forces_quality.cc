@@ -37,12 +37,13 @@ namespace geocone
         for (unsigned int p = run.begin; p < run.end; ++p)
           if (mode[p] != Mode::elastic)
             {
-              const Mandel z = to_cone_axes(plastic_strain_increment(p));
-              const Mandel s = to_cone_axes(stress[p]);
+              const Mandel z    = to_cone_axes(plastic_strain_increment(p));
+              const Mandel s    = to_cone_axes(stress[p]);
+              const double slip = FlowCone::tangential_norm(z);
               const auto   exact =
-                material.flow_cone(points.history_of(p))->hardened(z);
-              sum += points.weight[p] * FlowCone::tangential_norm(z) *
-                     std::abs(exact.yield_function(s));
+                material.exact_end_cone(points.history_of(p), slip);
+              sum +=
+                points.weight[p] * slip * std::abs(exact->yield_function(s));
             }
     return Utilities::MPI::sum(sum, comm);
   }
@@ -59,14 +60,15 @@ namespace geocone
     };
     // Of the end of the step.
     const auto exact_cone = [&](const unsigned int p, const Mandel &z) {
-      return materials[points.material[p]]
-        .flow_cone(points.history_of(p))
-        ->hardened(z);
+      return *materials[points.material[p]].exact_end_cone(
+        points.history_of(p), FlowCone::tangential_norm(z));
     };
     const auto solved_cone = [&](const unsigned int p, const Mandel &z) {
-      return materials[points.material[p]]
-        .step_cone(points.stress[p], points.history_of(p), step_law())
-        ->hardened(z);
+      return *materials[points.material[p]].end_cone(
+        points.stress[p],
+        points.history_of(p),
+        step_law(),
+        FlowCone::tangential_norm(z));
     };
     const auto has_cone = [&](const Run &run) {
       return materials[run.material]

@@ -7,6 +7,26 @@
 
 namespace geocone
 {
+  namespace
+  {
+    /** Derivative of the projection by |z_t| through the cone, as a difference
+     *  quotient. @param strain the size of elastic strains */
+    template <typename ConeOf, typename Project>
+    Mandel
+    slope_by_slip(const ConeOf  &cone_of,
+                  const Project &project_on,
+                  const double   slip,
+                  const double   strain)
+    {
+      const double step  = 1e-6 * std::max(slip, strain),
+                   below = std::min(step, slip);
+      Mandel above, under;
+      project_on(cone_of(slip + step), above, nullptr);
+      project_on(cone_of(slip - below), under, nullptr);
+      return (above - under) / (step + below);
+    }
+  } // namespace
+
   NaturalMap::NaturalMap(const MaterialPoints      &points,
                          const Materials           &materials,
                          const StepLaw             &step,
@@ -35,46 +55,50 @@ namespace geocone
     double     largest_k = 0.;
     for (unsigned int p = 0; p < strain.size(); ++p)
       {
-        const unsigned int material = points.material[p];
-        FlowCone           at_point;
-        const FlowCone    *cone = cones[material] ? &*cones[material] : nullptr;
-        if (varies[material])
-          {
-            at_point = *materials[material].step_cone(
-              points.stress[p], points.history_of(p), step);
-            cone = &at_point;
-          }
-        const Elasticity &elasticity = materials[material].elasticity();
-        Mandel            s          = iterate[p];
+        const unsigned int material   = points.material[p];
+        const Elasticity  &elasticity = materials[material].elasticity();
+        Mandel             s          = iterate[p];
         if (moves)
           s += slope[p] * (strain[p] - last_strain[p]);
 
         mode[p] = Mode::elastic;
-        if (cone != nullptr)
+        if (cones[material])
           {
             const double rho_p = rho * elasticity.two_G;
             const Mandel z     = to_cone_axes(
               elasticity.strain(Mandel(s - points.stress[p])) - strain[p]);
-            const Mandel   x = to_cone_axes(s);
+            const Mandel x       = to_cone_axes(s);
+            const auto   cone_of = [&](const double slip) {
+              return varies[material]
+                         ? *materials[material].end_cone(
+                           points.stress[p], points.history_of(p), step, slip)
+                         : *cones[material];
+            };
+            const auto project_on = [&](const FlowCone &cone,
+                                        Mandel         &projected,
+                                        MandelMatrix   *J) {
+              const FlowCone convex{cone.a, cone.a, cone.k, cone.tension};
+              return return_map(
+                convex, 1., 1., Mandel(x - rho_p * cone.psi(z)), projected, J);
+            };
+            const double   slip = FlowCone::tangential_norm(z);
+            const FlowCone cone = cone_of(slip);
             Mandel         projected;
             MandelMatrix   J;
-            const double   k = cone->hardened(z).k;
-            const FlowCone convex{cone->a, cone->a, k, cone->tension};
-            mode[p] = return_map(
-              convex, 1., 1., Mandel(x - rho_p * cone->psi(z)), projected, &J);
+            mode[p]                = project_on(cone, projected, &J);
             const Mandel R         = x - projected;
             error.largest_residual = std::max(error.largest_residual, R.norm());
             error.stress_scale     = std::max(error.stress_scale, x.norm());
-            largest_k              = std::max(largest_k, k);
+            largest_k              = std::max(largest_k, cone.k);
             if (mode[p] != Mode::elastic)
               {
                 const double compliance = 1. / elasticity.two_G;
                 const Mandel S(
                   1. / elasticity.normal_stiffness(), compliance, compliance);
-                MandelMatrix B = rho_p * J * cone->psi_slope(z);
-                if (cone->hardening > 0.)
-                  B -= cone->hardening *
-                       project_slope(convex, projected, mode[p]) *
+                MandelMatrix B = rho_p * J * cone.psi_slope(z);
+                if (materials[material].hardens())
+                  B -= slope_by_slip(
+                         cone_of, project_on, slip, compliance * x.norm()) *
                        tangential_direction(z).transpose();
                 const MandelMatrix A =
                   MandelMatrix::Identity() - J + B * S.asDiagonal();

@@ -6,6 +6,7 @@
 // end in.
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/discretisation/history_start.h>
 #include <geocone/time_stepping/explicit_mpm.h>
 
 #include <deal.II/base/mpi.h>
@@ -22,65 +23,6 @@ namespace geocone
   namespace
   {
     using Field = PointArrays::Field;
-
-    /** Sets the histories of points from their stresses, and gathers what the
-     *  laws say of that. */
-    class HistoryStart
-    {
-    public:
-      void
-      set(const ConstitutiveLaw         &law,
-          const ConstitutiveLaw::Stress &stress,
-          const Point<dim>              &place,
-          double                        *history)
-      {
-        try
-          {
-            const std::string remark = law.initialise(stress, history);
-            if (!remark.empty() && n_changed++ == 0)
-              change = remark;
-          }
-        catch (const InputError &error)
-          {
-            refuse(error.what() + format("\n  at:      the point (%g, %g)",
-                                         place[0],
-                                         place[1]));
-          }
-      }
-
-      /** The first refusal counts. */
-      void
-      refuse(const std::string &why)
-      {
-        if (refusal.empty())
-          refusal = why;
-      }
-
-      bool
-      is_refused() const
-      {
-        return !refusal.empty();
-      }
-
-      /** Adds what had to be changed to the remarks. Collective.
-       *  @throws Error if a point of any rank was refused */
-      template <typename Error>
-      void
-      finish(const MPI_Comm comm, std::vector<std::string> &remarks) const
-      {
-        const std::string why = text_of_any_rank(comm, refusal);
-        if (!why.empty())
-          throw Error(why);
-        const std::string   first = text_of_any_rank(comm, change);
-        const unsigned long n     = Utilities::MPI::sum(n_changed, comm);
-        if (n > 0)
-          remarks.push_back(format("%lu points: ", n) + first);
-      }
-
-    private:
-      unsigned long n_changed = 0;
-      std::string   change, refusal;
-    };
   } // namespace
 
   void
@@ -159,8 +101,11 @@ namespace geocone
                               seed.position[1]));
       if (start.is_refused())
         return;
-      start.set(
-        law, stress, seed.position, values.data() + group.first_history());
+      start.set(law,
+                stress,
+                space.band_width(seed.cell),
+                seed.position,
+                values.data() + group.first_history());
       sums.wave_speed2 = std::max(
         sums.wave_speed2,
         law.wave_modulus(stress, values.data() + group.first_history()) /
@@ -213,6 +158,7 @@ namespace geocone
                 group.copy_history(p, values.data());
                 start.set(law,
                           stress_of(group, p, values.data()),
+                          law.size(values.data()),
                           group.position(p),
                           values.data());
                 for (unsigned int k = 0; k < n; ++k)

@@ -41,7 +41,7 @@ measure(const std::string &name, const std::string &parameters)
       for (auto &array : history)
         arrays.push_back(array.data());
       std::vector<double> one(m);
-      law->initialise({{-60e3, -100e3, -60e3, 0.}}, one.data());
+      law->initialise({{-60e3, -100e3, -60e3, 0.}}, 0., one.data());
       for (unsigned int k = 0; k < m; ++k)
         history[k].assign(n, one[k]);
       PointBlock block;

@@ -57,7 +57,7 @@ struct Point
     , stress(start)
     , history(law.n_history())
   {
-    law.initialise(plane_strain_stress(start, 0.), history.data());
+    law.initialise(plane_strain_stress(start, 0.), 0., history.data());
   }
 
   void

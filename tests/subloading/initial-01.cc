@@ -62,7 +62,7 @@ start(const std::string              &what,
       made->prepare();
       std::vector<double> history(made->n_history()),
         shown(made->shown().size());
-      const std::string changed = made->initialise(stress, history.data());
+      const std::string changed = made->initialise(stress, 0., history.data());
       made->show(
         {{stress[0], stress[1], stress[3]}}, history.data(), shown.data());
       if (!changed.empty())

@@ -162,7 +162,7 @@ main()
     x.stress[0] = -60e3;
     x.stress[1] = -100e3;
     x.stress[2] = 0.;
-    law->initialise({{-60e3, -100e3, -60e3, 0.}}, x.history);
+    law->initialise({{-60e3, -100e3, -60e3, 0.}}, 0., x.history);
     for (int k = 0; k < 11; ++k)
       x.arrays[k] = x.history + k;
   };

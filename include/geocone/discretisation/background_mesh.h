@@ -74,6 +74,15 @@ namespace geocone
 
     using Cell = dealii::Triangulation<dim>::active_cell_iterator;
 
+    /** The side of a square, or of the half of one, with a cell's area (m). */
+    static double
+    size_of(const Cell &cell)
+    {
+      return std::sqrt(
+        cell->measure() *
+        (cell->reference_cell() == dealii::ReferenceCells::Triangle ? 2. : 1.));
+    }
+
     /** The cells of this rank, one after another. */
     auto
     own_cells() const

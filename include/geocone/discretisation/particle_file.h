@@ -20,7 +20,8 @@ namespace geocone
   struct Seed
   {
     dealii::Point<dim>     position;
-    double                 volume   = 0.; ///< per unit thickness (m^2)
+    double                 volume = 0.; ///< per unit thickness (m^2)
+    double                 cell = 0.; ///< BackgroundMesh::size_of its cell (m)
     unsigned int           material = 0;
     dealii::Tensor<1, dim> velocity;
     Mandel                 stress    = Mandel::Zero();

@@ -82,6 +82,13 @@ namespace geocone
       return !splines.empty();
     }
 
+    /** The least width of a band of strain in a cell of this size (m). */
+    double
+    band_width(const double cell_size) const
+    {
+      return is_spline() ? cell_size : cell_size / p;
+    }
+
     /** Whether no shape function is negative anywhere. */
     bool
     is_non_negative() const

@@ -70,12 +70,23 @@ namespace geocone
 
     /**
      * The history of a point that has this stress, by the parameters of the law.
+     * @param size in which strain localises there, that of a cell over the degree of
+     * its functions (m), for laws that soften; 0: of a lone point, which is uniform
      * @param[out] history n_history() values
      * @return what had to be changed for it, or nothing
      * @throws InputError if the law cannot have this stress
      */
     virtual std::string
-    initialise(const Stress &stress, double *history) const = 0;
+    initialise(const Stress &stress,
+               const double  size,
+               double       *history) const = 0;
+
+    /** The size that a point was given by initialise(), of laws that need it (m). */
+    virtual double
+    size(const double * /*history*/) const
+    {
+      return 0.;
+    }
 
     /** Out-of-plane stress s_zz (Pa). @param in_plane s_xx, s_yy, s_xy */
     virtual double

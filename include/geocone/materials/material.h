@@ -99,7 +99,9 @@ namespace geocone
     }
 
     std::string
-    initialise(const Stress &stress, double *history) const override;
+    initialise(const Stress &stress,
+               const double  size,
+               double       *history) const override;
 
     double
     stress_zz(const std::array<double, 3> &in_plane,
@@ -126,6 +128,13 @@ namespace geocone
       return n_history() > Material::n_history();
     }
 
+    /** Whether steps change flow_cone(). */
+    virtual bool
+    hardens() const
+    {
+      return false;
+    }
+
     /**
      * The cone of a cone law at t_n, by which solutions are checked independently
      * of update(); nothing for laws without one.
@@ -146,6 +155,18 @@ namespace geocone
     step_cone(const Mandel  &stress_n,
               const double  *history_n,
               const StepLaw &step) const;
+
+    /**
+     * step_cone() at the end of a step with the plastic shear |z_t| = slip, and the
+     * same of flow_cone(). They harden no more.
+     */
+    virtual std::optional<FlowCone>
+    end_cone(const Mandel  &stress_n,
+             const double  *history_n,
+             const StepLaw &step,
+             const double   slip) const;
+    virtual std::optional<FlowCone>
+    exact_end_cone(const double *history_n, const double slip) const;
 
     /** The relaxation time tau of friction with memory (s); 0: none. */
     virtual double

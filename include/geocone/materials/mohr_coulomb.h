@@ -60,7 +60,9 @@ namespace geocone
     }
 
     std::string
-    initialise(const Stress &stress, double *history) const override;
+    initialise(const Stress &stress,
+               const double  size,
+               double       *history) const override;
 
     std::vector<Shown>
     shown() const override;
@@ -95,12 +97,44 @@ namespace geocone
       return phi;
     }
 
+    /** Dilatancy angle (degrees). */
+    double
+    dilatancy_angle() const
+    {
+      return theta;
+    }
+
   protected:
+    /**
+     * The one-point problem of a step, in cone axes.
+     * @param trial s_n + D e @param[out] slip |z_t| of the step (-)
+     * @param[out] tangent ds/de, or null
+     */
+    virtual Mode
+    return_to_cone(const Mandel  &trial,
+                   const Mandel  &stress_n,
+                   const double  *history_n,
+                   const StepLaw &step,
+                   Mandel        &stress,
+                   double        &slip,
+                   MandelMatrix  *tangent) const;
+
     /** The history after a step, for laws that harden.
      *  @param slip |z_t| of the step (-) */
     virtual void
     add_to_history(const double /*slip*/, double * /*history*/) const
     {}
+
+    /** A cone of these parameters (Pa, degrees). */
+    static FlowCone
+    cone_of(const double cohesion, const double phi, const double theta);
+
+    /** What a step takes of the past (step_cone()). @param exact flow_cone() */
+    FlowCone
+    with_memory(const FlowCone &exact,
+                const Mandel   &stress_n,
+                const double   *history_n,
+                const StepLaw  &step) const;
 
     std::optional<FlowCone>
     strength(const double *history) const override;

@@ -77,14 +77,11 @@ namespace geocone
      *  end of the step. */
     double hardening = 0.;
 
-    /** The cone at the end of a step with this z, which hardens no more. */
-    template <typename V>
+    /** The cone at the end of a step with |z_t| = slip, which hardens no more. */
     FlowCone
-    hardened(const V &z) const
+    hardened(const double slip) const
     {
-      if (hardening == 0.)
-        return *this;
-      return {a, b, k + hardening * tangential_norm(z), tension};
+      return {a, b, k + hardening * slip, tension};
     }
 
     template <typename V>
@@ -305,23 +302,6 @@ namespace geocone
   {
     const double T = FlowCone::tangential_norm(x);
     return T > 0. ? Mandel(0., x[1] / T, x[2] / T) : Mandel(Mandel::Zero());
-  }
-
-  /** Derivative of project() by k. @param mode where @p projected lies */
-  inline Mandel
-  project_slope(const FlowCone &cone, const Mandel &projected, const Mode mode)
-  {
-    if (mode == Mode::elastic)
-      return Mandel::Zero();
-    Mandel slope = tangential_direction(projected);
-    if (mode == Mode::apex && cone.tension == infinite_tension)
-      return {-1. / cone.a, 0., 0.};
-    if (mode == Mode::apex) // cut off, inside of the disc or on its edge
-      return cone.yield_function(projected) < -1e-12 * cone.k
-               ? Mandel(Mandel::Zero())
-               : slope;
-    slope[0] = -cone.a;
-    return slope / (1. + cone.a * cone.a);
   }
 
   /**

@@ -42,7 +42,9 @@ namespace geocone
     }
 
     std::string
-    initialise(const Stress &stress, double *history) const override;
+    initialise(const Stress &stress,
+               const double  size,
+               double       *history) const override;
 
     double
     wave_modulus(const Stress &stress, const double *history) const override;
@@ -126,7 +128,7 @@ namespace geocone
     std::vector<double> given_beta = {0., 0., 0., 0.};
     std::vector<double> given_centre; ///< tension positive; empty: chi sigma
     bool                show_tensors = false;
-    double              initial_Rb = 1.;
+    double              initial_Rb   = 1.;
 
     Choice<Outside> if_outside = {
       {{"refuse", Outside::refuse}, {"raise size", Outside::raise_size}}};

@@ -21,8 +21,8 @@ namespace geocone
    * J and Psi' the generalised Jacobians of P_C and Psi. Eliminated point by
    * point, this leaves the momentum balance of the stress s - A^-1 R with the
    * tangent T = A^-1 rho J Psi' for v alone. z is always that of (v, s), and the
-   * momentum balance of s is fulfilled after each full step. Where k = k_n + h |z_t|
-   * hardens, rho J Psi' has the further term - h dP_C/dk (z_t/|z_t|)'. Points of
+   * momentum balance of s is fulfilled after each full step. Where |z_t| hardens the
+   * cone, rho J Psi' has the further term - dP_C/d|z_t| (z_t/|z_t|)'. Points of
    * materials without a cone have s = s_n + D e.
    */
   class NaturalMap

@@ -1,0 +1,60 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_materials_strain_curve_h
+#define geocone_materials_strain_curve_h
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * How a parameter of a law changes with plastic strain from its initial value y_0,
+   * as text:
+   *   constant                    y_0,
+   *   g_1: y_1, g_2: y_2, ...     linear from (0, y_0) to (g_1, y_1) and so on, and
+   *                               constant beyond the last,
+   *   exponential y_1, g_1        y_1 + (y_0 - y_1) exp(-g/g_1).
+   */
+  class StrainCurve
+  {
+  public:
+    /** @throws InputError naming the parameter */
+    void
+    read(const std::string &parameter,
+         const std::string &text,
+         const double       initial);
+
+    double
+    operator()(const double strain) const;
+
+    bool
+    is_constant() const
+    {
+      return points.size() == 1;
+    }
+
+    /** The smallest and the largest value. */
+    double
+    least() const;
+    double
+    most() const;
+
+    /** The smallest derivative, negative where the curve falls. */
+    double
+    least_slope() const;
+
+    /** Where it changes: of an exponential curve some places. */
+    std::vector<double>
+    places() const;
+
+  private:
+    std::vector<std::pair<double, double>> points;
+    double                                 scale =
+      0.; ///< g_1 of an exponential curve, whose y_1 is the last point
+  };
+} // namespace geocone
+
+#endif
