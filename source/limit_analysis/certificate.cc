@@ -254,7 +254,8 @@ namespace geocone
           }
       }
     result.violation /= largest;
-    const bool is_scaled = problem.can_be_scaled();
+    // Cones with their tip at zero stay what they are.
+    const bool is_scaled = problem.dead.squaredNorm() == 0. && theta > 0.;
     if (!is_scaled)
       theta = 1.;
     const Statics found = statics(bound, problem, result.s, solution.load);

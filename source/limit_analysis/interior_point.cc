@@ -459,8 +459,12 @@ namespace geocone
     {
       BoundSolution solution;
       start();
-      double       most            = 0.; // largest stress of the last iterate
-      unsigned int first_converged = options.max_iterations + 1;
+      double       most         = 0.; // largest stress of the last iterate
+      unsigned int first_solved = options.max_iterations + 1;
+      unsigned int n_without    = 0;
+      double       smallest_gap = std::numeric_limits<double>::infinity(),
+             least_equilibrium  = smallest_gap;
+      double last_step          = 1.;
       for (unsigned int iteration = 0;; ++iteration)
         {
           evaluate();
@@ -476,13 +480,21 @@ namespace geocone
               solution.grows  = most > 1e5;
               break;
             }
-          most                   = stress / std::max(strength, 1.);
+          most = stress / std::max(strength, 1.);
+          if (most > 1e12)
+            {
+              solution.reason = "the stresses grow beyond all bounds";
+              solution.grows  = true;
+              break;
+            }
           const double allowed   = options.tolerance * std::abs(load);
           const bool   is_closed = gap < allowed &&
                                  flow < options.flow_tolerance &&
                                  std::abs(r_g) < options.tolerance;
-          if (is_closed && equilibrium < options.equilibrium_tolerance)
-            first_converged = std::min(first_converged, iteration);
+          const bool is_solved =
+            is_closed && equilibrium < options.equilibrium_tolerance;
+          if (is_solved)
+            first_solved = std::min(first_solved, iteration);
           // Stresses that are kept are in equilibrium and in their cones.
           if (is_closed && most_admissible > load - 0.3 * allowed)
             {
@@ -490,12 +502,25 @@ namespace geocone
               break;
             }
           // What cannot be scaled back is beyond its cones in proportion to the gap:
-          // it needs a sharper optimum.
-          if (iteration >= first_converged &&
-              (!options.stresses || most_admissible > nothing ||
-               iteration == first_converged + 6))
+          // it needs a sharper optimum. Where no stresses are in equilibrium, the gap
+          // grows again, or closes without them.
+          if (flow < options.flow_tolerance)
+            smallest_gap = std::min(smallest_gap, gap);
+          if (most_admissible == nothing &&
+              most < 1e3) // or no load is the limit
+            n_without += gap > 5. * smallest_gap ||
+                         (is_closed && equilibrium > least_equilibrium / 2.);
+          least_equilibrium = std::min(least_equilibrium, equilibrium);
+          if ((is_solved && (!options.stresses || most_admissible > nothing)) ||
+              iteration == first_solved + 6 ||
+              (options.stresses && n_without == 4))
             {
-              solution.converged = true;
+              solution.converged = is_solved;
+              if (!is_solved)
+                solution.reason = format(
+                  "no stresses are in equilibrium and in their cones: the "
+                  "best ones miss %.1e of the forces",
+                  equilibrium);
               break;
             }
           if (iteration == options.max_iterations)
@@ -562,7 +587,9 @@ namespace geocone
           for (unsigned int p = 0; p < n; ++p)
             affine += (x[p] + a_x * dx[p]).dot(z[p] + a_z * dz[p]);
           affine /= 2. * n;
-          const double centre = std::pow(std::max(affine, 0.) / mu, 3);
+          // After a short step back to the middle of the cones, or more would follow.
+          const double centre = std::max(std::pow(std::max(affine, 0.) / mu, 3),
+                                         last_step < 0.15 ? 0.8 : 0.);
           for (unsigned int p = 0; p < n; ++p)
             {
               Vector3d c =
@@ -574,6 +601,7 @@ namespace geocone
           steps            = largest_steps();
           const double b_x = std::min(1., 0.99 * steps[0]),
                        b_z = std::min(1., 0.99 * steps[1]);
+          last_step        = std::min(b_x, b_z);
           for (unsigned int p = 0; p < n; ++p)
             {
               x[p] += b_x * dx[p];

@@ -285,6 +285,21 @@ namespace geocone
     return level;
   }
 
+  double
+  LimitAnalysis::next_cells(const BoundLevel &level)
+  {
+    // The gap falls about like one over the number of cells, of which gmsh makes some
+    // more than are asked for: the last mesh need not be larger than it has to.
+    const double made =
+      asked_cells > 0. ? std::clamp(level.cells / asked_cells, 1., 1.3) : 1.;
+    const double left   = level.gap / (0.9 * gap_tolerance);
+    double       factor = growth;
+    if (level.certified() && left / made < growth)
+      factor = std::max(left, 1.2) / made;
+    asked_cells = std::min(factor * level.cells, 1.15 * most_cells);
+    return asked_cells;
+  }
+
   Simulation::Ended
   LimitAnalysis::advance(Place &place)
   {
@@ -306,16 +321,7 @@ namespace geocone
                          scene.geometry.shape == Geometry::Shape::file ||
                          levels.size() == most_levels;
     if (!is_last)
-      // The gap falls like one over the number of cells: the last mesh need not be
-      // larger than it has to.
-      {
-        const double wanted =
-          level.cells *
-          (level.certified()
-             ? std::clamp(level.gap / (0.95 * gap_tolerance), 1.2, growth)
-             : growth);
-        sizes = sizes_by_gap(*triangles, bounds.uneven, wanted);
-      }
+      sizes = sizes_by_gap(*triangles, bounds.uneven, next_cells(level));
     return is_last ? Ended::stage : Ended::well;
   }
 
@@ -459,6 +465,7 @@ namespace geocone
     row(n_levels);
     for (BoundLevel &level : levels)
       level.state(row);
+    row(asked_cells);
     row(reduction);
     archive.write_row("levels", row);
     std::vector<double> numbers;
@@ -482,6 +489,7 @@ namespace geocone
     levels.resize(n_levels);
     for (BoundLevel &level : levels)
       level.state(row);
+    row(asked_cells);
     row(reduction);
     const std::vector<double> numbers = archive.read("sizes");
     sizes.reset();

@@ -84,6 +84,10 @@ namespace geocone
     BoundLevel
     bound_factor();
 
+    /** How many the next mesh is asked to have. */
+    double
+    next_cells(const BoundLevel &level);
+
     /** Davis's estimate of what is bounded, where flow is not associated. */
     void
     estimate_by_davis();
@@ -133,8 +137,9 @@ namespace geocone
     unsigned int most_levels   = 12;
     double       tolerance     = 1e-3;
 
-    std::optional<CellSizes> sizes; ///< of the next mesh
-    std::vector<BoundLevel>  levels;
+    std::optional<CellSizes> sizes;           ///< of the next mesh
+    double                  asked_cells = 0.; ///< of it, or 0 for the first one
+    std::vector<BoundLevel> levels;
 
     /** @name The last level */
     /** @{ */
