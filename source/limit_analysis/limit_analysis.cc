@@ -130,6 +130,8 @@ namespace geocone
     scene.water.prepare(scene.gravity);
     scene.dirichlet.prepare();
     scene.tractions.prepare();
+    scene.absorbing.refuse("'Analysis/Kind' = " + analysis.word(),
+                           "nothing moves fast here: leave it out");
     scene.obstacles.prepare();
     scene.observation.prepare(scene.supports(), scene.materials, scene.gravity);
     for (const auto &condition : scene.dirichlet.list)

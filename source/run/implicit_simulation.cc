@@ -177,9 +177,13 @@ namespace geocone
                                  "give Velocity x and y, or leave 'Output/"
                                  "Freeze steps' and 'Freeze failures' out");
     if (freezer.is_used())
-      scene.obstacles.refuse("frozen problems",
-                             "leave 'Output/Freeze steps' and 'Freeze "
-                             "failures' out");
+      {
+        scene.obstacles.refuse("frozen problems",
+                               "leave 'Output/Freeze steps' and 'Freeze "
+                               "failures' out");
+        scene.absorbing.refuse("frozen problems",
+                               "set 'Output/Freeze steps' to nothing");
+      }
     freezer.check(scene.loading);
     return warnings;
   }

@@ -31,14 +31,16 @@ namespace geocone
       unit + " as a formula in x, y (m) and t (s); '" + unset + "': none.";
     add_parameter(quantity + " x", texts[0], documentation);
     add_parameter(quantity + " y", texts[1], documentation);
-    add_parameter(quantity + " normal",
-                  texts[2],
-                  quantity == "Velocity"
-                    ? "FEM: velocity (m/s) along the outward normal of the "
-                      "sides, instead of x and y; the tangential one is free."
-                    : "Traction (Pa) along the outward normal of the sides, -p "
-                      "for a pressure p; with tangential instead of x and y. "
-                      "MPM: it follows the side as it turns and stretches.");
+    if (quantity == "Velocity" || quantity == "Traction")
+      add_parameter(
+        quantity + " normal",
+        texts[2],
+        quantity == "Velocity"
+          ? "FEM: velocity (m/s) along the outward normal of the "
+            "sides, instead of x and y; the tangential one is free."
+          : "Traction (Pa) along the outward normal of the sides, -p "
+            "for a pressure p; with tangential instead of x and y. "
+            "MPM: it follows the side as it turns and stretches.");
     if (quantity == "Traction")
       add_parameter(
         quantity + " tangential",
@@ -125,7 +127,9 @@ namespace geocone
         "'" + unset + "' beside " + quantity + " x or y",
         "give one of the two pairs of components, or two "
         "conditions");
-    if (!components[0] && !components[1] && !normal && !tangential)
+    const bool may_be_zero = unset == "0";
+    if (!may_be_zero && !components[0] && !components[1] && !normal &&
+        !tangential)
       throw InputError(parameter(quantity + " x"),
                        unset,
                        "a formula for at least one component",
@@ -211,5 +215,16 @@ namespace geocone
   {
     for (const auto &condition : list)
       condition->prepare();
+  }
+
+  void
+  BoundaryConditions::refuse(const std::string &method,
+                             const std::string &remedy) const
+  {
+    if (!list.empty())
+      throw InputError(get_section_name().substr(1) + "/Names",
+                       list[0]->name,
+                       "none with " + method,
+                       remedy);
   }
 } // namespace geocone

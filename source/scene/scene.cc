@@ -33,6 +33,17 @@ namespace geocone
         "none",
         "Names of the conditions with given tractions, comma-separated; "
         "each has a subsection of that name. They add up.")
+    , absorbing(
+        file,
+        "Absorbing boundaries",
+        "Incoming velocity",
+        "Velocity (m/s) of the wave that comes in through the sides (the "
+        "ground "
+        "of a free surface moves twice as much)",
+        "0",
+        "Names of the parts of the boundary that waves leave through "
+        "(dashpots of Lysmer and Kuhlemeyer), comma-separated; each has a "
+        "subsection of that name. FEM with inertia.")
     , obstacles(file)
     , loading(file)
   {}
@@ -49,6 +60,7 @@ namespace geocone
     initial_stress.prepare(gravity, geometry, regions, water.acts());
     dirichlet.prepare();
     tractions.prepare();
+    absorbing.prepare();
     obstacles.prepare();
     loading.prepare();
     for (const auto &obstacle : obstacles.list)

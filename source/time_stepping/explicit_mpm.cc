@@ -117,12 +117,11 @@ namespace geocone
                            "prescribe velocities on sides of the background "
                            "mesh, or set Discretisation/Method = MPM");
       }
-    if (!scene->tractions.list.empty())
-      throw InputError("Tractions/Names",
-                       scene->tractions.list[0]->name,
-                       "none with explicit MPM",
-                       "give a layer of soil instead of a surcharge, or set "
-                       "Discretisation/Method = MPM");
+    scene->tractions.refuse(
+      "explicit MPM",
+      "give a layer of soil instead of a surcharge, or set "
+      "Discretisation/Method = MPM");
+    scene->absorbing.refuse("explicit MPM", "set Discretisation/Method = FEM");
   }
 
   std::vector<std::string>

@@ -59,6 +59,10 @@ namespace geocone
                          "0 with Integration = midpoint",
                          "by the midpoint rule a node that hits an obstacle "
                          "rebounds elastically as it is");
+    if (!inertia)
+      scene->absorbing.refuse(
+        "Time stepping/Inertia = false",
+        "set it to true: without inertia there are no waves");
     if (scene->initial_velocity.is_given() && !inertia)
       throw InputError("Initial velocity/Velocity x",
                        "a formula",
@@ -98,6 +102,10 @@ namespace geocone
                                            0.,
                                            std::vector<GhostStencil>(),
                                            obstacles->exists());
+    absorbing = std::make_unique<AbsorbingBoundary>(*scene, mesh_, space_);
+    absorbing->check(*constraints);
+    if (absorbing->exists())
+      problem->add(*absorbing);
     newton.check(*problem);
     system->set_pattern(*problem, timer);
     return "";
@@ -171,6 +179,8 @@ namespace geocone
         touching = obstacles->begin(kinematics.velocity, t, h, solved_h);
         kinematics.velocity.zero_out_ghost_values();
       }
+    if (absorbing->exists())
+      absorbing->begin_step(solved_at, *constraints);
     problem->begin_step(solved_h,
                         loads->exist() ? &force : nullptr,
                         velocity_n,
@@ -217,6 +227,8 @@ namespace geocone
     dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums.data(), 2),
                                 v.get_mpi_communicator(),
                                 dealii::ArrayView<double>(sums.data(), 2));
+    if (absorbing->exists())
+      sums[0] += h * absorbing->power(v);
     if (obstacles->exists())
       {
         report.contact = obstacles->report(problem->contact(), v, h);

@@ -161,6 +161,7 @@ namespace geocone
     datum  = mesh->lower_corner();
 
     constraints = std::make_unique<Constraints>(*scene, *mesh, *space);
+    scene->absorbing.refuse("MPM", "set Discretisation/Method = FEM");
     obstacles = std::make_unique<ObstacleContact>(*scene, *mesh, *space, false);
     check_obstacles(points);
     system = std::make_unique<LinearSystem>(

@@ -65,6 +65,13 @@ namespace geocone
       std::vector<GhostStencil> ghosts          = {},
       const bool                has_contact     = false);
 
+    /** One more term, which has to stay. */
+    void
+    add(Term &term)
+    {
+      terms.push_back(&term);
+    }
+
     /** Its terms refer to each other's data. */
     IncrementalProblem(const IncrementalProblem &) = delete;
 

@@ -30,7 +30,7 @@ namespace geocone
     /**
      * @param list section of the list, e.g. "Boundary conditions"
      * @param name name of this condition
-     * @param quantity "Velocity" or "Traction"
+     * @param quantity "Velocity", "Traction" or "Incoming velocity"
      * @param unit for the documentation
      */
     BoundaryCondition(const std::string &list,
@@ -129,7 +129,8 @@ namespace geocone
 
   /**
    * The conditions of one kind, named in the list "SECTION/Names": prescribed
-   * velocities ("Boundary conditions", m/s) or tractions ("Tractions", Pa).
+   * velocities ("Boundary conditions", m/s), tractions ("Tractions", Pa) or velocities
+   * of waves that come in ("Absorbing boundaries", m/s).
    */
   class BoundaryConditions : public dealii::ParameterAcceptor
   {
@@ -145,6 +146,10 @@ namespace geocone
     prepare();
 
     std::vector<std::unique_ptr<BoundaryCondition>> list;
+
+    /** @throws InputError if there is one, for those who know none */
+    void
+    refuse(const std::string &method, const std::string &remedy) const;
 
   private:
     std::vector<std::string> names;

@@ -50,6 +50,7 @@ namespace geocone
     InitialStress      initial_stress;
     BoundaryConditions dirichlet;
     BoundaryConditions tractions;
+    BoundaryConditions absorbing; ///< with velocities of waves that come in
     Obstacles          obstacles;
     LoadingProgramme   loading;
     Observation        observation;

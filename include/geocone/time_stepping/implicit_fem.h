@@ -4,6 +4,7 @@
 #ifndef geocone_time_stepping_implicit_fem_h
 #define geocone_time_stepping_implicit_fem_h
 
+#include <geocone/mechanics/absorbing_boundary.h>
 #include <geocone/mechanics/constraints.h>
 #include <geocone/mechanics/loads.h>
 #include <geocone/mechanics/obstacle_contact.h>
@@ -87,6 +88,7 @@ namespace geocone
     std::unique_ptr<Constraints>        constraints;
     std::unique_ptr<ObstacleContact>    obstacles;
     std::unique_ptr<Loads>              loads;
+    std::unique_ptr<AbsorbingBoundary>  absorbing;
     std::unique_ptr<IncrementalProblem> problem;
     std::unique_ptr<LinearSystem>       system;
     Vector                              lumped_mass;

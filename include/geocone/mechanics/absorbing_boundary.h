@@ -1,0 +1,85 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mechanics_absorbing_boundary_h
+#define geocone_mechanics_absorbing_boundary_h
+
+#include <geocone/mechanics/term.h>
+#include <geocone/mechanics/unknowns.h>
+#include <geocone/scene/scene.h>
+
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * Sides through which elastic waves leave and come in (Lysmer and Kuhlemeyer 1969;
+   * Joyner and Chen 1975): dashpots with the traction
+   *   rho (c_p n n' + c_s (1 - n n')) (2 v_in - v),
+   * c_p and c_s the speeds of the pressure and the shear wave in the cell at the side, v_in
+   * the velocity of the wave that comes in. Waves along the normal leave
+   * entirely. Integrated with row sums, so that each node has its dashpot C_i, 2 x 2.
+   */
+  class AbsorbingBoundary : public Term
+  {
+  public:
+    /** @throws InputError if a part has no face */
+    AbsorbingBoundary(const Scene          &scene,
+                      const BackgroundMesh &mesh,
+                      const Space          &space);
+
+    /** Whether the scene has any. */
+    bool
+    exists() const
+    {
+      return !conditions.list.empty();
+    }
+
+    /** @throws InputError if dofs of one of its nodes are turned. Collective. */
+    void
+    check(const Unknowns &unknowns) const;
+
+    /** @param t when the step is solved for @param unknowns of the problem */
+    void
+    begin_step(const double t, const Unknowns &unknowns);
+
+    void
+    residual(Vector &part, const Vector &v, const LocalLaw &law) override;
+
+    void
+    linearise(const JacobianPattern &pattern,
+              const double           elastic_blend,
+              SparseMatrix          &matrix) const override;
+
+    void
+    apply_tangent(Vector &dst, const Vector &dv) const override;
+
+    void
+    add_elastic_diagonal(Vector &dst) const override;
+
+    /** Of its forces on the body per second (W/m). Collective. */
+    double
+    power(const Vector &v) const;
+
+  private:
+    /** Of a node of this rank, with what it takes of each condition. */
+    struct Dashpot
+    {
+      unsigned int           node;
+      dealii::Tensor<2, dim> C; ///< kg/(m s), per thickness
+    };
+
+    /** dst_i += C_i x_i */
+    void
+    add_product(Vector &dst, const Vector &x) const;
+
+    const BoundaryConditions         &conditions;
+    const Space                      &space;
+    std::vector<std::vector<Dashpot>> of_condition;
+    std::vector<Dashpot>              dashpots; ///< of all of them
+    Vector                            incoming; ///< forces 2 C v_in
+    const Unknowns                   *unknowns = nullptr;
+  };
+} // namespace geocone
+
+#endif
