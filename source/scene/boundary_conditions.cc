@@ -12,11 +12,13 @@ namespace geocone
                                        const std::string &name,
                                        const std::string &quantity,
                                        const std::string &unit,
-                                       const std::string &unset)
+                                       const std::string &unset,
+                                       const std::string &folder)
     : dealii::ParameterAcceptor("/" + list + "/" + name)
     , name(name)
     , quantity(quantity)
     , unset(unset)
+    , folder(folder)
   {
     texts.fill(unset);
     add_parameter("Sides",
@@ -28,7 +30,10 @@ namespace geocone
                   "box from x, y to x, y (m): 'x, y; x, y'. Empty: the whole "
                   "sides.");
     const std::string documentation =
-      unit + " as a formula in x, y (m) and t (s); '" + unset + "': none.";
+      unit +
+      " as a formula in x, y (m) and t (s), or 'record FILE.csv' with the "
+      "columns t (s) and v, or t and a, whose integral it is; '" +
+      unset + "': none.";
     add_parameter(quantity + " x", texts[0], documentation);
     add_parameter(quantity + " y", texts[1], documentation);
     if (quantity == "Velocity" || quantity == "Traction")
@@ -112,8 +117,8 @@ namespace geocone
       if (texts[c] != unset)
         {
           components[c].emplace();
-          components[c]->prepare(texts[c],
-                                 parameter(quantity + (c == 0 ? " x" : " y")));
+          components[c]->prepare(
+            texts[c], parameter(quantity + (c == 0 ? " x" : " y")), &folder);
         }
     if (texts[2] != unset)
       normal.emplace().prepare(texts[2], parameter(quantity + " normal"));
@@ -207,7 +212,7 @@ namespace geocone
     add_parameter("Names", names, documentation);
     for (const std::string &condition : names)
       list.push_back(std::make_unique<BoundaryCondition>(
-        section, condition, quantity, unit, unset));
+        section, condition, quantity, unit, unset, file.folder()));
   }
 
   void

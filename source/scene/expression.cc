@@ -3,12 +3,27 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/scene/expression.h>
+#include <geocone/scene/geometry.h>
 
 namespace geocone
 {
   void
-  Expression::prepare(const std::string &text, const std::string &parameter)
+  Expression::prepare(const std::string &text,
+                      const std::string &parameter,
+                      const std::string *folder)
   {
+    const std::string word = "record ";
+    if (folder != nullptr && text.compare(0, word.size(), word) == 0)
+      {
+        record = std::make_unique<Record>(
+          existing_file(text.substr(word.size()),
+                        *folder,
+                        parameter,
+                        "record and the name of an existing .csv file"),
+          text,
+          parameter);
+        return;
+      }
     try
       {
         function = std::make_unique<dealii::FunctionParser<dim>>(1);
@@ -28,6 +43,8 @@ namespace geocone
   double
   Expression::value(const dealii::Point<dim> &x, const double t) const
   {
+    if (record)
+      return record->value(t);
     function->set_time(t);
     return function->value(x);
   }

@@ -32,12 +32,14 @@ namespace geocone
      * @param name name of this condition
      * @param quantity "Velocity", "Traction" or "Incoming velocity"
      * @param unit for the documentation
+     * @param folder what names of records are relative to
      */
     BoundaryCondition(const std::string &list,
                       const std::string &name,
                       const std::string &quantity,
                       const std::string &unit,
-                      const std::string &unset);
+                      const std::string &unset,
+                      const std::string &folder);
 
     void
     prepare();
@@ -123,6 +125,7 @@ namespace geocone
   private:
     const std::string               quantity;
     const std::string               unset;
+    const std::string               folder;
     std::array<std::string, 4>      texts;
     std::vector<dealii::Point<dim>> box;
   };

@@ -5,6 +5,7 @@
 #define geocone_scene_expression_h
 
 #include <geocone/base/types.h>
+#include <geocone/scene/record.h>
 
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/point.h>
@@ -16,7 +17,7 @@ namespace geocone
 {
   /**
    * A scalar function of (x, y, t) given as text in muParser's language, with
-   * the constant pi.
+   * the constant pi; or, where files are allowed, "record FILE.csv", a Record.
    */
   class Expression
   {
@@ -24,16 +25,20 @@ namespace geocone
     /**
      * @param text the formula
      * @param parameter name for messages
-     * @throws InputError if the formula cannot be parsed
+     * @param folder what names of files are relative to; null: formulas only
+     * @throws InputError if the formula cannot be parsed, or the file not be read
      */
     void
-    prepare(const std::string &text, const std::string &parameter);
+    prepare(const std::string &text,
+            const std::string &parameter,
+            const std::string *folder = nullptr);
 
     double
     value(const dealii::Point<dim> &x, const double t) const;
 
   private:
     std::unique_ptr<dealii::FunctionParser<dim>> function;
+    std::unique_ptr<Record>                      record;
   };
 } // namespace geocone
 
