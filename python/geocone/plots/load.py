@@ -9,7 +9,7 @@ from matplotlib.ticker import MaxNLocator
 
 from geocone.style import BESIDE, COLORS, ORANGE, Skipped, plain, save, subplots, unit_for
 
-Curve = namedtuple("Curve", "displacement load limit")  # mm, N/m, of the summary
+Curve = namedtuple("Curve", "displacement load limit time")  # mm, N/m, of the summary, s
 
 
 def curve_of(run):
@@ -19,7 +19,7 @@ def curve_of(run):
     # The curve starts from rest, before the first step.
     return Curve(np.insert(1e3 * run.statistics["displacement (m)"], 0, 0.),
                  np.insert(run.statistics["load (N/m)"], 0, 0.),
-                 run.summary["limit_load"])
+                 run.summary["limit_load"], np.insert(run.statistics["time (s)"], 0, 0.))
 
 
 def load_text(name, value, unit, error=None):
@@ -34,7 +34,7 @@ def load_text(name, value, unit, error=None):
 def draw_lines(axes, names, curves, unit):
     """Draws curves, plateaus and references; a single plateau has its own name."""
     single = len(curves) == 1
-    for i, (name, (displacement, load, limit)) in enumerate(zip(names, curves)):
+    for i, (name, (displacement, load, limit, _)) in enumerate(zip(names, curves)):
         color, text = COLORS[i % len(COLORS)], load_text(
             "plateau" if single else name, limit["value"], unit, limit["relative_error"])
         # Many steps are often noisy: a thin line behind all others.
@@ -53,7 +53,7 @@ def draw_lines(axes, names, curves, unit):
                           color=level["color"], alpha=0.35, linewidth=0.)
         axes.plot(ends, 2 * [limit["value"] / unit[1]], solid_capstyle="butt", **level)
     references = {load_text(plain(limit["reference_name"]), limit["reference"], unit):
-                  limit["reference"] for _, _, limit in curves
+                  limit["reference"] for _, _, limit, _ in curves
                   if limit["reference"] is not None}
     for text, value in references.items():
         axes.axhline(value / unit[1], color="black", linewidth=1.2, zorder=1.8,
@@ -64,6 +64,10 @@ def draw_curves(names, curves, title, run, *paths):
     """Draws curves into a picture, of one run or None, and once more enlarged where
     they end close."""
     curves = list(curves)
+    along = "displacement (mm)"
+    if not any(curve.displacement.any() for curve in curves):  # what is pushed is at rest
+        along = "time (s)"
+        curves = [curve._replace(displacement=curve.time) for curve in curves]
     single, ends = len(curves) == 1, [curve.limit[key] for curve in curves
                                       for key in ("band_low", "band_high", "reference")]
     loads = np.concatenate([*(curve.load for curve in curves), [e for e in ends if e]])
@@ -75,7 +79,7 @@ def draw_curves(names, curves, title, run, *paths):
     origin.sticky_edges.x.append(0.)
     origin.sticky_edges.y.append(0.)
     axes.margins(x=0.03, y=0.07)
-    axes.set(title=title, xlabel="displacement (mm)", ylabel=f"load ({unit[0]})")
+    axes.set(title=title, xlabel=along, ylabel=f"load ({unit[0]})")
     place = "best"
     if None not in ends and 0. < np.ptp(ends) < 0.12 * size:
         place = "lower right" if loads.mean() > 0. else "upper right"
