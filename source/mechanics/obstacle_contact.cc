@@ -274,6 +274,48 @@ namespace geocone
     return result;
   }
 
+  double
+  ObstacleContact::settle(const Contact &contact,
+                          const Vector  &v,
+                          const Vector  &mass,
+                          Vector        &v_end) const
+  {
+    double      lost  = 0.;
+    const auto &nodes = contact.nodes();
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      {
+        const unsigned int node  = nodes[i].node;
+        const auto         state = contact.touches()[i].state;
+        if (node >= space.n_owned_nodes() || state == Contact::State::open)
+          continue;
+        const Tensor<1, dim> &n = nodes[i].normal;
+        const Tensor<1, dim>  t({-n[1], n[0]});
+        for (const Tensor<1, dim> &along : {n, t})
+          {
+            if (along == t && state != Contact::State::stick)
+              continue;
+            double solved = 0., end = 0.; // against the obstacle
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                const double V = nodes[i].velocity[d];
+                solved += (v.local_element(dim * node + d) - V) * along[d];
+                end += (v_end.local_element(dim * node + d) - V) * along[d];
+              }
+            if (std::abs(end) <= std::abs(solved))
+              continue;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                double      &u      = v_end.local_element(dim * node + d);
+                const double before = u;
+                u += (solved - end) * along[d];
+                lost += mass.local_element(dim * node + d) / 2. *
+                        (before * before - u * u);
+              }
+          }
+      }
+    return Utilities::MPI::sum(lost, comm);
+  }
+
   void
   ObstacleContact::commit(const Contact &contact,
                           const Vector  &v,

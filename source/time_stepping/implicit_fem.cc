@@ -252,8 +252,14 @@ namespace geocone
       }
     points.history = std::move(history);
     constraints->turn_back(v);
+    double settled = 0.;
     if (midpoint)
-      kinematics.velocity.sadd(-1., 2., v);
+      {
+        kinematics.velocity.sadd(-1., 2., v);
+        if (obstacles->exists())
+          settled = obstacles->settle(
+            problem->contact(), v, lumped_mass, kinematics.velocity);
+      }
     else
       kinematics.velocity = v;
     kinematics.displacement.add(h, v);
@@ -276,8 +282,9 @@ namespace geocone
     report.largest_plastic_strain =
       largest_plastic_strain(points, v.get_mpi_communicator());
     // Friction takes of the work what it does not give to the body.
+    report.energies.external_work = sums[0] + report.contact.dissipation;
+    report.contact.dissipation += settled;
     report.energies.contact_dissipation = report.contact.dissipation;
-    report.energies.external_work       = sums[0] + report.contact.dissipation;
     report.energies.dissipation         = sums[1];
     report.energies.memory_work         = memory_work;
     return report;

@@ -92,6 +92,19 @@ namespace geocone
     std::vector<Reaction>
     reactions(const Contact &contact) const;
 
+    /**
+     * For the midpoint rule: nodes that touch keep the velocity against the obstacle
+     * that was solved for, where the one at the end of the step is larger. Doubled
+     * like others they would rebound in each step, and their forces alternate.
+     * @param v solved for @param mass of the nodes @param[in,out] v_end
+     * @return the kinetic energy that this takes (J/m), >= 0. Collective.
+     */
+    double
+    settle(const Contact &contact,
+           const Vector  &v,
+           const Vector  &mass,
+           Vector        &v_end) const;
+
     /** Takes the velocities of the obstacles, and moves them and, where the mesh is
      *  the body, its nodes.
      *  @param moves whether places change, and not velocities only */
