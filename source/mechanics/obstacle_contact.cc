@@ -70,13 +70,7 @@ namespace geocone
             std::min(least[o], list[o]->nearest(place(node), {}, {}).distance);
         least[o] = Utilities::MPI::min(least[o], comm);
         if (least[o] < -closed * size)
-          throw InputError("Obstacles/Names",
-                           list[o]->name,
-                           "an obstacle that does not overlap with the body at "
-                           "the start",
-                           format("it is entered by %.3g m: move it, or turn "
-                                  "'Normal' round",
-                                  -least[o]));
+          list[o]->refuse_overlap(format("it is entered by %.3g m", -least[o]));
       }
   }
 

@@ -96,6 +96,16 @@ namespace geocone
                   "stays, and closes exactly.");
   }
 
+  void
+  Obstacle::refuse_overlap(const std::string &how) const
+  {
+    throw InputError("Obstacles/Names",
+                     name,
+                     "an obstacle that does not overlap with the body at the "
+                     "start",
+                     how + ": move it, or turn 'Normal' round");
+  }
+
   std::string
   Obstacle::parameter(const std::string &entry) const
   {

@@ -159,10 +159,8 @@ namespace geocone
                        const double           t,
                        const double           h)
   {
-    // The midpoint rule is backward Euler over half of the step, doubled.
-    const bool   midpoint  = integration == Integration::midpoint;
-    const double solved_h  = midpoint ? h / 2. : h;
-    const double solved_at = t + solved_h;
+    const TimeStep step(integration, t, h);
+    const double   solved_h = step.solved_h, solved_at = step.solved_at;
     if (loads->exist())
       loads->evaluate(force, weight_per_g, solved_at);
     Vector prescribed = problem->make_vector();
@@ -253,7 +251,7 @@ namespace geocone
     points.history = std::move(history);
     constraints->turn_back(v);
     double settled = 0.;
-    if (midpoint)
+    if (integration == Integration::midpoint)
       {
         kinematics.velocity.sadd(-1., 2., v);
         if (obstacles->exists())

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/mechanics/particle_contact.h>
 #include <geocone/time_stepping/implicit_mpm.h>
 
 #include <deal.II/base/mpi.h>
@@ -13,43 +14,6 @@
 namespace geocone
 {
   using namespace dealii;
-
-  namespace
-  {
-
-    /** A Mandel vector turned by an angle: Q t Q'. */
-    Mandel
-    turn(const Mandel &t, const double angle)
-    {
-      const double c = std::cos(2. * angle), s = std::sin(2. * angle);
-      const double mean = (t[0] + t[1]) / 2., half = (t[0] - t[1]) / 2.,
-                   shear = t[2] / sqrt2;
-      const double h     = c * half - s * shear;
-      return {mean + h, mean - h, sqrt2 * (s * half + c * shear)};
-    }
-
-    /** Calls f(p, c, its functions) for each point p of each cell c. */
-    template <typename F>
-    void
-    for_each_point(const MaterialPoints &points, const F &f)
-    {
-      const unsigned int n = points.n_nodes;
-      for (unsigned int c = 0; c < points.n_cells(); ++c)
-        for (unsigned int p = points.first_point[c];
-             p < points.first_point[c + 1];
-             ++p)
-          {
-            const double *slopes = &points.gradients[2 * n * p];
-            f(p,
-              c,
-              PointFunctions{n,
-                             &points.nodes[n * c],
-                             &points.values[n * p],
-                             slopes,
-                             slopes + n});
-          }
-    }
-  } // namespace
 
   ImplicitMPM::ImplicitMPM(const ParameterFile &file)
     : ParameterAcceptor("/Material point method")
@@ -130,6 +94,34 @@ namespace geocone
                          section + "Consistent mass part' = 1");
   }
 
+  void
+  ImplicitMPM::check_obstacles(const MaterialPoints &points) const
+  {
+    if (!obstacles->exists())
+      return;
+    for (const auto &condition : scene->dirichlet.list)
+      if (condition->moves())
+        throw InputError(
+          condition->parameter("Imposed on"),
+          condition->imposition.word(),
+          "nodes where there are obstacles",
+          "press by an obstacle that moves, or by the nodes of a "
+          "side");
+    if (integration == Integration::midpoint)
+      throw InputError("Material point method/Integration",
+                       integration.word(),
+                       "backward Euler where there are obstacles",
+                       "the midpoint rule would let the body enter them");
+    for (const auto &obstacle : scene->obstacles.list)
+      if (obstacle->adhesion > 0.)
+        throw InputError(obstacle->parameter("Adhesion"),
+                         obstacle->adhesion,
+                         "0 with MPM",
+                         "the surface of particles has no area; take FEM");
+    check_particles_outside(
+      points, scene->obstacles, mesh->triangulation().get_communicator());
+  }
+
   std::string
   ImplicitMPM::prepare(const Scene           &scene_,
                        const BackgroundMesh  &mesh_,
@@ -185,37 +177,6 @@ namespace geocone
     kinematics.velocity = velocity_L;
     kinematics.supports.resize(scene->supports().size());
     return warning;
-  }
-
-  Energies
-  ImplicitMPM::state_energies(const Kinematics &,
-                              const MaterialPoints &points,
-                              const double          t) const
-  {
-    const Tensor<1, dim> g = scene->gravity.at(t);
-    Energies             e;
-    for (unsigned int p = 0; p < points.n_points(); ++p)
-      {
-        e.kinetic += points.mass[p] * points.velocity[p].norm_square() / 2.;
-        e.potential -= points.mass[p] * (g * (points.position[p] - datum));
-      }
-    if (rule.is_affine())
-      for_each_point(points,
-                     [&](const unsigned int p,
-                         const unsigned int /* cell */,
-                         const PointFunctions &at) {
-                       const Tensor<2, dim> &C = points.affine[p];
-                       e.kinetic +=
-                         points.mass[p] / 2. *
-                         scalar_product(C,
-                                        C * at.moment(points.position[p],
-                                                      space->node_positions()));
-                     });
-    const MPI_Comm comm = force.get_mpi_communicator();
-    e.kinetic           = Utilities::MPI::sum(e.kinetic, comm);
-    e.potential         = Utilities::MPI::sum(e.potential, comm);
-    e.elastic           = elastic_energy(points, scene->materials, comm);
-    return e;
   }
 
   void
@@ -399,7 +360,7 @@ namespace geocone
   }
 
   SolverReport
-  ImplicitMPM::solve(const Step            &step,
+  ImplicitMPM::solve(const TimeStep        &step,
                      const Kinematics      &kinematics,
                      const NonsmoothNewton &newton,
                      Freezer               &freezer,
@@ -430,126 +391,6 @@ namespace geocone
     return report;
   }
 
-  ImplicitMPM::Works
-  ImplicitMPM::works(const Step   &step,
-                     const Vector &v,
-                     const Vector &residual) const
-  {
-    std::array<double, 2> sums = {}; // of the weight, and the other forces
-    const Tensor<1, dim>  g    = scene->gravity.at(step.solved_at);
-    for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
-      {
-        const double weight = constraints->has_mass(i)
-                                ? g[i % dim] * lumped_mass.local_element(i)
-                                : 0.;
-        sums[0] += step.h * weight * v.local_element(i);
-        sums[1] +=
-          step.h * (force.local_element(i) - weight) * v.local_element(i);
-        if (constraints->is_prescribed(i))
-          sums[1] += step.h * residual.local_element(i) * v.local_element(i);
-      }
-    Utilities::MPI::sum(ArrayView<const double>(sums.data(), 2),
-                        v.get_mpi_communicator(),
-                        ArrayView<double>(sums.data(), 2));
-    const Multipliers &rows = constraints->multipliers;
-    if (rows.n_rows() > 0)
-      sums[1] += step.h * problem->multipliers().dot(rows.multiply(v));
-    return {sums[0], sums[1]};
-  }
-
-  double
-  ImplicitMPM::work_of_changing_gravity(const Step           &step,
-                                        const MaterialPoints &points) const
-  {
-    const Tensor<1, dim> change =
-      scene->gravity.at(step.t + step.h) - scene->gravity.at(step.t);
-    double work = 0.;
-    if (change.norm() > 0.)
-      for (unsigned int p = 0; p < points.n_points(); ++p)
-        work -= points.mass[p] * (change * (points.position[p] - datum));
-    return Utilities::MPI::sum(work, force.get_mpi_communicator());
-  }
-
-  double
-  ImplicitMPM::work_on_fixed_points(const Step               &step,
-                                    const MaterialPoints     &points,
-                                    const std::vector<Moved> &moved) const
-  {
-    const Tensor<1, dim> g    = scene->gravity.at(step.solved_at);
-    double               work = 0.;
-    for (unsigned int p = 0; p < points.n_points(); ++p)
-      if (scene->regions.are_fixed(points.material[p]))
-        work += points.mass[p] * (g * moved[p].displacement);
-    return Utilities::MPI::sum(work, force.get_mpi_communicator());
-  }
-
-  double
-  ImplicitMPM::update_points(const Step               &step,
-                             const std::vector<Moved> &moved,
-                             MaterialPoints           &points) const
-  {
-    const InternalForces &internal    = problem->internal_forces();
-    double                dissipation = 0.;
-    std::vector<double>   history     = internal.trial_history();
-    extrapolate(integration, points.history, history);
-    points.history = std::move(history);
-    for (unsigned int p = 0; p < points.n_points(); ++p)
-      {
-        const auto [stress, plastic, dissipated] =
-          end_of_step(integration,
-                      internal,
-                      p,
-                      scene->materials[points.material[p]],
-                      points.stress[p],
-                      points.history_of(p));
-        dissipation += points.weight[p] * dissipated;
-        points.stress[p] = turn(stress, moved[p].spin);
-        points.plastic_strain[p] =
-          turn(points.plastic_strain[p] + plastic, moved[p].spin);
-        points.cumulative_plastic_strain[p] += plastic.norm();
-        points.plastic_strain_rate[p] = plastic.norm() / step.h;
-        points.weight[p]              = moved[p].volume;
-        points.displacement[p] += moved[p].displacement;
-        points.position[p] = moved[p].position;
-        points.velocity[p] = moved[p].velocity;
-        points.affine[p]   = moved[p].affine;
-        if (const BoundaryCondition *holder = holder_of(points, p))
-          for (unsigned int d = 0; d < dim; ++d)
-            if (holder->components[d])
-              points.velocity[p][d] = holder->components[d]->value(
-                points.position[p], step.t + step.h);
-      }
-    return Utilities::MPI::sum(dissipation, force.get_mpi_communicator());
-  }
-
-  void
-  ImplicitMPM::update_supports(const Step            &step,
-                               const Vector          &v,
-                               Kinematics            &kinematics,
-                               std::vector<Reaction> &reactions) const
-  {
-    const Eigen::VectorXd &lambda = problem->multipliers();
-    const Multipliers     &rows   = constraints->multipliers;
-    for (unsigned int o = 0; o < scene->obstacles.list.size(); ++o)
-      kinematics.supports[scene->dirichlet.list.size() + o] +=
-        step.h * problem->contact().motions()[o].centre;
-    for (unsigned int c = 0; c < scene->dirichlet.list.size(); ++c)
-      {
-        const bool moves = scene->dirichlet.list[c]->moves();
-        if (moves)
-          reactions[c].moment =
-            rows.moment(lambda, c, constraints->centre(c), *space);
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            kinematics.supports[c][d] +=
-              step.h *
-              (moves ? rows.mean_target(c, d) : constraints->mean(v, c, d));
-            if (moves)
-              reactions[c].force[d] = rows.resultant(lambda, c, d);
-          }
-      }
-  }
-
   StepReport
   ImplicitMPM::advance(Kinematics            &kinematics,
                        MaterialPoints        &points,
@@ -561,12 +402,10 @@ namespace geocone
   {
     if (!begun)
       begin(points, timer);
-    // The midpoint rule is backward Euler over half of the step, doubled.
-    const bool   midpoint = integration == Integration::midpoint;
-    const double solved_h = midpoint ? h / 2. : h;
-    const Step   step     = {t, h, solved_h, t + solved_h};
-    StepReport   report;
-    Vector       v = problem->make_vector(), residual = problem->make_vector();
+    const TimeStep step(integration, t, h);
+    const double   solved_h = step.solved_h;
+    StepReport     report;
+    Vector v = problem->make_vector(), residual = problem->make_vector();
     {
       TimerOutput::Scope scope(timer, "transfer");
       constraints->set_values(v, step.solved_at);
@@ -583,7 +422,13 @@ namespace geocone
       velocity_L,
       v,
       obstacles->exists()
-        ? obstacles->begin(velocity_L, t, h, solved_h, gaps(points))
+        ? obstacles->begin(
+            velocity_L,
+            t,
+            h,
+            solved_h,
+            gaps_of_particles(
+              points, scene->obstacles, obstacles->moved(), *space))
         : ContactStep());
     report.newton =
       solve(step, kinematics, newton, freezer, timer, v, residual);
@@ -592,7 +437,7 @@ namespace geocone
 
     TimerOutput::Scope scope(timer, "transfer");
     Vector             v_end = v;
-    if (midpoint)
+    if (integration == Integration::midpoint)
       v_end.sadd(2., -1., velocity_L);
     std::vector<Moved>            moved;
     const Multipliers::LightShare share =
@@ -664,207 +509,6 @@ namespace geocone
     report.energies.ghost_work          = (step.h / step.solved_h) * ghost_work;
     report.motion = {n_light, moving->n_behind(points), share.largest};
     return report;
-  }
-
-  double
-  ImplicitMPM::gap(const MaterialPoints &points,
-                   const unsigned int    p,
-                   const unsigned int    obstacle,
-                   const RigidMotion    &moved) const
-  {
-    const double half = std::sqrt(points.weight[p]) / 2.;
-    return scene->obstacles.list[obstacle]
-             ->nearest(points.position[p], moved, {})
-             .distance -
-           half;
-  }
-
-  std::vector<Vector>
-  ImplicitMPM::gaps(const MaterialPoints &points) const
-  {
-    std::vector<Vector> all(scene->obstacles.list.size());
-    for (unsigned int o = 0; o < all.size(); ++o)
-      {
-        const RigidMotion &moved = obstacles->moved()[o];
-        all[o].reinit(space->partitioner());
-        for (unsigned int node = 0; node < space->n_local_nodes(); ++node)
-          all[o].local_element(dim * node) = 1e300;
-        for_each_point(points,
-                       [&](const unsigned int p,
-                           const unsigned int /* cell */,
-                           const PointFunctions &at) {
-                         const double g = gap(points, p, o, moved);
-                         for (unsigned int i = 0; i < at.n; ++i)
-                           if (at.N[i] > 1e-12)
-                             {
-                               double &least =
-                                 all[o].local_element(dim * at.nodes[i]);
-                               least = std::min(least, g);
-                             }
-                       });
-        all[o].compress(VectorOperation::min);
-        all[o].update_ghost_values();
-      }
-    return all;
-  }
-
-  void
-  ImplicitMPM::check_obstacles(const MaterialPoints &points) const
-  {
-    if (!obstacles->exists())
-      return;
-    for (const auto &condition : scene->dirichlet.list)
-      if (condition->moves())
-        throw InputError(
-          condition->parameter("Imposed on"),
-          condition->imposition.word(),
-          "nodes where there are obstacles",
-          "press by an obstacle that moves, or by the nodes of a "
-          "side");
-    if (integration == Integration::midpoint)
-      throw InputError("Material point method/Integration",
-                       integration.word(),
-                       "backward Euler where there are obstacles",
-                       "the midpoint rule would let the body enter them");
-    for (unsigned int o = 0; o < scene->obstacles.list.size(); ++o)
-      {
-        const Obstacle &obstacle = *scene->obstacles.list[o];
-        if (obstacle.adhesion > 0.)
-          throw InputError(obstacle.parameter("Adhesion"),
-                           obstacle.adhesion,
-                           "0 with MPM",
-                           "the surface of particles has no area; take FEM");
-        double least = 1e300;
-        for (unsigned int p = 0; p < points.n_points(); ++p)
-          least = std::min(
-            least, obstacle.nearest(points.position[p], {}, {}).distance);
-        least =
-          Utilities::MPI::min(least, mesh->triangulation().get_communicator());
-        if (!(least > 0.))
-          throw InputError("Obstacles/Names",
-                           obstacle.name,
-                           "an obstacle that does not overlap with the body at "
-                           "the start",
-                           format("a particle is %.3g m inside it: move it, or "
-                                  "turn 'Normal' round",
-                                  -least));
-      }
-  }
-
-  std::string
-  ImplicitMPM::objection(const Multipliers::LightShare &share) const
-  {
-    // Sound steps have up to 0.02, jets 1.6 and more.
-    if (!(share.largest > 0.3))
-      return "";
-    const BoundaryCondition &condition =
-      *scene->dirichlet.list[share.condition];
-    return format(
-      "%.0f %% of the velocity that '%s' prescribes is that of "
-      "functions with next to no mass, near (%g, %g): the load would "
-      "rest on a jet of a few particles; set 'Material point "
-      "method/Ghost stiffness' to 1e-5, or take more segments",
-      100. * share.largest,
-      condition.name.c_str(),
-      share.place[0],
-      share.place[1]);
-  }
-
-  const BoundaryCondition *
-  ImplicitMPM::holder_of(const MaterialPoints &points,
-                         const unsigned int    p) const
-  {
-    if (points.held_by[p] == 0)
-      return nullptr;
-    const BoundaryCondition &condition =
-      *scene->dirichlet.list[points.held_by[p] - 1];
-    return condition.imposition.get()->single ? &condition : nullptr;
-  }
-
-  std::string
-  ImplicitMPM::transfer(const MaterialPoints &points,
-                        const Vector         &v,
-                        const Vector         &v_mean,
-                        const double          h,
-                        std::vector<Moved>   &moved) const
-  {
-    moved.resize(points.n_points());
-    const double flip_part = rule.flip_part();
-    Vector       change    = v;
-    change -= velocity_L;
-    for (const Vector *vector : {&v, &v_mean, &std::as_const(change)})
-      vector->update_ghost_values();
-    std::string obstacle;
-    for_each_point(
-      points,
-      [&](
-        const unsigned int p, const unsigned int c, const PointFunctions &at) {
-        const auto   box         = points.cells[c]->bounding_box();
-        const double extent[dim] = {box.side_length(0), box.side_length(1)};
-        double       end[dim], gained[dim], mean[3 * dim];
-        at.gather<dim, false>(v.begin(), end);
-        at.gather<dim, false>(change.begin(), gained);
-        at.gather<dim, true>(v_mean.begin(), mean);
-        Tensor<2, dim> gradient; // d_d v_c of the mean velocity
-        for (unsigned int i = 0; i < dim; ++i)
-          for (unsigned int d = 0; d < dim; ++d)
-            gradient[i][d] = mean[dim * (1 + d) + i];
-
-        Moved &next = moved[p];
-        if (rule.is_affine())
-          next.affine = at.gather_affine<dim>(v.begin(),
-                                              points.position[p],
-                                              space->node_positions(),
-                                              std::min(extent[0], extent[1]));
-        // Particles held one by one stay in their row: out of it, their rows would
-        // prescribe a gradient as well.
-        const BoundaryCondition *holder = holder_of(points, p);
-        Tensor<1, dim>           move;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            next.velocity[d] = flip_part * (points.velocity[p][d] + gained[d]) +
-                               (1. - flip_part) * end[d];
-            const bool follows_grid =
-              advection != Advection::particle_velocity ||
-              (holder != nullptr && holder->components[d]);
-            next.displacement[d] =
-              h * (follows_grid ? mean[d] : next.velocity[d]);
-          }
-        if (advection == Advection::none ||
-            scene->regions.are_fixed(points.material[p]))
-          gradient = 0.;
-        else
-          move = next.displacement;
-        next.position          = points.position[p] + move;
-        Tensor<2, dim> stretch = h * gradient;
-        for (unsigned int d = 0; d < dim; ++d)
-          stretch[d][d] += 1.;
-        const double ratio = determinant(stretch);
-        next.volume        = ratio * points.weight[p];
-        next.spin          = h * (gradient[1][0] - gradient[0][1]) / 2.;
-
-        if (!std::isfinite(next.position.square()) ||
-            !std::isfinite(next.velocity.norm_square()))
-          obstacle =
-            format("the velocity of particle %u is not a number", points.id[p]);
-        else if (!(ratio > 0.05))
-          obstacle = format("the volume of particle %u at (%g, %g) would "
-                            "collapse to %.2g of itself",
-                            points.id[p],
-                            points.position[p][0],
-                            points.position[p][1],
-                            ratio);
-        for (unsigned int d = 0; d < dim; ++d)
-          if (std::abs(move[d]) > largest_move * extent[d])
-            obstacle =
-              format("particle %u at (%g, %g) would cross %.1f cells, more "
-                     "than 'Material point method/Largest move'",
-                     points.id[p],
-                     points.position[p][0],
-                     points.position[p][1],
-                     std::abs(move[d]) / extent[d]);
-      });
-    return text_of_any_rank(v.get_mpi_communicator(), obstacle);
   }
 
   void

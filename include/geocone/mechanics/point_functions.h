@@ -4,6 +4,7 @@
 #ifndef geocone_mechanics_point_functions_h
 #define geocone_mechanics_point_functions_h
 
+#include <geocone/discretisation/material_points.h>
 #include <geocone/mechanics/particle_transfer.h>
 
 #include <deal.II/base/point.h>
@@ -125,6 +126,28 @@ namespace geocone
       return D;
     }
   };
+
+  /** Calls f(p, c, its functions) for each point p of each cell c. */
+  template <typename Function>
+  void
+  for_each_point(const MaterialPoints &points, const Function &f)
+  {
+    const unsigned int n = points.n_nodes;
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      for (unsigned int p = points.first_point[c];
+           p < points.first_point[c + 1];
+           ++p)
+        {
+          const double *slopes = &points.gradients[2 * n * p];
+          f(p,
+            c,
+            PointFunctions{n,
+                           &points.nodes[n * c],
+                           &points.values[n * p],
+                           slopes,
+                           slopes + n});
+        }
+  }
 } // namespace geocone
 
 #endif

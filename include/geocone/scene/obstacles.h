@@ -96,6 +96,11 @@ namespace geocone
     std::string
     parameter(const std::string &entry) const;
 
+    /** @throws InputError: at the start the body is in it.
+     *  @param how deep, and what */
+    [[noreturn]] void
+    refuse_overlap(const std::string &how) const;
+
     const std::string name;
     double            friction    = 0.; ///< mu
     double            adhesion    = 0.; ///< shear stress borne besides (Pa)

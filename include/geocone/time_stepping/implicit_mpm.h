@@ -133,14 +133,6 @@ namespace geocone
       double                 spin; ///< angle of rotation (rad)
     };
 
-    /** A step from t to t + h. */
-    struct Step
-    {
-      double t, h;
-      double solved_h;  ///< what is solved for: h, or h/2 by the midpoint rule
-      double solved_at; ///< t + solved_h
-    };
-
     /** Mass, vL, unknowns and pattern: all that depends on t_n only. */
     void
     begin(const MaterialPoints &points, dealii::TimerOutput &timer);
@@ -148,17 +140,6 @@ namespace geocone
     /** Stencils of ghost stiffness for the points as they are. Collective. */
     std::vector<GhostStencil>
     ghost_stencils(const MaterialPoints &points);
-
-    /** Of a particle, as a square of its volume, and an obstacle that has moved. */
-    double
-    gap(const MaterialPoints &points,
-        const unsigned int    p,
-        const unsigned int    obstacle,
-        const RigidMotion    &moved) const;
-
-    /** Of the nearest particle of each node, for ObstacleContact::begin(). */
-    std::vector<Vector>
-    gaps(const MaterialPoints &points) const;
 
     /** Refuses what obstacles cannot do with particles. @throws InputError */
     void
@@ -195,7 +176,7 @@ namespace geocone
     /** Solves the step from each start, until one of them leads to the end.
      *  @param[out] v velocities @param[out] residual R(v) */
     SolverReport
-    solve(const Step            &step,
+    solve(const TimeStep        &step,
           const Kinematics      &kinematics,
           const NonsmoothNewton &newton,
           Freezer               &freezer,
@@ -210,31 +191,31 @@ namespace geocone
       double of_others; ///< tractions and supports
     };
     Works
-    works(const Step &step, const Vector &v, const Vector &residual) const;
+    works(const TimeStep &step, const Vector &v, const Vector &residual) const;
 
     /** What gravity that changes in the step does to points at rest (J/m). */
     double
-    work_of_changing_gravity(const Step           &step,
+    work_of_changing_gravity(const TimeStep       &step,
                              const MaterialPoints &points) const;
 
     /** What the weight does to points that stay while others move: their potential
      *  energy does not change, as with FEM (J/m). */
     double
-    work_on_fixed_points(const Step               &step,
+    work_on_fixed_points(const TimeStep           &step,
                          const MaterialPoints     &points,
                          const std::vector<Moved> &moved) const;
 
     /** Gives the points their state at the end of the step.
      *  @return the dissipation (J/m) */
     double
-    update_points(const Step               &step,
+    update_points(const TimeStep           &step,
                   const std::vector<Moved> &moved,
                   MaterialPoints           &points) const;
 
     /** Displacements of what conditions hold, and reactions of those that are
      *  imposed on the body. */
     void
-    update_supports(const Step            &step,
+    update_supports(const TimeStep        &step,
                     const Vector          &v,
                     Kinematics            &kinematics,
                     std::vector<Reaction> &reactions) const;

@@ -30,6 +30,21 @@ namespace geocone
              {"midpoint", Integration::midpoint}}};
   }
 
+  /** A step from t to t + h, and what is solved for. */
+  struct TimeStep
+  {
+    double t, h;
+    double solved_h;  ///< h, or h/2 by the midpoint rule
+    double solved_at; ///< t + solved_h
+
+    TimeStep(const Integration integration, const double t, const double h)
+      : t(t)
+      , h(h)
+      , solved_h(integration == Integration::midpoint ? h / 2. : h)
+      , solved_at(t + solved_h)
+    {}
+  };
+
   /** A point at the end of a step. */
   struct EndOfStep
   {

@@ -1,0 +1,298 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// What a solved step of the implicit material point method makes of its particles, and
+// the energies and works that tell of it.
+#include <geocone/base/log.h>
+#include <geocone/time_stepping/implicit_mpm.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** A Mandel vector turned by an angle: Q t Q'. */
+    Mandel
+    turn(const Mandel &t, const double angle)
+    {
+      const double c = std::cos(2. * angle), s = std::sin(2. * angle);
+      const double mean = (t[0] + t[1]) / 2., half = (t[0] - t[1]) / 2.,
+                   shear = t[2] / sqrt2;
+      const double h     = c * half - s * shear;
+      return {mean + h, mean - h, sqrt2 * (s * half + c * shear)};
+    }
+  } // namespace
+
+  Energies
+  ImplicitMPM::state_energies(const Kinematics &,
+                              const MaterialPoints &points,
+                              const double          t) const
+  {
+    const Tensor<1, dim> g = scene->gravity.at(t);
+    Energies             e;
+    for (unsigned int p = 0; p < points.n_points(); ++p)
+      {
+        e.kinetic += points.mass[p] * points.velocity[p].norm_square() / 2.;
+        e.potential -= points.mass[p] * (g * (points.position[p] - datum));
+      }
+    if (rule.is_affine())
+      for_each_point(points,
+                     [&](const unsigned int p,
+                         const unsigned int /* cell */,
+                         const PointFunctions &at) {
+                       const Tensor<2, dim> &C = points.affine[p];
+                       e.kinetic +=
+                         points.mass[p] / 2. *
+                         scalar_product(C,
+                                        C * at.moment(points.position[p],
+                                                      space->node_positions()));
+                     });
+    const MPI_Comm comm = force.get_mpi_communicator();
+    e.kinetic           = Utilities::MPI::sum(e.kinetic, comm);
+    e.potential         = Utilities::MPI::sum(e.potential, comm);
+    e.elastic           = elastic_energy(points, scene->materials, comm);
+    return e;
+  }
+
+  std::string
+  ImplicitMPM::transfer(const MaterialPoints &points,
+                        const Vector         &v,
+                        const Vector         &v_mean,
+                        const double          h,
+                        std::vector<Moved>   &moved) const
+  {
+    moved.resize(points.n_points());
+    const double flip_part = rule.flip_part();
+    Vector       change    = v;
+    change -= velocity_L;
+    for (const Vector *vector : {&v, &v_mean, &std::as_const(change)})
+      vector->update_ghost_values();
+    std::string obstacle;
+    for_each_point(
+      points,
+      [&](
+        const unsigned int p, const unsigned int c, const PointFunctions &at) {
+        const auto   box         = points.cells[c]->bounding_box();
+        const double extent[dim] = {box.side_length(0), box.side_length(1)};
+        double       end[dim], gained[dim], mean[3 * dim];
+        at.gather<dim, false>(v.begin(), end);
+        at.gather<dim, false>(change.begin(), gained);
+        at.gather<dim, true>(v_mean.begin(), mean);
+        Tensor<2, dim> gradient; // d_d v_c of the mean velocity
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int d = 0; d < dim; ++d)
+            gradient[i][d] = mean[dim * (1 + d) + i];
+
+        Moved &next = moved[p];
+        if (rule.is_affine())
+          next.affine = at.gather_affine<dim>(v.begin(),
+                                              points.position[p],
+                                              space->node_positions(),
+                                              std::min(extent[0], extent[1]));
+        // Particles held one by one stay in their row: out of it, their rows would
+        // prescribe a gradient as well.
+        const BoundaryCondition *holder = holder_of(points, p);
+        Tensor<1, dim>           move;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            next.velocity[d] = flip_part * (points.velocity[p][d] + gained[d]) +
+                               (1. - flip_part) * end[d];
+            const bool follows_grid =
+              advection != Advection::particle_velocity ||
+              (holder != nullptr && holder->components[d]);
+            next.displacement[d] =
+              h * (follows_grid ? mean[d] : next.velocity[d]);
+          }
+        if (advection == Advection::none ||
+            scene->regions.are_fixed(points.material[p]))
+          gradient = 0.;
+        else
+          move = next.displacement;
+        next.position          = points.position[p] + move;
+        Tensor<2, dim> stretch = h * gradient;
+        for (unsigned int d = 0; d < dim; ++d)
+          stretch[d][d] += 1.;
+        const double ratio = determinant(stretch);
+        next.volume        = ratio * points.weight[p];
+        next.spin          = h * (gradient[1][0] - gradient[0][1]) / 2.;
+
+        if (!std::isfinite(next.position.square()) ||
+            !std::isfinite(next.velocity.norm_square()))
+          obstacle =
+            format("the velocity of particle %u is not a number", points.id[p]);
+        else if (!(ratio > 0.05))
+          obstacle = format("the volume of particle %u at (%g, %g) would "
+                            "collapse to %.2g of itself",
+                            points.id[p],
+                            points.position[p][0],
+                            points.position[p][1],
+                            ratio);
+        for (unsigned int d = 0; d < dim; ++d)
+          if (std::abs(move[d]) > largest_move * extent[d])
+            obstacle =
+              format("particle %u at (%g, %g) would cross %.1f cells, more "
+                     "than 'Material point method/Largest move'",
+                     points.id[p],
+                     points.position[p][0],
+                     points.position[p][1],
+                     std::abs(move[d]) / extent[d]);
+      });
+    return text_of_any_rank(v.get_mpi_communicator(), obstacle);
+  }
+
+  std::string
+  ImplicitMPM::objection(const Multipliers::LightShare &share) const
+  {
+    // Sound steps have up to 0.02, jets 1.6 and more.
+    if (!(share.largest > 0.3))
+      return "";
+    const BoundaryCondition &condition =
+      *scene->dirichlet.list[share.condition];
+    return format(
+      "%.0f %% of the velocity that '%s' prescribes is that of "
+      "functions with next to no mass, near (%g, %g): the load would "
+      "rest on a jet of a few particles; set 'Material point "
+      "method/Ghost stiffness' to 1e-5, or take more segments",
+      100. * share.largest,
+      condition.name.c_str(),
+      share.place[0],
+      share.place[1]);
+  }
+
+  const BoundaryCondition *
+  ImplicitMPM::holder_of(const MaterialPoints &points,
+                         const unsigned int    p) const
+  {
+    if (points.held_by[p] == 0)
+      return nullptr;
+    const BoundaryCondition &condition =
+      *scene->dirichlet.list[points.held_by[p] - 1];
+    return condition.imposition.get()->single ? &condition : nullptr;
+  }
+
+  ImplicitMPM::Works
+  ImplicitMPM::works(const TimeStep &step,
+                     const Vector   &v,
+                     const Vector   &residual) const
+  {
+    std::array<double, 2> sums = {}; // of the weight, and the other forces
+    const Tensor<1, dim>  g    = scene->gravity.at(step.solved_at);
+    for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
+      {
+        const double weight = constraints->has_mass(i)
+                                ? g[i % dim] * lumped_mass.local_element(i)
+                                : 0.;
+        sums[0] += step.h * weight * v.local_element(i);
+        sums[1] +=
+          step.h * (force.local_element(i) - weight) * v.local_element(i);
+        if (constraints->is_prescribed(i))
+          sums[1] += step.h * residual.local_element(i) * v.local_element(i);
+      }
+    Utilities::MPI::sum(ArrayView<const double>(sums.data(), 2),
+                        v.get_mpi_communicator(),
+                        ArrayView<double>(sums.data(), 2));
+    const Multipliers &rows = constraints->multipliers;
+    if (rows.n_rows() > 0)
+      sums[1] += step.h * problem->multipliers().dot(rows.multiply(v));
+    return {sums[0], sums[1]};
+  }
+
+  double
+  ImplicitMPM::work_of_changing_gravity(const TimeStep       &step,
+                                        const MaterialPoints &points) const
+  {
+    const Tensor<1, dim> change =
+      scene->gravity.at(step.t + step.h) - scene->gravity.at(step.t);
+    double work = 0.;
+    if (change.norm() > 0.)
+      for (unsigned int p = 0; p < points.n_points(); ++p)
+        work -= points.mass[p] * (change * (points.position[p] - datum));
+    return Utilities::MPI::sum(work, force.get_mpi_communicator());
+  }
+
+  double
+  ImplicitMPM::work_on_fixed_points(const TimeStep           &step,
+                                    const MaterialPoints     &points,
+                                    const std::vector<Moved> &moved) const
+  {
+    const Tensor<1, dim> g    = scene->gravity.at(step.solved_at);
+    double               work = 0.;
+    for (unsigned int p = 0; p < points.n_points(); ++p)
+      if (scene->regions.are_fixed(points.material[p]))
+        work += points.mass[p] * (g * moved[p].displacement);
+    return Utilities::MPI::sum(work, force.get_mpi_communicator());
+  }
+
+  double
+  ImplicitMPM::update_points(const TimeStep           &step,
+                             const std::vector<Moved> &moved,
+                             MaterialPoints           &points) const
+  {
+    const InternalForces &internal    = problem->internal_forces();
+    double                dissipation = 0.;
+    std::vector<double>   history     = internal.trial_history();
+    extrapolate(integration, points.history, history);
+    points.history = std::move(history);
+    for (unsigned int p = 0; p < points.n_points(); ++p)
+      {
+        const auto [stress, plastic, dissipated] =
+          end_of_step(integration,
+                      internal,
+                      p,
+                      scene->materials[points.material[p]],
+                      points.stress[p],
+                      points.history_of(p));
+        dissipation += points.weight[p] * dissipated;
+        points.stress[p] = turn(stress, moved[p].spin);
+        points.plastic_strain[p] =
+          turn(points.plastic_strain[p] + plastic, moved[p].spin);
+        points.cumulative_plastic_strain[p] += plastic.norm();
+        points.plastic_strain_rate[p] = plastic.norm() / step.h;
+        points.weight[p]              = moved[p].volume;
+        points.displacement[p] += moved[p].displacement;
+        points.position[p] = moved[p].position;
+        points.velocity[p] = moved[p].velocity;
+        points.affine[p]   = moved[p].affine;
+        if (const BoundaryCondition *holder = holder_of(points, p))
+          for (unsigned int d = 0; d < dim; ++d)
+            if (holder->components[d])
+              points.velocity[p][d] = holder->components[d]->value(
+                points.position[p], step.t + step.h);
+      }
+    return Utilities::MPI::sum(dissipation, force.get_mpi_communicator());
+  }
+
+  void
+  ImplicitMPM::update_supports(const TimeStep        &step,
+                               const Vector          &v,
+                               Kinematics            &kinematics,
+                               std::vector<Reaction> &reactions) const
+  {
+    const Eigen::VectorXd &lambda = problem->multipliers();
+    const Multipliers     &rows   = constraints->multipliers;
+    for (unsigned int o = 0; o < scene->obstacles.list.size(); ++o)
+      kinematics.supports[scene->dirichlet.list.size() + o] +=
+        step.h * problem->contact().motions()[o].centre;
+    for (unsigned int c = 0; c < scene->dirichlet.list.size(); ++c)
+      {
+        const bool moves = scene->dirichlet.list[c]->moves();
+        if (moves)
+          reactions[c].moment =
+            rows.moment(lambda, c, constraints->centre(c), *space);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            kinematics.supports[c][d] +=
+              step.h *
+              (moves ? rows.mean_target(c, d) : constraints->mean(v, c, d));
+            if (moves)
+              reactions[c].force[d] = rows.resultant(lambda, c, d);
+          }
+      }
+  }
+} // namespace geocone
