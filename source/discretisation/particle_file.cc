@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/csv_file.h>
 #include <geocone/base/exceptions.h>
 #include <geocone/base/hdf5_file.h>
 #include <geocone/base/log.h>
@@ -8,9 +9,7 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -24,9 +23,6 @@ namespace geocone
 
     const std::array<std::string, Column::n_columns> names = {
       {"x", "y", "volume", "material", "vx", "vy", "sxx", "syy", "sxy"}};
-
-    /** A line of a table is shorter by far; another file may have one line only. */
-    constexpr std::size_t longest_line = 4096;
 
     /** Some 10^9 rows, more than a run can have points. */
     constexpr std::uintmax_t largest_file = 1ULL << 37;
@@ -42,35 +38,6 @@ namespace geocone
                         "a .csv or .h5 file of x, y, volume > 0 and, if given, "
                         "material, vx and vy, sxx and syy and sxy",
                         what);
-    }
-
-    std::string
-    trimmed(const std::string &text)
-    {
-      const char       *space = " \t\r\n";
-      const std::size_t first = text.find_first_not_of(space);
-      if (first == std::string::npos)
-        return "";
-      std::string part =
-        text.substr(first, text.find_last_not_of(space) - first + 1);
-      if (part.size() >= 2 && part.front() == '"' && part.back() == '"')
-        part = trimmed(part.substr(1, part.size() - 2));
-      return part;
-    }
-
-    /** A line cut at its commas. */
-    std::vector<std::string>
-    cut(const std::string &line)
-    {
-      std::vector<std::string> parts(1);
-      for (const char c : line)
-        if (c == ',')
-          parts.emplace_back();
-        else
-          parts.back() += c;
-      for (std::string &part : parts)
-        part = trimmed(part);
-      return parts;
     }
   } // namespace
 
@@ -143,23 +110,18 @@ namespace geocone
     public:
       CsvReader(const std::string &file, const Materials &materials)
         : Reader(file, materials)
-        , in(file, std::ios::binary)
+        , in(file)
       {
         for (unsigned int i = 0; i < materials.size(); ++i)
           number_of_material[materials.name(i)] = i;
-
-        std::string line;
-        if (!next_line(line))
-          throw refused(file, "it is empty");
-        if (line.compare(0, 3, "\xEF\xBB\xBF") == 0) // a byte-order mark
-          line.erase(0, 3);
-        for (const std::string &name : cut(line))
+        for (const std::string &name : in.names())
           {
             const std::size_t column =
               std::find(names.begin(), names.end(), name) - names.begin();
             if (column == Column::n_columns || given[column])
-              throw refused(
-                file, place(name) + "not one of these names, or there twice");
+              throw refused(file,
+                            in.place(columns.size()) +
+                              ": not one of these names, or there twice");
             given[column] = true;
             columns.push_back(static_cast<Column>(column));
           }
@@ -169,93 +131,34 @@ namespace geocone
       void
       read(const std::size_t n, std::vector<Row> &rows) override
       {
-        std::string line;
-        for (std::size_t i = 0; i < n && next_line(line); ++i)
-          {
-            if (trimmed(line).empty())
-              {
-                const std::size_t blank = n_lines;
-                while (next_line(line))
-                  if (!trimmed(line).empty())
-                    throw refused(file,
-                                  format("line %zu is blank, with others below "
-                                         "it",
-                                         blank));
-                return;
-              }
-            rows.push_back(row(line));
-          }
+        std::vector<std::string> texts;
+        for (std::size_t i = 0; i < n && in.next_row(texts); ++i)
+          rows.push_back(row(texts));
       }
 
     private:
-      bool
-      next_line(std::string &line)
-      {
-        char buffer[longest_line + 1];
-        in.getline(buffer, sizeof(buffer));
-        const std::size_t n = in.gcount() - (in.eof() || in.fail() ? 0 : 1);
-        if (n == 0 && in.eof())
-          return false;
-        ++n_lines;
-        if (in.fail())
-          throw refused(file,
-                        format("line %zu has more than %zu characters: is it "
-                               "a table?",
-                               n_lines,
-                               longest_line));
-        if (std::memchr(buffer, '\0', n) != nullptr)
-          throw refused(file, format("line %zu is no text", n_lines));
-        line.assign(buffer, n);
-        return true;
-      }
-
-      std::string
-      place(const std::string &column) const
-      {
-        return format("line %zu, column '", n_lines) + column + "': ";
-      }
-
       Row
-      row(const std::string &line) const
+      row(const std::vector<std::string> &texts) const
       {
-        const std::vector<std::string> texts = cut(line);
-        if (texts.size() != columns.size())
-          throw refused(file,
-                        format("line %zu: %zu values instead of %zu",
-                               n_lines,
-                               texts.size(),
-                               columns.size()));
         Row values = {};
         for (std::size_t c = 0; c < columns.size(); ++c)
           {
-            const Column       column = columns[c];
-            const std::string &text   = texts[c];
-            if (column == ParticleFile::material)
-              if (const auto named = number_of_material.find(text);
-                  named != number_of_material.end())
-                {
-                  values[column] = named->second;
-                  continue;
-                }
-            const char *begin = text.c_str() + (text[0] == '+' ? 1 : 0),
-                       *end   = text.c_str() + text.size();
-            const auto parsed = std::from_chars(begin, end, values[column]);
-            if (parsed.ec != std::errc() || parsed.ptr != end)
-              throw refused(file,
-                            place(names[column]) + "'" + text +
-                              (column == ParticleFile::material
-                                 ? "' is no material"
-                               : parsed.ec == std::errc::result_out_of_range
-                                 ? "' is beyond the numbers that a computer has"
-                                 : "' is not a number"));
-            check(
-              column, values[column], [&]() { return place(names[column]); });
+            const Column column      = columns[c];
+            const bool   is_material = column == ParticleFile::material;
+            if (const auto named = number_of_material.find(texts[c]);
+                is_material && named != number_of_material.end())
+              {
+                values[column] = named->second;
+                continue;
+              }
+            values[column] = is_material ? in.number(texts, c, "is no material")
+                                         : in.number(texts, c);
+            check(column, values[column], [&]() { return in.place(c) + ": "; });
           }
         return values;
       }
 
-      std::ifstream                 in;
-      std::size_t                   n_lines = 0;
+      CsvFile                       in;
       std::map<std::string, double> number_of_material;
       std::vector<Column>           columns;
     };

@@ -1,15 +1,13 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/csv_file.h>
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/scene/record.h>
 
-#include <deal.II/base/utilities.h>
-
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 namespace geocone
 {
@@ -17,60 +15,46 @@ namespace geocone
                  const std::string &text,
                  const std::string &parameter)
   {
-    std::ifstream in(file);
-    std::string   line;
-    unsigned int  n      = 0;
-    const auto    refuse = [&](const std::string &what) {
-      throw InputError(parameter,
-                       text,
-                       "a .csv file with the columns t and v, or t and a, one "
-                          "row of two numbers "
-                          "for each time, and times that grow",
-                       format("line %u: ", n) + what);
-    };
-    const auto cells_of_line = [&]() {
-      if (!line.empty() && line.back() == '\r')
-        line.pop_back();
-      return dealii::Utilities::split_string_list(line, ',');
-    };
-    ++n;
-    if (!std::getline(in, line))
-      refuse("the file is empty or cannot be read");
-    const auto names    = cells_of_line();
-    const bool is_value = names == std::vector<std::string>{"t", "v"};
-    if (!is_value && names != std::vector<std::string>{"t", "a"})
-      refuse("'" + line + "' are not the names of the columns");
     std::vector<double> rows;
-    while (std::getline(in, line))
+    bool                is_value = false;
+    try
       {
-        ++n;
-        const auto cells = cells_of_line();
-        if (cells.size() == 0 || (cells.size() == 1 && cells[0].empty()))
-          continue;
-        if (cells.size() != 2)
-          refuse("'" + line + "' is not two numbers");
-        double numbers[2];
-        for (unsigned int i = 0; i < 2; ++i)
+        CsvFile                        in(file);
+        const std::vector<std::string> names = in.names();
+        is_value = names == std::vector<std::string>{"t", "v"};
+        if (!is_value && names != std::vector<std::string>{"t", "a"})
+          throw RunError(in.place() + ": these are not its columns");
+        std::vector<std::string> texts;
+        while (in.next_row(texts))
           {
-            try
+            double numbers[2];
+            for (unsigned int i = 0; i < 2; ++i)
               {
-                numbers[i] = dealii::Utilities::string_to_double(cells[i]);
+                numbers[i] = in.number(texts, i);
+                if (!std::isfinite(numbers[i]))
+                  throw RunError(in.place(i) + ": '" + texts[i] +
+                                 "' is not finite");
               }
-            catch (const dealii::ExceptionBase &)
-              {
-                refuse("'" + cells[i] + "' is not a number");
-              }
-            if (!std::isfinite(numbers[i]))
-              refuse("'" + cells[i] + "' is not finite");
+            if (!times.empty() && !(numbers[0] > times.back()))
+              throw RunError(
+                in.place() +
+                format(": the time %g s is not after the one before",
+                       numbers[0]));
+            times.push_back(numbers[0]);
+            rows.push_back(numbers[1]);
           }
-        if (!times.empty() && !(numbers[0] > times.back()))
-          refuse(
-            format("the time %g s is not after the one before", numbers[0]));
-        times.push_back(numbers[0]);
-        rows.push_back(numbers[1]);
+        if (times.size() < 2)
+          throw RunError("there are fewer than two rows");
       }
-    if (times.size() < 2)
-      refuse("there are fewer than two rows");
+    catch (const RunError &error)
+      {
+        throw InputError(parameter,
+                         text,
+                         "a .csv file with the columns t and v, or t and a, "
+                         "one row of two numbers for each time, and times that "
+                         "grow",
+                         error.what());
+      }
     if (is_value)
       {
         values = rows;
