@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
-#include <geocone/base/log.h>
 #include <geocone/mechanics/absorbing_boundary.h>
 #include <geocone/mechanics/face_points.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <array>
 #include <cmath>
-#include <map>
 
 namespace geocone
 {
@@ -23,52 +22,40 @@ namespace geocone
   {
     if (!exists())
       return;
-    const MPI_Comm comm = mesh.triangulation().get_communicator();
     incoming.reinit(space.partitioner());
-    std::map<unsigned int, Tensor<2, dim>> all;
-    for (const auto &condition : conditions.list)
+    for (unsigned int c = 0; c < conditions.list.size(); ++c)
       {
         // xx, yy and xy by node, summed over ranks.
         std::array<Vector, 2> sums;
         for (Vector &sum : sums)
           sum.reinit(space.partitioner());
-        const auto   ids     = mesh.side_ids(*condition);
-        unsigned int n_faces = 0;
-        for (const auto &cell : mesh.own_cells())
-          for (const unsigned int f : cell->face_indices())
-            if (cell->face(f)->at_boundary() &&
-                ids.count(cell->face(f)->boundary_id()) > 0 &&
-                condition->in_box(cell->face(f)->center()))
+        const unsigned int n_faces = for_each_face_point(
+          mesh,
+          space,
+          *conditions.list[c],
+          [&](const BackgroundMesh::Cell &cell, const FacePoint &point) {
+            const Material   &law = scene.materials[cell->material_id()];
+            const Elasticity &e   = law.elasticity();
+            const double      rho = law.density(),
+                         of_p     = std::sqrt(rho * (e.lambda + e.two_G)),
+                         of_s     = std::sqrt(rho * e.two_G / 2.);
+            for (unsigned int i = 0; i < point.nodes.size(); ++i)
               {
-                ++n_faces;
-                const Material   &law = scene.materials[cell->material_id()];
-                const Elasticity &e   = law.elasticity();
-                const double      rho = law.density(),
-                             of_p     = std::sqrt(rho * (e.lambda + e.two_G)),
-                             of_s     = std::sqrt(rho * e.two_G / 2.);
-                for (const FacePoint &point :
-                     points_on_face(mesh, space, cell, f))
-                  for (unsigned int i = 0; i < point.nodes.size(); ++i)
-                    {
-                      const double       w   = point.weight * point.values[i];
-                      const auto        &n   = point.normal;
-                      const unsigned int dof = dim * point.nodes[i];
-                      for (unsigned int d = 0; d < dim; ++d)
-                        sums[0].local_element(dof + d) +=
-                          w * (of_s + (of_p - of_s) * n[d] * n[d]);
-                      sums[1].local_element(dof) +=
-                        w * (of_p - of_s) * n[0] * n[1];
-                    }
+                const double       w   = point.weight * point.values[i];
+                const auto        &n   = point.normal;
+                const unsigned int dof = dim * point.nodes[i];
+                for (unsigned int d = 0; d < dim; ++d)
+                  sums[0].local_element(dof + d) +=
+                    w * (of_s + (of_p - of_s) * n[d] * n[d]);
+                sums[1].local_element(dof) += w * (of_p - of_s) * n[0] * n[1];
               }
-        if (Utilities::MPI::sum(n_faces, comm) == 0)
-          throw InputError(condition->parameter("Box"),
-                           condition->part(),
-                           "a part of the boundary with at least one face",
-                           "this side absorbs nothing: check its sides, its "
-                           "box, and the size of the cells there");
+          });
+        refuse_no_face(*conditions.list[c],
+                       n_faces,
+                       mesh.triangulation().get_communicator(),
+                       "this side absorbs nothing");
         for (Vector &sum : sums)
           sum.compress(VectorOperation::add);
-        of_condition.emplace_back();
         for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
           if (sums[0].local_element(dim * node) > 0.)
             {
@@ -76,12 +63,9 @@ namespace geocone
               for (unsigned int d = 0; d < dim; ++d)
                 C[d][d] = sums[0].local_element(dim * node + d);
               C[0][1] = C[1][0] = sums[1].local_element(dim * node);
-              of_condition.back().push_back({node, C});
-              all[node] += C;
+              dashpots.push_back({node, c, C});
             }
       }
-    for (const auto &[node, C] : all)
-      dashpots.push_back({node, C});
   }
 
   void
@@ -107,18 +91,17 @@ namespace geocone
   {
     unknowns = &of_problem;
     incoming = 0.;
-    for (unsigned int c = 0; c < of_condition.size(); ++c)
-      for (const Dashpot &dashpot : of_condition[c])
-        {
-          Tensor<1, dim> v_in;
-          for (unsigned int d = 0; d < dim; ++d)
-            if (const auto &component = conditions.list[c]->components[d])
-              v_in[d] =
-                component->value(space.node_positions()[dashpot.node], t);
-          const Tensor<1, dim> force = 2. * (dashpot.C * v_in);
-          for (unsigned int d = 0; d < dim; ++d)
-            incoming.local_element(dim * dashpot.node + d) += force[d];
-        }
+    for (const Dashpot &dashpot : dashpots)
+      {
+        Tensor<1, dim> v_in;
+        for (unsigned int d = 0; d < dim; ++d)
+          if (const auto &component =
+                conditions.list[dashpot.condition]->components[d])
+            v_in[d] = component->value(space.node_positions()[dashpot.node], t);
+        const Tensor<1, dim> force = 2. * (dashpot.C * v_in);
+        for (unsigned int d = 0; d < dim; ++d)
+          incoming.local_element(dim * dashpot.node + d) += force[d];
+      }
   }
 
   void
@@ -172,17 +155,9 @@ namespace geocone
   double
   AbsorbingBoundary::power(const Vector &v) const
   {
-    double sum = 0.;
-    for (const Dashpot &dashpot : dashpots)
-      for (unsigned int a = 0; a < dim; ++a)
-        {
-          const unsigned int dof   = dim * dashpot.node + a;
-          double             force = incoming.local_element(dof);
-          for (unsigned int b = 0; b < dim; ++b)
-            force -= dashpot.C[a][b] * v.local_element(dim * dashpot.node + b);
-          sum += force * v.local_element(dof);
-        }
-    // Of all conditions at a node, once.
-    return Utilities::MPI::sum(sum, v.get_mpi_communicator());
+    Vector force = incoming;
+    force *= -1.;
+    add_product(force, v);
+    return -(force * v);
   }
 } // namespace geocone

@@ -1,8 +1,10 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/exceptions.h>
 #include <geocone/mechanics/face_points.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 
 #include <array>
@@ -53,5 +55,19 @@ namespace geocone
           point.nodes.push_back(space.local_node(node));
       }
     return points;
+  }
+
+  void
+  refuse_no_face(const BoundaryCondition &condition,
+                 const unsigned int       n_faces,
+                 const MPI_Comm           comm,
+                 const std::string       &what)
+  {
+    if (Utilities::MPI::sum(n_faces, comm) == 0)
+      throw InputError(condition.parameter("Box"),
+                       condition.part(),
+                       "a part of the boundary with at least one face",
+                       what + ": check its sides, its box, and the size of the "
+                              "cells there");
   }
 } // namespace geocone

@@ -1,11 +1,9 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/base/exceptions.h>
 #include <geocone/discretisation/quadrature_points.h>
 #include <geocone/mechanics/loads.h>
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 
 namespace geocone
@@ -94,26 +92,17 @@ namespace geocone
     for (unsigned int c = 0; c < scene.tractions.list.size(); ++c)
       {
         const BoundaryCondition &condition = *scene.tractions.list[c];
-        const auto               ids       = mesh.side_ids(condition);
-        unsigned int             n_faces   = 0;
-        for (const auto &cell : mesh.own_cells())
-          for (const unsigned int f : cell->face_indices())
-            if (cell->face(f)->at_boundary() &&
-                ids.count(cell->face(f)->boundary_id()) > 0 &&
-                condition.in_box(cell->face(f)->center()))
-              {
-                ++n_faces;
-                for (const FacePoint &point :
-                     points_on_face(mesh, space, cell, f))
-                  loaded.push_back({c, point});
-              }
-        if (Utilities::MPI::sum(n_faces,
-                                mesh.triangulation().get_communicator()) == 0)
-          throw InputError(condition.parameter("Box"),
-                           condition.part(),
-                           "a part of the boundary with at least one face",
-                           "this traction acts on no face: check its sides, "
-                           "its box, and the size of the cells there");
+        const unsigned int       n_faces   = for_each_face_point(
+          mesh,
+          space,
+          condition,
+          [&](const BackgroundMesh::Cell &, const FacePoint &point) {
+            loaded.push_back({c, point});
+          });
+        refuse_no_face(condition,
+                       n_faces,
+                       mesh.triangulation().get_communicator(),
+                       "this traction acts on no face");
       }
   }
 

@@ -62,10 +62,10 @@ namespace geocone
     power(const Vector &v) const;
 
   private:
-    /** Of a node of this rank, with what it takes of each condition. */
+    /** Of a node of this rank, by one condition. */
     struct Dashpot
     {
-      unsigned int           node;
+      unsigned int           node, condition;
       dealii::Tensor<2, dim> C; ///< kg/(m s), per thickness
     };
 
@@ -73,12 +73,11 @@ namespace geocone
     void
     add_product(Vector &dst, const Vector &x) const;
 
-    const BoundaryConditions         &conditions;
-    const Space                      &space;
-    std::vector<std::vector<Dashpot>> of_condition;
-    std::vector<Dashpot>              dashpots; ///< of all of them
-    Vector                            incoming; ///< forces 2 C v_in
-    const Unknowns                   *unknowns = nullptr;
+    const BoundaryConditions &conditions;
+    const Space              &space;
+    std::vector<Dashpot>      dashpots;
+    Vector                    incoming; ///< forces 2 C v_in
+    const Unknowns           *unknowns = nullptr;
   };
 } // namespace geocone
 

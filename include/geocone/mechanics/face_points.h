@@ -5,7 +5,9 @@
 #define geocone_mechanics_face_points_h
 
 #include <geocone/discretisation/space.h>
+#include <geocone/scene/boundary_conditions.h>
 
+#include <string>
 #include <vector>
 
 namespace geocone
@@ -26,6 +28,41 @@ namespace geocone
                  const Space                &space,
                  const BackgroundMesh::Cell &cell,
                  const unsigned int          face);
+
+  /**
+   * Calls f(cell, point) for each of these points of the faces, of cells of this rank,
+   * that a condition at the boundary holds.
+   * @return the number of these faces
+   */
+  template <typename Function>
+  unsigned int
+  for_each_face_point(const BackgroundMesh    &mesh,
+                      const Space             &space,
+                      const BoundaryCondition &condition,
+                      const Function          &f)
+  {
+    const auto   ids     = mesh.side_ids(condition);
+    unsigned int n_faces = 0;
+    for (const auto &cell : mesh.own_cells())
+      for (const unsigned int face : cell->face_indices())
+        if (cell->face(face)->at_boundary() &&
+            ids.count(cell->face(face)->boundary_id()) > 0 &&
+            condition.in_box(cell->face(face)->center()))
+          {
+            ++n_faces;
+            for (const FacePoint &point :
+                 points_on_face(mesh, space, cell, face))
+              f(cell, point);
+          }
+    return n_faces;
+  }
+
+  /** @throws InputError where no rank has a face @param what that means. Collective. */
+  void
+  refuse_no_face(const BoundaryCondition &condition,
+                 const unsigned int       n_faces,
+                 const MPI_Comm           comm,
+                 const std::string       &what);
 } // namespace geocone
 
 #endif
