@@ -108,8 +108,7 @@ namespace geocone
         one.state(0, row);
         places.push_back({first + i, unknown_cell, seed.position, {}});
       }
-    std::vector<std::string> remarks; // of laws that are not in closed form
-    start.finish<InputError>(comm, remarks);
+    start.check<InputError>(comm);
     sort();
 
     const unsigned int k    = seeding.points_per_direction();

@@ -124,8 +124,7 @@ namespace geocone
           }
         points.first_point.push_back(points.weight.size());
       }
-    std::vector<std::string> remarks; // of laws that are not in closed form
-    start.finish<InputError>(mesh.triangulation().get_communicator(), remarks);
+    start.check<InputError>(mesh.triangulation().get_communicator());
     // The first material has what the others leave, which may be nothing.
     std::vector<unsigned int> n(scene.materials.size(), 0);
     for (const unsigned int material : points.material)

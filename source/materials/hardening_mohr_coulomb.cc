@@ -4,7 +4,6 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/materials/hardening_mohr_coulomb.h>
-#include <geocone/materials/varying_cone.h>
 
 #include <algorithm>
 
@@ -62,30 +61,28 @@ namespace geocone
     friction_curve.read(parameter(names[1]), friction_text, friction_angle());
     dilatancy_curve.read(
       parameter(names[2]), dilatancy_text, dilatancy_angle());
-    varies = !(cohesion_curve.is_constant() && friction_curve.is_constant() &&
-               dilatancy_curve.is_constant());
-    if (varies && modulus > 0.)
+    has_curves =
+      !(cohesion_curve.is_constant() && friction_curve.is_constant() &&
+        dilatancy_curve.is_constant());
+    if (has_curves && modulus > 0.)
       throw InputError(
         parameter("Hardening modulus"),
         modulus,
         "0 beside curves",
         "write it as a curve, e.g. 'Cohesion with strain' = 1: c + "
         "H");
-    if (!(cohesion_curve.least() >= 0.))
+    if (!(cohesion_curve.range().first >= 0.))
       throw InputError(parameter(names[0]),
                        cohesion_text,
                        "values >= 0 Pa",
                        "give the cohesion in Pa");
-    if (!(friction_curve.least() >= 0. && friction_curve.most() < 90.))
+    if (!(friction_curve.range().first >= 0. &&
+          friction_curve.range().second < 90.))
       throw InputError(parameter(names[1]),
                        friction_text,
                        "0 <= phi < 90 degrees",
                        "give the angle in degrees; soils have 0 to 45");
-    std::vector<double> places = cohesion_curve.places();
-    for (const StrainCurve *curve : {&friction_curve, &dilatancy_curve})
-      for (const double place : curve->places())
-        places.push_back(place);
-    for (const double kappa : places)
+    for (const double kappa : places())
       {
         const double phi   = friction_curve(kappa),
                      theta = dilatancy_curve(kappa);
@@ -123,6 +120,17 @@ namespace geocone
         "give the thickness of the shear band to which the strains of "
         "the curves belong: without it the result would depend on the "
         "cells");
+  }
+
+  std::vector<double>
+  HardeningMohrCoulomb::places() const
+  {
+    std::vector<double> all;
+    for (const StrainCurve *curve :
+         {&cohesion_curve, &friction_curve, &dilatancy_curve})
+      for (const double place : curve->places())
+        all.push_back(place);
+    return all;
   }
 
   double
@@ -199,8 +207,8 @@ namespace geocone
   HardeningMohrCoulomb::exact_end_cone(const double *history_n,
                                        const double  slip) const
   {
-    return varies ? cone_at(sheared(history_n, slip))
-                  : MohrCoulomb::exact_end_cone(history_n, slip);
+    return has_curves ? cone_at(sheared(history_n, slip))
+                      : MohrCoulomb::exact_end_cone(history_n, slip);
   }
 
   std::optional<FlowCone>
@@ -209,46 +217,18 @@ namespace geocone
                                  const StepLaw &step,
                                  const double   slip) const
   {
-    return varies
+    return has_curves
              ? with_memory(
                  cone_at(sheared(history_n, slip)), stress_n, history_n, step)
              : MohrCoulomb::end_cone(stress_n, history_n, step, slip);
   }
 
-  Mode
-  HardeningMohrCoulomb::return_to_cone(const Mandel  &trial,
-                                       const Mandel  &stress_n,
-                                       const double  *history_n,
-                                       const StepLaw &step,
-                                       Mandel        &stress,
-                                       double        &slip,
-                                       MandelMatrix  *tangent) const
-  {
-    if (!varies)
-      return MohrCoulomb::return_to_cone(
-        trial, stress_n, history_n, step, stress, slip, tangent);
-    return return_map_varying(
-      [&](const double sheared_by) {
-        return with_memory(
-          cone_at(sheared(history_n, sheared_by)), stress_n, history_n, step);
-      },
-      elasticity().normal_stiffness(),
-      elasticity().two_G,
-      trial,
-      stress,
-      tangent,
-      slip);
-  }
-
   double
   HardeningMohrCoulomb::non_associativity() const
   {
-    double              most   = 0.;
-    std::vector<double> places = friction_curve.places();
-    for (const double place : dilatancy_curve.places())
-      places.push_back(place);
-    for (const double place : places)
-      if (const FlowCone cone = cone_at(place); cone.a > 0.)
+    double most = 0.;
+    for (const double kappa : places())
+      if (const FlowCone cone = cone_at(kappa); cone.a > 0.)
         most = std::max(most, (cone.a - cone.b) / cone.a);
     return most;
   }
@@ -257,7 +237,7 @@ namespace geocone
   HardeningMohrCoulomb::has_symmetric_tangent() const
   {
     return MohrCoulomb::has_symmetric_tangent() && !softens &&
-           (!hardens() || friction_curve.most() == 0.);
+           (!hardens() || friction_curve.range().second == 0.);
   }
 
   void

@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/materials/cone_kernel.h>
 #include <geocone/materials/mohr_coulomb.h>
+#include <geocone/materials/varying_cone.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -199,13 +200,19 @@ namespace geocone
                               double        &slip,
                               MandelMatrix  *tangent) const
   {
-    const double two_G = elasticity().two_G;
-    const Mode   mode  = return_map(*step_cone(stress_n, history_n, step),
-                                 elasticity().normal_stiffness(),
-                                 two_G,
-                                 trial,
-                                 stress,
-                                 tangent);
+    const double K     = elasticity().normal_stiffness(),
+                 two_G = elasticity().two_G;
+    if (varies())
+      return return_map_varying(
+        [&](const double g) { return *end_cone(stress_n, history_n, step, g); },
+        K,
+        two_G,
+        trial,
+        stress,
+        tangent,
+        slip);
+    const Mode mode = return_map(
+      *step_cone(stress_n, history_n, step), K, two_G, trial, stress, tangent);
     slip = FlowCone::tangential_norm(Mandel(trial - stress)) / two_G;
     return mode;
   }

@@ -91,22 +91,14 @@ namespace geocone
     return y_0 + (y_1 - y_0) * (std::max(strain, 0.) - g_0) / (g_1 - g_0);
   }
 
-  double
-  StrainCurve::least() const
+  std::pair<double, double>
+  StrainCurve::range() const
   {
-    double value = points.front().second;
-    for (const auto &point : points)
-      value = std::min(value, point.second);
-    return value;
-  }
-
-  double
-  StrainCurve::most() const
-  {
-    double value = points.front().second;
-    for (const auto &point : points)
-      value = std::max(value, point.second);
-    return value;
+    const auto [least, most] = std::minmax_element(
+      points.begin(), points.end(), [](const auto &a, const auto &b) {
+        return a.second < b.second;
+      });
+    return {least->second, most->second};
   }
 
   double

@@ -172,17 +172,14 @@ namespace geocone
     else
       observed_points.prepare_field(scene, mesh, space);
     if (freezer.is_used())
-      for (const auto &condition : scene.dirichlet.list)
-        condition->refuse_normal("free where problems are frozen",
-                                 "give Velocity x and y, or leave 'Output/"
-                                 "Freeze steps' and 'Freeze failures' out");
-    if (freezer.is_used())
       {
-        scene.obstacles.refuse("frozen problems",
-                               "leave 'Output/Freeze steps' and 'Freeze "
-                               "failures' out");
-        scene.absorbing.refuse("frozen problems",
-                               "set 'Output/Freeze steps' to nothing");
+        const std::string remedy =
+          "leave 'Output/Freeze steps' and 'Freeze failures' out";
+        for (const auto &condition : scene.dirichlet.list)
+          condition->refuse_normal("free where problems are frozen",
+                                   "give Velocity x and y, or " + remedy);
+        scene.obstacles.refuse("frozen problems", remedy);
+        scene.absorbing.refuse("frozen problems", remedy);
       }
     freezer.check(scene.loading);
     return warnings;

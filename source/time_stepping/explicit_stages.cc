@@ -121,7 +121,8 @@ namespace geocone
         }
       group.append(values.data(), next++);
     });
-    start.finish<InputError>(comm, remarks);
+    start.check<InputError>(comm);
+    start.remark(comm, remarks);
     for (PointArrays &group : groups)
       group.pad();
     least_mass       = 1e-14 * Utilities::MPI::max(largest_mass, comm);
@@ -166,7 +167,8 @@ namespace geocone
               }
             group.pad();
           }
-        start.finish<StepFailure>(comm, remarks);
+        start.check<StepFailure>(comm);
+        start.remark(comm, remarks);
       }
     if (!stage.removed_polygon.empty())
       remarks.push_back(remove_polygon(stage, t));

@@ -55,15 +55,20 @@ namespace geocone
       return !refusal.empty();
     }
 
-    /** Adds what had to be changed to the remarks. Collective.
-     *  @throws Error if a point of any rank was refused */
+    /** @throws Error if a point of any rank was refused. Collective. */
     template <typename Error>
     void
-    finish(const MPI_Comm comm, std::vector<std::string> &remarks) const
+    check(const MPI_Comm comm) const
     {
       const std::string why = text_of_any_rank(comm, refusal);
       if (!why.empty())
         throw Error(why);
+    }
+
+    /** Adds what laws not in closed form had to change to the remarks. Collective. */
+    void
+    remark(const MPI_Comm comm, std::vector<std::string> &remarks) const
+    {
       const std::string   first = text_of_any_rank(comm, change);
       const unsigned long n     = dealii::Utilities::MPI::sum(n_changed, comm);
       if (n > 0)

@@ -64,7 +64,7 @@ namespace geocone
     bool
     hardens() const override
     {
-      return varies || slope != 0.;
+      return has_curves || slope != 0.;
     }
 
     std::optional<FlowCone>
@@ -89,14 +89,11 @@ namespace geocone
     has_symmetric_tangent() const override;
 
   protected:
-    Mode
-    return_to_cone(const Mandel  &trial,
-                   const Mandel  &stress_n,
-                   const double  *history_n,
-                   const StepLaw &step,
-                   Mandel        &stress,
-                   double        &slip,
-                   MandelMatrix  *tangent) const override;
+    bool
+    varies() const override
+    {
+      return has_curves;
+    }
 
     void
     add_to_history(const double slip, double *history) const override;
@@ -123,14 +120,18 @@ namespace geocone
     double
     cohesion_at(const double kappa) const;
 
+    /** Strains at which the parameters are checked: all that are given. */
+    std::vector<double>
+    places() const;
+
     std::string cohesion_text = "constant", friction_text = "constant",
                 dilatancy_text = "constant";
     StrainCurve cohesion_curve, friction_curve, dilatancy_curve;
-    bool        varies  = false; ///< whether one of them is no constant
-    bool        softens = false;
-    double      modulus = 0.;
-    double      slope   = 0.; ///< h = dk/d|z_t| (Pa)
-    double      length  = 0.; ///< L (m)
+    bool        has_curves = false; ///< whether one of them is no constant
+    bool        softens    = false;
+    double      modulus    = 0.;
+    double      slope      = 0.; ///< h = dk/d|z_t| (Pa)
+    double      length     = 0.; ///< L (m)
   };
 } // namespace geocone
 

@@ -105,19 +105,13 @@ namespace geocone
     }
 
   protected:
-    /**
-     * The one-point problem of a step, in cone axes.
-     * @param trial s_n + D e @param[out] slip |z_t| of the step (-)
-     * @param[out] tangent ds/de, or null
-     */
-    virtual Mode
-    return_to_cone(const Mandel  &trial,
-                   const Mandel  &stress_n,
-                   const double  *history_n,
-                   const StepLaw &step,
-                   Mandel        &stress,
-                   double        &slip,
-                   MandelMatrix  *tangent) const;
+    /** Whether the slip of a step changes its cone, by end_cone(), otherwise than by a
+     *  modulus. */
+    virtual bool
+    varies() const
+    {
+      return false;
+    }
 
     /** The history after a step, for laws that harden.
      *  @param slip |z_t| of the step (-) */
@@ -154,6 +148,20 @@ namespace geocone
     static constexpr unsigned int memory      = 1;
     std::string                   memory_text = "automatic";
     double                        tau         = 0.;
+
+    /**
+     * The one-point problem of a step, in cone axes.
+     * @param trial s_n + D e @param[out] slip |z_t| of the step (-)
+     * @param[out] tangent ds/de, or null
+     */
+    Mode
+    return_to_cone(const Mandel  &trial,
+                   const Mandel  &stress_n,
+                   const double  *history_n,
+                   const StepLaw &step,
+                   Mandel        &stress,
+                   double        &slip,
+                   MandelMatrix  *tangent) const;
 
     void
     set_cone(const double F);

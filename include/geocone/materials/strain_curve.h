@@ -37,10 +37,8 @@ namespace geocone
     }
 
     /** The smallest and the largest value. */
-    double
-    least() const;
-    double
-    most() const;
+    std::pair<double, double>
+    range() const;
 
     /** The smallest derivative, negative where the curve falls. */
     double
