@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/over_ranks.h>
 #include <geocone/discretisation/cell_search.h>
 #include <geocone/discretisation/observed_points.h>
 
@@ -148,8 +149,7 @@ namespace geocone
   std::vector<Tensor<1, dim>>
   ObservedPoints::gather(std::vector<double> &sums) const
   {
-    Utilities::MPI::sum(
-      ArrayView<const double>(sums), comm, ArrayView<double>(sums));
+    sum_over_ranks(sums, comm);
     std::vector<Tensor<1, dim>> result(sums.size() / 3);
     for (unsigned int i = 0; i < result.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)

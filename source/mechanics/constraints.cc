@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/over_ranks.h>
 #include <geocone/mechanics/constraints.h>
 #include <geocone/mechanics/face_points.h>
 #include <geocone/mechanics/moving_boundary.h>
@@ -117,23 +118,21 @@ namespace geocone
         if (!list[c]->normal)
           continue;
         // The sums of N_i n dA, and of N_i dA.
-        const auto ids = mesh.side_ids(*list[c]);
-        Vector     normal(space.partitioner()), size(space.partitioner());
-        for (const auto &cell : mesh.own_cells())
-          for (const unsigned int f : cell->face_indices())
-            if (cell->face(f)->at_boundary() &&
-                ids.count(cell->face(f)->boundary_id()) > 0 &&
-                list[c]->in_box(cell->face(f)->center()))
-              for (const FacePoint &point :
-                   points_on_face(mesh, space, cell, f))
-                for (unsigned int i = 0; i < point.nodes.size(); ++i)
-                  for (unsigned int d = 0; d < dim; ++d)
-                    {
-                      const unsigned int dof  = dim * point.nodes[i] + d;
-                      const double       part = point.weight * point.values[i];
-                      normal.local_element(dof) += part * point.normal[d];
-                      size.local_element(dof) += part;
-                    }
+        Vector normal(space.partitioner()), size(space.partitioner());
+        for_each_face_point(
+          mesh,
+          space,
+          *list[c],
+          [&](const BackgroundMesh::Cell &, const FacePoint &point) {
+            for (unsigned int i = 0; i < point.nodes.size(); ++i)
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  const unsigned int dof  = dim * point.nodes[i] + d;
+                  const double       part = point.weight * point.values[i];
+                  normal.local_element(dof) += part * point.normal[d];
+                  size.local_element(dof) += part;
+                }
+          });
         for (Vector *sum : {&normal, &size})
           {
             sum->compress(VectorOperation::add);
@@ -261,8 +260,7 @@ namespace geocone
                       part * point.normal;
                   }
               }
-    Utilities::MPI::sum(
-      ArrayView<const double>(sizes), comm, ArrayView<double>(sizes));
+    sum_over_ranks(sizes, comm);
     for (auto &entry : shared)
       entry.second.size.assign(sizes.begin() + entry.second.first,
                                sizes.begin() + entry.second.first +
@@ -358,8 +356,7 @@ namespace geocone
         s[2] += x[1];
         s[3] += x.norm_square();
       }
-    Utilities::MPI::sum(
-      ArrayView<const double>(sums), comm, ArrayView<double>(sums));
+    sum_over_ranks(sums, comm);
 
     // Rigid velocities (1,0), (0,1) and (-(y - y_c), x - x_c)/size: a motion is
     // free if it moves no prescribed dof.
@@ -389,8 +386,7 @@ namespace geocone
     for (const Oblique &o : oblique)
       for (const Direction &direction : o.directions)
         hold(o.node, direction.d);
-    Utilities::MPI::sum(
-      ArrayView<const double>(gram), comm, ArrayView<double>(gram));
+    sum_over_ranks(gram, comm);
     for (unsigned int p = 0; p < n_parts; ++p)
       {
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(
@@ -526,8 +522,7 @@ namespace geocone
                     : shear * part.weight[0] + mean[1] * part.weight[1];
               }
           }
-        Utilities::MPI::sum(
-          ArrayView<const double>(exerted), comm, ArrayView<double>(exerted));
+        sum_over_ranks(exerted, comm);
       }
 
     const unsigned int  n = scene.dirichlet.list.size();
@@ -601,8 +596,7 @@ namespace geocone
           for (unsigned int d = 0; d < dim; ++d)
             add(k[i].condition, o.node, d, along[i] * k[i].d[d]);
       }
-    Utilities::MPI::sum(
-      ArrayView<const double>(sums), comm, ArrayView<double>(sums));
+    sum_over_ranks(sums, comm);
     std::vector<Reaction> result(n);
     for (unsigned int c = 0; c < n; ++c)
       {

@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/over_ranks.h>
 #include <geocone/mechanics/contact.h>
 
 #include <deal.II/base/mpi.h>
@@ -19,15 +20,6 @@ namespace geocone
     const double along = std::cos(radians(10.));
 
     constexpr unsigned int n_motions = RigidMotion::n_components;
-
-    void
-    sum_over_ranks(std::vector<double> &x, const MPI_Comm comm)
-    {
-      dealii::Utilities::MPI::sum(
-        dealii::ArrayView<const double>(x.data(), x.size()),
-        comm,
-        dealii::ArrayView<double>(x.data(), x.size()));
-    }
   } // namespace
 
   unsigned int

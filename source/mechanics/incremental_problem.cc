@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/over_ranks.h>
 #include <geocone/mechanics/incremental_problem.h>
 
 #include <deal.II/base/mpi.h>
@@ -44,11 +45,11 @@ namespace geocone
   }
 
   void
-  IncrementalProblem::begin_step(const double             step,
-                                 const Vector            *external_force,
-                                 const Vector            &v,
-                                 const Vector            &prescribed_velocity,
-                                 ContactStep              touching)
+  IncrementalProblem::begin_step(const double  step,
+                                 const Vector *external_force,
+                                 const Vector &v,
+                                 const Vector &prescribed_velocity,
+                                 ContactStep   touching)
   {
     if (contact_term)
       contact_term->begin_step(std::move(touching));
@@ -96,9 +97,7 @@ namespace geocone
     for (unsigned int i = 0; i < dst.locally_owned_size(); ++i)
       if (unknowns.is_free(i))
         sums[square] += dst.local_element(i) * dst.local_element(i);
-    Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
-                        layout->get_mpi_communicator(),
-                        ArrayView<double>(sums.data(), sums.size()));
+    sum_over_ranks(sums, layout->get_mpi_communicator());
     if (unknowns.multipliers.n_rows() > 0)
       {
         if (row_factors.U.size() == 0)

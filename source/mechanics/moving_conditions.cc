@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/over_ranks.h>
 #include <geocone/mechanics/moving_conditions.h>
 
 #include <deal.II/base/mpi.h>
@@ -76,14 +77,12 @@ namespace geocone
   std::vector<unsigned int>
   MovingConditions::count_held(const MaterialPoints &points) const
   {
-    std::vector<unsigned int> own(scene.dirichlet.list.size()), all(own.size());
+    std::vector<unsigned int> n(scene.dirichlet.list.size());
     for (const unsigned int held : points.held_by)
       if (held > 0)
-        ++own[held - 1];
-    Utilities::MPI::sum(ArrayView<const unsigned int>(own),
-                        mesh.triangulation().get_communicator(),
-                        ArrayView<unsigned int>(all));
-    return all;
+        ++n[held - 1];
+    sum_over_ranks(n, mesh.triangulation().get_communicator());
+    return n;
   }
 
   void
@@ -155,10 +154,8 @@ namespace geocone
                                   const std::vector<Side>   &sides,
                                   const std::vector<double> &part_in_mesh) const
   {
-    std::vector<double> sums(part_in_mesh.size());
-    Utilities::MPI::sum(ArrayView<const double>(part_in_mesh),
-                        mesh.triangulation().get_communicator(),
-                        ArrayView<double>(sums));
+    std::vector<double> sums = part_in_mesh;
+    sum_over_ranks(sums, mesh.triangulation().get_communicator());
     std::size_t l = 0;
     for (const Side &side : sides)
       for (const MovingBoundary::Line &line : side.boundary.lines)
@@ -408,9 +405,7 @@ namespace geocone
                     v.local_element(dim * space.local_node(point.nodes[i]) + d);
             }
       }
-    Utilities::MPI::sum(ArrayView<const double>(sums),
-                        v.get_mpi_communicator(),
-                        ArrayView<double>(sums));
+    sum_over_ranks(sums, v.get_mpi_communicator());
     for (unsigned int l = 0; l < n_lines; ++l)
       for (unsigned int e = 0; e < 2; ++e)
         if (const double *s = &sums[6 * l + 3 * e]; s[2] > 0.)

@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/over_ranks.h>
 #include <geocone/mechanics/constraints.h>
 #include <geocone/mechanics/multipliers.h>
 
@@ -28,12 +29,9 @@ namespace geocone
     constexpr double rounding = 1e-6;
 
     VectorXd
-    sum_over_ranks(VectorXd x, const MPI_Comm comm)
+    summed(VectorXd x, const MPI_Comm comm)
     {
-      if (x.size() > 0)
-        Utilities::MPI::sum(ArrayView<const double>(x.data(), x.size()),
-                            comm,
-                            ArrayView<double>(x.data(), x.size()));
+      sum_over_ranks(x, comm);
       return x;
     }
   } // namespace
@@ -123,9 +121,8 @@ namespace geocone
           is_held[j]               = constraints.is_prescribed(local);
           value[j] = is_held[j] != 0. ? prescribed.local_element(local) : 0.;
         }
-    is_free = sum_over_ranks(is_free, comm);
-    is_held = sum_over_ranks(is_held, comm);
-    value   = sum_over_ranks(value, comm);
+    for (VectorXd *sum : {&is_free, &is_held, &value})
+      sum_over_ranks(*sum, comm);
 
     MatrixXd             full = MatrixXd::Zero(rows.size(), n_dofs);
     VectorXd             target(rows.size());
@@ -224,7 +221,7 @@ namespace geocone
     VectorXd own(touched.size());
     for (unsigned int j = 0; j < touched.size(); ++j)
       own[j] = f.local_element(touched[j]);
-    return sum_over_ranks(H * own, comm);
+    return summed(H * own, comm);
   }
 
   VectorXd
@@ -295,7 +292,7 @@ namespace geocone
     VectorXd own(touched.size());
     for (unsigned int j = 0; j < touched.size(); ++j)
       own[j] = residual.local_element(touched[j]) / factors.root[j];
-    const VectorXd along = sum_over_ranks(factors.Q.transpose() * own, comm);
+    const VectorXd along = summed(factors.Q.transpose() * own, comm);
     const VectorXd force = factors.Q * along;
     for (unsigned int j = 0; j < touched.size(); ++j)
       residual.local_element(touched[j]) -= factors.root[j] * force[j];

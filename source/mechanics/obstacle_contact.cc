@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/over_ranks.h>
 #include <geocone/mechanics/face_points.h>
 #include <geocone/mechanics/obstacle_contact.h>
 
@@ -212,9 +213,7 @@ namespace geocone
         sums[3] += h * (r * u);
         sums[4] -= h * (r * relative);
       }
-    Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
-                        comm,
-                        ArrayView<double>(sums.data(), sums.size()));
+    sum_over_ranks(sums, comm);
     Utilities::MPI::max(ArrayView<const double>(most.data(), most.size()),
                         comm,
                         ArrayView<double>(most.data(), most.size()));
@@ -255,9 +254,7 @@ namespace geocone
         sums[3 * o + 1] += r[1];
         sums[3 * o + 2] += arm[0] * r[1] - arm[1] * r[0];
       }
-    Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
-                        comm,
-                        ArrayView<double>(sums.data(), sums.size()));
+    sum_over_ranks(sums, comm);
     std::vector<Reaction> result(list.size());
     for (unsigned int o = 0; o < list.size(); ++o)
       {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/over_ranks.h>
 #include <geocone/discretisation/quadrature_points.h>
 #include <geocone/output/exact_solution.h>
 
@@ -112,9 +113,7 @@ namespace geocone
         sums[2] += points.weight[p] * (points.stress[p] - exact).squaredNorm();
         sums[3] += points.weight[p] * exact.squaredNorm();
       }
-    dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums.data(), 4),
-                                mesh.triangulation().get_communicator(),
-                                dealii::ArrayView<double>(sums.data(), 4));
+    sum_over_ranks(sums, mesh.triangulation().get_communicator());
     for (const double sum : sums)
       if (!std::isfinite(sum))
         throw StepFailure("the exact solution, or the error against it, is not "

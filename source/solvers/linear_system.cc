@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/over_ranks.h>
 #include <geocone/solvers/linear_system.h>
 
 #include <deal.II/base/mpi.h>
@@ -10,18 +11,6 @@
 namespace geocone
 {
   using dealii::TimerOutput;
-
-  namespace
-  {
-    void
-    sum_over_ranks(Eigen::MatrixXd &A, const MPI_Comm comm)
-    {
-      dealii::Utilities::MPI::sum(
-        dealii::ArrayView<const double>(A.data(), A.size()),
-        comm,
-        dealii::ArrayView<double>(A.data(), A.size()));
-    }
-  } // namespace
 
   LinearSystem::LinearSystem(const std::string &solver_name,
                              const MPI_Comm     comm,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/over_ranks.h>
 #include <geocone/discretisation/cell_record.h>
 #include <geocone/discretisation/quadrature_points.h>
 #include <geocone/time_stepping/implicit_fem.h>
@@ -222,9 +223,7 @@ namespace geocone
                       history.data() + std::size_t(points.n_history) * p));
         sums[1] += points.weight[p] * ends.back().dissipation;
       }
-    dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(sums.data(), 2),
-                                v.get_mpi_communicator(),
-                                dealii::ArrayView<double>(sums.data(), 2));
+    sum_over_ranks(sums, v.get_mpi_communicator());
     if (absorbing->exists())
       sums[0] += h * absorbing->power(v);
     if (obstacles->exists())

@@ -4,6 +4,7 @@
 // What a solved step of the implicit material point method makes of its particles, and
 // the energies and works that tell of it.
 #include <geocone/base/log.h>
+#include <geocone/base/over_ranks.h>
 #include <geocone/time_stepping/implicit_mpm.h>
 
 #include <deal.II/base/mpi.h>
@@ -194,9 +195,7 @@ namespace geocone
         if (constraints->is_prescribed(i))
           sums[1] += step.h * residual.local_element(i) * v.local_element(i);
       }
-    Utilities::MPI::sum(ArrayView<const double>(sums.data(), 2),
-                        v.get_mpi_communicator(),
-                        ArrayView<double>(sums.data(), 2));
+    sum_over_ranks(sums, v.get_mpi_communicator());
     const Multipliers &rows = constraints->multipliers;
     if (rows.n_rows() > 0)
       sums[1] += step.h * problem->multipliers().dot(rows.multiply(v));

@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/over_ranks.h>
 #include <geocone/discretisation/cell_record.h>
 #include <geocone/time_stepping/time_stepper.h>
 
@@ -121,9 +122,7 @@ namespace geocone
         sums[2] += points.weight[p] / 2. *
                    s.dot(materials[points.material[p]].elasticity().strain(s));
       }
-    Utilities::MPI::sum(ArrayView<const double>(sums.data(), 3),
-                        v.get_mpi_communicator(),
-                        ArrayView<double>(sums.data(), 3));
+    sum_over_ranks(sums, v.get_mpi_communicator());
     // Steps in which next to nothing happens are rounding of the energies.
     const double largest = std::max({1e-4 * kinetic_energy,
                                      1e-4 * sums[2],

@@ -1,0 +1,29 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_base_over_ranks_h
+#define geocone_base_over_ranks_h
+
+#include <deal.II/base/array_view.h>
+#include <deal.II/base/mpi.h>
+
+#include <type_traits>
+
+namespace geocone
+{
+  /** Sums an array of numbers (std::array, std::vector, a matrix of Eigen's), of the
+   *  same size on all ranks, over them, in place. Collective. */
+  template <typename Array>
+  void
+  sum_over_ranks(Array &x, const MPI_Comm comm)
+  {
+    using Number = std::remove_reference_t<decltype(*x.data())>;
+    if (x.size() > 0)
+      dealii::Utilities::MPI::sum(
+        dealii::ArrayView<const Number>(x.data(), x.size()),
+        comm,
+        dealii::ArrayView<Number>(x.data(), x.size()));
+  }
+} // namespace geocone
+
+#endif
