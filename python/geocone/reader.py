@@ -80,6 +80,11 @@ class Run:
         """A value of the summary by its path, as in "limit_load/value"; or None."""
         return leaves(self.summary).get(key)
 
+    def per_metre(self, unit):
+        """A unit of forces or energies: per metre of thickness, or, of a round body,
+        of all of it; e.g. "N/m" or "N" for "N"."""
+        return unit if "load (N)" in self.statistics else f"{unit}/m"
+
     def table(self, name):
         """The columns of NAME.csv, {"name (unit)": array}.
         @throw Missing if there are no lines, ReadError if there are damaged ones"""

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
 #include <geocone/discretisation/background_mesh.h>
 
 #include <deal.II/base/mpi.h>
@@ -111,6 +112,18 @@ namespace geocone
     parameters.prepare(scene.geometry, method);
     const CoarseMesh mesh =
       fitted_mesh(parameters, scene, comm, sizes ? &*sizes : nullptr);
+    axisymmetric = scene.geometry.is_axisymmetric();
+    if (axisymmetric)
+      for (const Point<dim> &x : mesh.points)
+        if (!(x[0] >= 0.))
+          throw InputError(
+            "Geometry/Symmetry",
+            scene.geometry.symmetry.word(),
+            format("x >= 0, the radius, and there is a vertex at "
+                   "(%g, %g)",
+                   x[0],
+                   x[1]),
+            "put the axis at x = 0 and the body on its right");
     sides                      = mesh.sides;
     lines                      = mesh.grid;
     simplicial                 = mesh.has_triangles();

@@ -163,6 +163,9 @@ namespace geocone
             for (unsigned int c = 0; c < dim; ++c)
               points.gradients[(p * dim + c) * n + i] = gradient[c];
           }
+        if (mesh.is_axisymmetric())
+          for (unsigned int i = 0; i < n; ++i)
+            points.hoop.push_back(points.values[p * n + i] / place.position[0]);
         points.position[p] = place.position;
         points.id[p]       = place.id;
         std::copy_n(&states[p * n_state], n_state, state.begin());

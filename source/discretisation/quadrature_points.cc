@@ -47,6 +47,7 @@ namespace geocone
     : quadrature(quadrature)
     , position(quadrature.size())
     , weight(quadrature.size())
+    , mesh(mesh)
     , space(space)
     , n_nodes(space.nodes_per_cell())
     , reference_value(quadrature.size() * n_nodes)
@@ -71,7 +72,7 @@ namespace geocone
                          &reference_value[q * n_nodes],
                          &reference_gradient[q * n_nodes]);
         position[q] = geometry->fe_values.quadrature_point(q);
-        weight[q]   = geometry->fe_values.JxW(q);
+        weight[q]   = geometry->fe_values.JxW(q) * mesh.measure(position[q]);
       }
   }
 
@@ -121,6 +122,9 @@ namespace geocone
             for (unsigned int c = 0; c < dim; ++c)
               for (unsigned int i = 0; i < points.n_nodes; ++i)
                 points.gradients.push_back(values.gradient(i, q)[c]);
+            if (mesh.is_axisymmetric())
+              for (unsigned int i = 0; i < points.n_nodes; ++i)
+                points.hoop.push_back(values.value(i, q) / x[0]);
           }
         points.first_point.push_back(points.weight.size());
       }

@@ -431,6 +431,8 @@ namespace geocone
       seed.material = scene.regions.material_at(seed.position, -1);
     if (detail == Detail::material)
       return;
+    if (!given[ParticleFile::volume])
+      seed.volume *= scene.geometry.measure(seed.position);
     if (!given[ParticleFile::vx])
       seed.velocity = scene.initial_velocity.at(seed.position);
     if (!given[ParticleFile::sxx])

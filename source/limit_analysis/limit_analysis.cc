@@ -124,6 +124,9 @@ namespace geocone
                        "sums over particles are no exact integrals, which a "
                        "strict bound needs: set Discretisation/Method = FEM");
     scene.geometry.prepare();
+    scene.geometry.refuse_axis("'Analysis/Kind' = " + analysis.word(),
+                               "strict bounds are those of plane strain; take "
+                               "an incremental run");
     scene.materials.prepare();
     scene.regions.prepare(scene.geometry);
     scene.gravity.prepare();

@@ -12,6 +12,8 @@ namespace geocone
   LinearElastic::update(const Increment &increment,
                         const Response  &response) const
   {
+    if (axisymmetric)
+      return SpatialLaw::update(increment, response);
     for (std::size_t p = 0; p < increment.strain.size(); ++p)
       {
         response.stress[p] =
@@ -20,6 +22,23 @@ namespace geocone
       }
     for (MandelMatrix &tangent : response.tangent)
       tangent = elasticity().stiffness();
+  }
+
+  Mode
+  LinearElastic::return_to_strength(const SpatialMandel &trial,
+                                    const SpatialMandel &,
+                                    const StepLaw &,
+                                    SpatialMandel       &stress,
+                                    SpatialMandelMatrix *tangent) const
+  {
+    stress = trial;
+    if (tangent != nullptr)
+      {
+        *tangent = elasticity().two_G * SpatialMandelMatrix::Identity();
+        const SpatialMandel one(1., 1., 0., 1.);
+        *tangent += elasticity().lambda * one * one.transpose();
+      }
+    return Mode::elastic;
   }
 
   void

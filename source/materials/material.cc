@@ -52,6 +52,31 @@ namespace geocone
     return history[0] + poisson_ratio * (in_plane[0] + in_plane[1]);
   }
 
+  double
+  Material::elastic_energy(const Mandel &stress, const double *) const
+  {
+    return stress.dot(elastic.strain(stress)) / 2.;
+  }
+
+  SpatialMandel
+  Material::plastic_strain(const Mandel &strain,
+                           const double,
+                           const Mandel &change,
+                           const double) const
+  {
+    SpatialMandel plastic;
+    plastic << strain - elastic.strain(change), 0.;
+    return plastic;
+  }
+
+  std::optional<double>
+  Material::overstress(const Mandel &stress, const double *history) const
+  {
+    if (const auto cone = flow_cone(history))
+      return cone->yield_function(to_cone_axes(stress));
+    return std::nullopt;
+  }
+
   Mandel
   Material::nearest_admissible(const Mandel &stress,
                                const double *history) const
@@ -147,10 +172,12 @@ namespace geocone
                        (block.l_xy[p] + block.l_yx[p]) / sqrt2};
       }
     std::vector<double> history = history_n;
+    std::vector<double> stress_zz(n);
     Response            response;
-    response.stress  = dealii::ArrayView<Mandel>(stress.data(), n);
-    response.mode    = dealii::ArrayView<Mode>(mode.data(), n);
-    response.history = history.data();
+    response.stress    = dealii::ArrayView<Mandel>(stress.data(), n);
+    response.stress_zz = stress_zz.data();
+    response.mode      = dealii::ArrayView<Mode>(mode.data(), n);
+    response.history   = history.data();
     update({dealii::ArrayView<const Mandel>(strain.data(), n),
             dealii::ArrayView<const Mandel>(stress_n.data(), n),
             history_n.data(),
@@ -162,11 +189,17 @@ namespace geocone
         for (unsigned int k = 0; k < m; ++k)
           block.history[k][p] = history[m * p + k];
         const Mandel change = stress[p] - stress_n[p];
-        block.work[p]       = strain[p].dot(stress_n[p] + change / 2.);
+        const double change_zz =
+          is_spatial()
+            ? stress_zz[p] -
+                this->stress_zz({{stress_n[p][0], stress_n[p][1], 0.}},
+                                &history_n[m * p])
+            : 0.;
+        block.work[p] = strain[p].dot(stress_n[p] + change / 2.);
         block.plastic_strain[p] +=
           mode[p] == Mode::elastic
             ? 0.
-            : (strain[p] - elastic.strain(change)).norm();
+            : plastic_strain(strain[p], 0., change, change_zz).norm();
         block.s_xx[p]         = stress[p][0];
         block.s_yy[p]         = stress[p][1];
         block.s_xy[p]         = stress[p][2] / sqrt2;

@@ -3,10 +3,12 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/materials/drucker_prager.h>
 #include <geocone/materials/hardening_mohr_coulomb.h>
 #include <geocone/materials/linear_elastic.h>
 #include <geocone/materials/material_library.h>
 #include <geocone/materials/mohr_coulomb.h>
+#include <geocone/materials/spatial_mohr_coulomb.h>
 #include <geocone/materials/subloading.h>
 
 #include <algorithm>
@@ -32,6 +34,10 @@ namespace geocone
       laws = {{"Mohr-Coulomb", &make<MohrCoulomb>},
               {"Tresca", &make<Tresca>},
               {"hardening Mohr-Coulomb", &make<HardeningMohrCoulomb>},
+              {"spatial Mohr-Coulomb", &make<SpatialMohrCoulomb>},
+              {"spatial Tresca", &make<SpatialTresca>},
+              {"Drucker-Prager", &make<DruckerPrager>},
+              {"von Mises", &make<VonMises>},
               {"linear elastic", &make<LinearElastic>},
               {"subloading", &make<Subloading>}};
   } // namespace
@@ -117,6 +123,30 @@ namespace geocone
         law->prepare();
         in_closed_form.push_back(dynamic_cast<const Material *>(law.get()));
       }
+  }
+
+  void
+  Materials::set_axisymmetric()
+  {
+    for (unsigned int i = 0; i < list.size(); ++i)
+      if (auto *const law = dynamic_cast<Material *>(list[i].get());
+          law == nullptr || !law->set_axisymmetric())
+        throw InputError("Materials/" + names[i] + "/Type",
+                         types[i],
+                         "spatial Mohr-Coulomb | spatial Tresca | "
+                         "Drucker-Prager | von Mises | linear elastic where "
+                         "Geometry/Symmetry = axisymmetric",
+                         "around an axis the stress out of the plane counts: "
+                         "choose one of these");
+  }
+
+  bool
+  Materials::are_spatial() const
+  {
+    return std::any_of(
+      in_closed_form.begin(), in_closed_form.end(), [](const Material *law) {
+        return law != nullptr && law->is_spatial();
+      });
   }
 
   void

@@ -328,6 +328,27 @@ namespace geocone
   }
 
   void
+  Constraints::check_axis(const BackgroundMesh &mesh, const Space &space) const
+  {
+    if (!mesh.is_axisymmetric())
+      return;
+    std::string where;
+    for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
+      if (const Point<dim> &x = space.node_positions()[node];
+          std::abs(x[0]) < 1e-12 && !is_prescribed(dim * node))
+        where = format("(%g, %g)", x[0], x[1]);
+    where = text_of_any_rank(comm, where);
+    if (!where.empty())
+      throw InputError("Geometry/Symmetry",
+                       "axisymmetric",
+                       "a condition with Velocity x = 0 on the axis, and the "
+                       "node at " +
+                         where + " is free to leave it",
+                       "name the side at x = 0 in 'Boundary conditions' and "
+                       "set its Velocity x = 0");
+  }
+
+  void
   Constraints::check_support(const BackgroundMesh &mesh,
                              const Space          &space) const
   {
@@ -387,6 +408,13 @@ namespace geocone
       for (const Direction &direction : o.directions)
         hold(o.node, direction.d);
     sum_over_ranks(gram, comm);
+    // Of a round body only its motion along the axis is rigid.
+    if (mesh.is_axisymmetric())
+      for (unsigned int p = 0; p < n_parts; ++p)
+        {
+          gram[9 * p] += 1.;
+          gram[9 * p + 8] += 1.;
+        }
     for (unsigned int p = 0; p < n_parts; ++p)
       {
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(

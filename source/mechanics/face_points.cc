@@ -48,7 +48,7 @@ namespace geocone
           ends[0] + rule.point(q)[0] * (ends[1] - ends[0]);
         point.position = mesh.mapping().transform_unit_to_real_cell(cell, unit);
         point.normal   = normal;
-        point.weight   = rule.weight(q) * length;
+        point.weight   = rule.weight(q) * length * mesh.measure(point.position);
         point.values.resize(nodes.size());
         space.evaluate(cell, unit, point.values.data(), nullptr);
         for (const types::global_dof_index node : nodes)

@@ -32,6 +32,13 @@ namespace geocone
         runs.push_back({p, p + 1, points.material[p]});
       else
         ++runs.back().end;
+    if (materials.are_spatial())
+      stress_zz.resize(points.n_points());
+    if (is_axisymmetric())
+      {
+        strain_zz.resize(points.n_points());
+        tangent_zz.resize(points.n_points());
+      }
   }
 
   void
@@ -47,13 +54,22 @@ namespace geocone
   InternalForces::strains_of_cell(const unsigned int   c,
                                   const double        *cell_v,
                                   const double         factor,
-                                  std::vector<Mandel> &result) const
+                                  std::vector<Mandel> &result,
+                                  std::vector<double> &result_zz) const
   {
     const unsigned int begin = points.first_point[c],
                        end   = points.first_point[c + 1];
     for (unsigned int p = begin; p < end; ++p)
       result[p] =
         factor * kernels::strain<n>(&points.gradients[2 * n * p], cell_v);
+    if (is_axisymmetric())
+      for (unsigned int p = begin; p < end; ++p)
+        {
+          double rate = 0.;
+          for (int i = 0; i < n; ++i)
+            rate += points.hoop[n * p + i] * cell_v[2 * i];
+          result_zz[p] = factor * rate;
+        }
     if (points.mean_gradients.empty())
       return;
     const Mandel mean =
@@ -92,6 +108,50 @@ namespace geocone
                  cell_f);
   }
 
+  template <int n>
+  void
+  InternalForces::add_hoop_force(const unsigned int p,
+                                 const double       weighted_stress,
+                                 double            *cell_f) const
+  {
+    for (int i = 0; i < n; ++i)
+      cell_f[2 * i] += points.hoop[n * p + i] * weighted_stress;
+  }
+
+  template <int n>
+  void
+  InternalForces::add_hoop_stiffness(const unsigned int p,
+                                     const double       blend,
+                                     double            *K) const
+  {
+    constexpr int     m       = 2 * n;
+    const double      factor  = h * points.weight[p];
+    OutOfPlaneTangent C       = tangent_zz[p];
+    const Elasticity &elastic = materials[points.material[p]].elasticity();
+    C.by_zz *= 1. - blend;
+    C.of_zz *= 1. - blend;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        C.by_zz[d] += blend * elastic.lambda;
+        C.of_zz[d] += blend * elastic.lambda;
+      }
+    C.zz = (1. - blend) * C.zz + blend * (elastic.lambda + elastic.two_G);
+    // Forces B' by_zz along the columns of the hoop strain, and alike for its rows.
+    double column[m] = {}, row[m] = {};
+    add_force<n>(&points.gradients[m * p], C.by_zz, column);
+    add_force<n>(&points.gradients[m * p], C.of_zz, row);
+    const double *const H = &points.hoop[n * p];
+    for (int i = 0; i < m; ++i)
+      for (int j = 0; j < n; ++j)
+        {
+          K[m * i + 2 * j] += factor * column[i] * H[j];
+          K[m * 2 * j + i] += factor * H[j] * row[i];
+        }
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        K[m * 2 * i + 2 * j] += factor * C.zz * H[i] * H[j];
+  }
+
   void
   InternalForces::update_materials(const bool with_tangent) const
   {
@@ -103,6 +163,10 @@ namespace geocone
         response.mode   = ArrayView<Mode>(&mode[run.begin], n);
         if (with_tangent)
           response.tangent = ArrayView<MandelMatrix>(&tangent[run.begin], n);
+        if (!stress_zz.empty())
+          response.stress_zz = &stress_zz[run.begin];
+        if (!tangent_zz.empty())
+          response.tangent_zz = &tangent_zz[run.begin];
         materials[run.material].update(increment_of(run), response);
       }
   }
@@ -117,6 +181,8 @@ namespace geocone
     increment.history_n = points.history_of(run.begin);
     increment.n_history = points.n_history;
     increment.step      = step_law();
+    if (!strain_zz.empty())
+      increment.strain_zz = &strain_zz[run.begin];
     return increment;
   }
 
@@ -153,7 +219,7 @@ namespace geocone
           double cell_v[2 * n];
           gather<n>(v.begin(), &points.nodes[c * n], cell_v);
           turned.velocities_to_xy(c, cell_v);
-          strains_of_cell<n>(c, cell_v, h, strain);
+          strains_of_cell<n>(c, cell_v, h, strain, strain_zz);
         }
     });
 
@@ -180,6 +246,11 @@ namespace geocone
               return points.weight[p] * stress[p];
             },
             cell_f);
+          if (is_axisymmetric())
+            for (unsigned int p = points.first_point[c];
+                 p < points.first_point[c + 1];
+                 ++p)
+              add_hoop_force<n>(p, points.weight[p] * stress_zz[p], cell_f);
           turned.forces_to_dofs(c, cell_f);
           scatter_add<n>(cell_f, &points.nodes[c * n], part.begin());
         }
@@ -233,6 +304,10 @@ namespace geocone
                   g[1] = turn->n_x * gy - turn->n_y * gx;
                 }
               const unsigned int dof = dim * points.nodes[c * n + i];
+              if (is_axisymmetric())
+                part.local_element(dof) +=
+                  factor * points.hoop[n * p + i] *
+                  (direct * points.hoop[n * p + i] + 2. * e.lambda * g[0]);
               part.local_element(dof) +=
                 factor * (direct * g[0] * g[0] + shear * g[1] * g[1]);
               part.local_element(dof + 1) +=
@@ -314,6 +389,9 @@ namespace geocone
             stiffness<n, true>(g, C.data(), n_q, scratch.data(), K);
           else
             stiffness<n, false>(g, C.data(), n_q, scratch.data(), K);
+          if (is_axisymmetric())
+            for (unsigned int q = 0; q < n_q; ++q)
+              add_hoop_stiffness<n>(first + q, blend, K);
           turned.matrix_to_dofs(c, 2 * n, one_triangle, K);
           pattern.add_cell<n>(c, K, matrix);
         }
@@ -327,6 +405,7 @@ namespace geocone
     Vector part;
     part.reinit(dst);
     std::vector<Mandel> rate(points.n_points());
+    std::vector<double> rate_zz(strain_zz.size());
     with_n_nodes(points.n_nodes, [&](const auto n_constant) {
       constexpr int n = n_constant;
       for (unsigned int c = 0; c < points.n_cells(); ++c)
@@ -334,13 +413,25 @@ namespace geocone
           double cell_v[2 * n], cell_f[2 * n] = {};
           gather<n>(dv.begin(), &points.nodes[c * n], cell_v);
           turned.velocities_to_xy(c, cell_v);
-          strains_of_cell<n>(c, cell_v, h, rate);
+          strains_of_cell<n>(c, cell_v, h, rate, rate_zz);
           add_forces_of_cell<n>(
             c,
             [&](const unsigned int p) -> Mandel {
-              return points.weight[p] * (tangent[p] * rate[p]);
+              Mandel change = tangent[p] * rate[p];
+              if (is_axisymmetric())
+                change += rate_zz[p] * tangent_zz[p].by_zz;
+              return points.weight[p] * change;
             },
             cell_f);
+          if (is_axisymmetric())
+            for (unsigned int p = points.first_point[c];
+                 p < points.first_point[c + 1];
+                 ++p)
+              add_hoop_force<n>(p,
+                                points.weight[p] *
+                                  (tangent_zz[p].of_zz.dot(rate[p]) +
+                                   tangent_zz[p].zz * rate_zz[p]),
+                                cell_f);
           turned.forces_to_dofs(c, cell_f);
           scatter_add<n>(cell_f, &points.nodes[c * n], part.begin());
         }
@@ -355,6 +446,7 @@ namespace geocone
       void(const unsigned int, const unsigned int, const Mandel &)> &f) const
   {
     std::vector<Mandel> column(points.n_points());
+    std::vector<double> column_zz(strain_zz.size());
     with_n_nodes(points.n_nodes, [&](const auto n_constant) {
       constexpr int n = n_constant;
       for (unsigned int c = 0; c < points.n_cells(); ++c)
@@ -363,7 +455,7 @@ namespace geocone
             double cell_v[2 * n] = {};
             cell_v[j]            = 1.;
             turned.velocities_to_xy(c, cell_v);
-            strains_of_cell<n>(c, cell_v, 1., column);
+            strains_of_cell<n>(c, cell_v, 1., column, column_zz);
             for (unsigned int p = points.first_point[c];
                  p < points.first_point[c + 1];
                  ++p)
@@ -372,12 +464,32 @@ namespace geocone
     });
   }
 
-  Mandel
+  SpatialMandel
   InternalForces::plastic_strain_increment(const unsigned int p) const
   {
     if (mode[p] == Mode::elastic)
-      return Mandel::Zero();
-    return strain[p] - materials[points.material[p]].elasticity().strain(
-                         Mandel(stress[p] - points.stress[p]));
+      return SpatialMandel::Zero();
+    const Material &law = materials[points.material[p]];
+    return law.plastic_strain(strain[p],
+                              is_axisymmetric() ? strain_zz[p] : 0.,
+                              stress[p] - points.stress[p],
+                              law.is_spatial() ? stress_zz[p] - stress_zz_n(p)
+                                               : 0.);
+  }
+
+  InternalForces::Work
+  InternalForces::work(const unsigned int p) const
+  {
+    const Material     &law     = materials[points.material[p]];
+    const Mandel       &s       = stress[p];
+    const Mandel        change  = s - points.stress[p];
+    const SpatialMandel plastic = plastic_strain_increment(p);
+    if (!law.is_spatial())
+      return {s.dot(law.elasticity().strain(change)), s.dot(plastic.head<3>())};
+    SpatialMandel whole, whole_change;
+    whole << s, stress_zz[p];
+    whole_change << change, stress_zz[p] - stress_zz_n(p);
+    return {whole.dot(law.elasticity().strain(whole_change)),
+            whole.dot(plastic)};
   }
 } // namespace geocone

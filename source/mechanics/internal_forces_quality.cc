@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace geocone
 {
@@ -19,7 +20,8 @@ namespace geocone
   {
     std::string where;
     for (unsigned int p = 0; p < points.n_points() && where.empty(); ++p)
-      if (!strain[p].allFinite() || !stress[p].allFinite())
+      if (!strain[p].allFinite() || !stress[p].allFinite() ||
+          (!stress_zz.empty() && !std::isfinite(stress_zz[p])))
         where = format(" at the point %u (%g, %g)",
                        points.id.empty() ? p : points.id[p],
                        points.position[p][0],
@@ -37,7 +39,8 @@ namespace geocone
         for (unsigned int p = run.begin; p < run.end; ++p)
           if (mode[p] != Mode::elastic)
             {
-              const Mandel z    = to_cone_axes(plastic_strain_increment(p));
+              const Mandel z =
+                to_cone_axes(Mandel(plastic_strain_increment(p).head<3>()));
               const Mandel s    = to_cone_axes(stress[p]);
               const double slip = FlowCone::tangential_norm(z);
               const auto   exact =
@@ -51,76 +54,96 @@ namespace geocone
   Quality
   InternalForces::quality() const
   {
-    // Two passes: the scales of all ranks first.
-    double     stress_scale = 0., k_scale = 0., y_scale = 0., compliance = 0.;
-    const auto z_at = [&](const unsigned int p) {
-      const Elasticity &elasticity = materials[points.material[p]].elasticity();
-      return to_cone_axes(Mandel(
-        elasticity.strain(Mandel(stress[p] - points.stress[p])) - strain[p]));
-    };
-    // Of the end of the step.
-    const auto exact_cone = [&](const unsigned int p, const Mandel &z) {
-      return *materials[points.material[p]].exact_end_cone(
-        points.history_of(p), FlowCone::tangential_norm(z));
-    };
-    const auto solved_cone = [&](const unsigned int p, const Mandel &z) {
-      return *materials[points.material[p]].end_cone(
-        points.stress[p],
-        points.history_of(p),
-        step_law(),
-        FlowCone::tangential_norm(z));
-    };
-    const auto has_cone = [&](const Run &run) {
-      return materials[run.material]
-        .flow_cone(points.history_of(run.begin))
-        .has_value();
-    };
-    for (const Run &run : runs)
-      if (has_cone(run))
+    // Calls f(z, s, the cone that was solved for, the exact one, 2G) for each point of
+    // a law with a cone, in its axes; both cones at the end of the step.
+    const auto for_each_cone = [&](const auto &f) {
+      for (const Run &run : runs)
         {
-          compliance = std::max(
-            compliance, 1. / materials[run.material].elasticity().two_G);
+          const Material   &law     = materials[run.material];
+          const Elasticity &elastic = law.elasticity();
           for (unsigned int p = run.begin; p < run.end; ++p)
-            {
-              const Mandel z = z_at(p);
-              k_scale        = std::max(k_scale, exact_cone(p, z).k);
-              stress_scale   = std::max(stress_scale, stress[p].norm());
-              y_scale = std::max(y_scale, solved_cone(p, z).psi(z).norm());
-            }
+            if (law.is_spatial())
+              {
+                SpatialMandel s, s_n, e;
+                s << stress[p], stress_zz[p];
+                s_n << points.stress[p], stress_zz_n(p);
+                e << strain[p], is_axisymmetric() ? strain_zz[p] : 0.;
+                if (const auto solved = law.spatial_cone(s_n, step_law()))
+                  f(SpatialMandel(spatial_axes() *
+                                  (elastic.strain(SpatialMandel(s - s_n)) - e)),
+                    SpatialMandel(spatial_axes() * s),
+                    *solved,
+                    *law.spatial_cone(s_n, {}),
+                    elastic.two_G);
+              }
+            else if (law.flow_cone(points.history_of(p)))
+              {
+                const Mandel z = to_cone_axes(
+                  Mandel(elastic.strain(Mandel(stress[p] - points.stress[p])) -
+                         strain[p]));
+                const double slip = FlowCone::tangential_norm(z);
+                f(z,
+                  to_cone_axes(stress[p]),
+                  *law.end_cone(
+                    points.stress[p], points.history_of(p), step_law(), slip),
+                  *law.exact_end_cone(points.history_of(p), slip),
+                  elastic.two_G);
+              }
         }
+    };
+    // Two passes: the scales of all ranks first.
+    double stress_scale = 0., k_scale = 0., y_scale = 0., compliance = 0.;
+    for_each_cone([&](const auto     &z,
+                      const auto     &s,
+                      const FlowCone &solved,
+                      const FlowCone &exact,
+                      const double    two_G) {
+      compliance   = std::max(compliance, 1. / two_G);
+      k_scale      = std::max(k_scale, exact.k);
+      stress_scale = std::max(stress_scale, s.norm());
+      y_scale      = std::max(y_scale, solved.psi(z).norm());
+    });
     stress_scale = Utilities::MPI::max(stress_scale, comm) +
                    Utilities::MPI::max(k_scale, comm);
     y_scale = std::max(Utilities::MPI::max(y_scale, comm),
                        stress_scale * Utilities::MPI::max(compliance, comm));
 
     Quality worst;
+    for_each_cone([&](const auto     &z,
+                      const auto     &s,
+                      const FlowCone &cone,
+                      const FlowCone &exact,
+                      const double    two_G) {
+      Quality here;
+      here.cone_violation = cone.yield_function(s) / stress_scale;
+      here.cone_excess    = exact.yield_function(s);
+      // The complementarity law is that of a cone without a cut-off.
+      if (s[0] > -cone.tension + 1e-12 * stress_scale)
+        {
+          const auto y = cone.psi(z);
+          here.natural_map =
+            natural_map(cone, s, y, two_G).norm() / stress_scale;
+          if (y_scale > 0.)
+            {
+              here.dual_violation = cone.dual_violation(y) / y_scale;
+              here.complementarity =
+                std::abs(cone.complementarity_product(y, s)) /
+                (y_scale * stress_scale);
+            }
+        }
+      worst.take_worse(here);
+    });
+    // Of laws with another surface, its excess alone.
     for (const Run &run : runs)
-      if (has_cone(run))
-        for (unsigned int p = run.begin; p < run.end; ++p)
-          {
-            const double   two_G = materials[run.material].elasticity().two_G;
-            const Mandel   z     = z_at(p);
-            const FlowCone cone  = solved_cone(p, z);
-            const Mandel   s     = to_cone_axes(stress[p]);
-            Quality        here;
-            here.cone_violation = cone.yield_function(s) / stress_scale;
-            here.cone_excess    = exact_cone(p, z).yield_function(s);
-            // The complementarity law is that of a cone without a cut-off.
-            if (s[0] > -cone.tension + 1e-12 * stress_scale)
-              {
-                const Mandel y = cone.psi(z);
-                here.natural_map =
-                  natural_map(cone, s, y, two_G).norm() / stress_scale;
-                if (y_scale > 0.)
-                  {
-                    here.dual_violation = cone.dual_violation(y) / y_scale;
-                    here.complementarity =
-                      std::abs(cone.complementarity_product(y, s)) /
-                      (y_scale * stress_scale);
-                  }
-              }
-            worst.take_worse(here);
-          }
+      for (unsigned int p = run.begin;
+           p < run.end && materials[run.material].is_spatial();
+           ++p)
+        {
+          SpatialMandel s;
+          s << stress[p], stress_zz[p];
+          if (const auto f = materials[run.material].yield_function(s))
+            worst.cone_excess = std::max(worst.cone_excess, *f);
+        }
     std::array<double, 5> values = {{worst.natural_map,
                                      worst.cone_violation,
                                      worst.dual_violation,

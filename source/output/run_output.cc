@@ -29,24 +29,25 @@ namespace geocone
 
     using Record = StepRecord;
     // Counts are numbers of the table, too.
-    const auto add = [&](const char *name, const auto &value) {
+    const auto add = [&](const std::string &name, const auto &value) {
       table.add(name, [value](const Record &r) { return double(value(r)); });
     };
     const auto add_quality = [&](const char *name, double Quality::*member) {
       add(name, [member](const Record &r) { return r.last.quality.*member; });
     };
-    const auto add_energy = [&](const char *name, double Energies::*member) {
+    const auto add_energy = [&](const std::string &name,
+                                double Energies::*member) {
       add(name, [member](const Record &r) { return r.last.energies.*member; });
     };
     add("step", [](const Record &r) { return r.step; });
     add("time (s)", [](const Record &r) { return r.time; });
     add("displacement (m)", [](const Record &r) { return r.displacement; });
-    add("load (N/m)", [](const Record &r) { return r.load; });
+    add(unit("load (N/m)"), [](const Record &r) { return r.load; });
     const Observation &observation = scene->observation;
     const auto         supports    = scene->supports();
     for (unsigned int i = 0; i < dim * observation.conditions.size(); ++i)
       table.add("reaction " + supports[observation.conditions[i / dim]] +
-                  (i % dim == 0 ? " x" : " y") + " (N/m)",
+                  (i % dim == 0 ? " x" : " y") + unit(" (N/m)"),
                 [i](const Record &r) { return r.reactions[i]; });
     if (scene->loading.reduces_strength())
       add("strength factor (-)", [this](const Record &r) {
@@ -75,25 +76,25 @@ namespace geocone
     add("multipliers (-)", [](const Record &r) { return r.last.multipliers; });
     add("multiplier rows given (-)",
         [](const Record &r) { return r.last.rows; });
-    add_energy("kinetic energy (J/m)", &Energies::kinetic);
-    add_energy("elastic energy (J/m)", &Energies::elastic);
-    add_energy("potential energy (J/m)", &Energies::potential);
+    add_energy(unit("kinetic energy (J/m)"), &Energies::kinetic);
+    add_energy(unit("elastic energy (J/m)"), &Energies::elastic);
+    add_energy(unit("potential energy (J/m)"), &Energies::potential);
     // Sums over the run, of which a record has the step's part only.
-    add("plastic dissipation (J/m)",
+    add(unit("plastic dissipation (J/m)"),
         [this](const Record &) { return dissipation; });
-    add("external work (J/m)", [this](const Record &) { return work; });
+    add(unit("external work (J/m)"), [this](const Record &) { return work; });
     if (touches())
-      add("contact dissipation (J/m)",
+      add(unit("contact dissipation (J/m)"),
           [this](const Record &) { return contact_dissipation; });
-    add("total energy (J/m)", [this](const Record &r) {
+    add(unit("total energy (J/m)"), [this](const Record &r) {
       return r.last.energies.state() + dissipation + contact_dissipation - work;
     });
-    add("numerical loss (J/m)", [this](const Record &) { return loss; });
+    add(unit("numerical loss (J/m)"), [this](const Record &) { return loss; });
     if (remembers())
-      add("work of friction memory (J/m)",
+      add(unit("work of friction memory (J/m)"),
           [this](const Record &) { return memory_work; });
     if (points_move)
-      add("work of ghost stiffness (J/m)",
+      add(unit("work of ghost stiffness (J/m)"),
           [this](const Record &) { return ghost_work; });
     if (touches())
       {
@@ -251,16 +252,17 @@ namespace geocone
       return;
     ++n_load_jumps;
     if (n_load_jumps == 1)
-      log.warn(
-        format("the load jumps from %.4g to %.4g N/m and back to %.4g "
-               "N/m around t = %.4g s (step %u), where its support moves "
-               "on: what it rests on may not be sound there; smaller "
-               "cells, more points or smaller steps tell",
-               a.load,
-               b.load,
-               c.load,
-               b.time,
-               b.step));
+      log.warn(format("the load jumps from %.4g to %.4g %s and back to %.4g "
+                      "%s around t = %.4g s (step %u), where its support moves "
+                      "on: what it rests on may not be sound there; smaller "
+                      "cells, more points or smaller steps tell",
+                      a.load,
+                      b.load,
+                      unit("N/m").c_str(),
+                      c.load,
+                      unit("N/m").c_str(),
+                      b.time,
+                      b.step));
   }
 
   void
@@ -273,10 +275,11 @@ namespace geocone
       return;
     warned_of_energy = true;
     log.warn(
-      format("the numerical method has created %.3g J/m, %.2g %% of the "
+      format("the numerical method has created %.3g %s, %.2g %% of the "
              "energy that was turned over until t = %.4g s: take smaller "
              "steps",
              -loss,
+             unit("J/m").c_str(),
              -100. * loss / scale,
              time));
   }
@@ -334,7 +337,7 @@ namespace geocone
             {"slip", last.slip},
             {"width_m", points_move ? Json() : Json(last.width)},
             {"pressure_max_Pa", points_move ? Json() : Json(last.pressure)},
-            {"dissipation_J_per_m", contact_dissipation}};
+            {unit("dissipation_J_per_m"), contact_dissipation}};
   }
 
   bool
@@ -357,7 +360,7 @@ namespace geocone
           delay = tau * (b.load - a.load) / (b.time - a.time) / b.load;
       }
     return {{"tau_s", tau},
-            {"work_J_per_m", memory_work},
+            {unit("work_J_per_m"), memory_work},
             {"work_relative",
              dissipation > 0. ? Json(memory_work / dissipation) : Json()},
             {"load_delay_relative", delay}};
@@ -385,7 +388,9 @@ namespace geocone
       {"points_behind", worst.points_behind},
       {"empty_functions", worst.light_functions},
       {"light_share_max", worst.light_share},
-      {"ghost_work_J_per_m", ghost_work},
+      {"front_x_m", worst.front[0]},
+      {"front_y_m", worst.front[1]},
+      {unit("ghost_work_J_per_m"), ghost_work},
       {"ghost_work_relative", work > 0. ? Json(ghost_work / work) : Json()}};
   }
 
@@ -453,6 +458,7 @@ namespace geocone
         Json       &topic     = json["limit_load"];
         const Json  nothing;
         topic["value"]     = limit.found ? Json(limit.value) : nothing;
+        topic["unit"]      = unit("N/m");
         topic["reference"] = reference ? Json(*reference) : nothing;
         topic["reference_name"] =
           reference ? Json(scene->observation.reference_name) : nothing;
@@ -514,17 +520,17 @@ namespace geocone
                                        std::numeric_limits<double>::min()});
         const Json   nothing;
         json["energy"] = {
-          {"external_work_J_per_m", work},
-          {"elastic_J_per_m", e.elastic},
-          {"kinetic_J_per_m", e.kinetic},
-          {"potential_J_per_m", e.potential},
+          {unit("external_work_J_per_m"), work},
+          {unit("elastic_J_per_m"), e.elastic},
+          {unit("kinetic_J_per_m"), e.kinetic},
+          {unit("potential_J_per_m"), e.potential},
           {"potential_datum", "lower left corner of the mesh"},
-          {"initial_J_per_m", begin},
+          {unit("initial_J_per_m"), begin},
           // Weight that grows has a potential energy that does, too.
-          {"released_potential_J_per_m",
+          {unit("released_potential_J_per_m"),
            scene->gravity.is_ramped() ? nothing : Json(released)},
-          {"dissipation_J_per_m", dissipation},
-          {"numerical_loss_J_per_m", loss},
+          {unit("dissipation_J_per_m"), dissipation},
+          {unit("numerical_loss_J_per_m"), loss},
           {"loss_to_released",
            released > 0. && !scene->gravity.is_ramped() ? Json(loss / released)
                                                         : nothing},
@@ -618,21 +624,24 @@ namespace geocone
                summary["safety"]["upper"].get<double>()));
     if (summary.contains("limit_load"))
       {
-        const Json &limit = summary["limit_load"];
+        const Json       &limit   = summary["limit_load"];
+        const std::string of_load = unit("N/m");
         if (limit["value"].is_null())
           log.print("limit load: none, " + limit["reason"].get<std::string>());
         else
           {
             std::string line =
-              format("limit load %.2f N/m", limit["value"].get<double>());
+              format("limit load %.2f ", limit["value"].get<double>()) +
+              of_load;
             if (limit["band_high"] != limit["band_low"])
               line += format(" (band %.2f to %.2f)",
                              limit["band_low"].get<double>(),
                              limit["band_high"].get<double>());
             if (!limit["reference"].is_null())
-              line += format(", %s %.2f N/m, error %+.3f %%",
+              line += format(", %s %.2f %s, error %+.3f %%",
                              limit["reference_name"].get<std::string>().c_str(),
                              limit["reference"].get<double>(),
+                             of_load.c_str(),
                              100. * limit["relative_error"].get<double>());
             log.print(line);
           }
@@ -645,7 +654,7 @@ namespace geocone
       write_file("output", [](std::ostream &) {});
     else if (report_for_tests != Report::none)
       write_file("output", [&](std::ostream &out) {
-        out << "time [s]  displacement [mm]  load [N/m]\n";
+        out << "time [s]  displacement [mm]  load [" << unit("N/m") << "]\n";
         for (const StepRecord &record : records)
           out << format("%.6g %.6g %.8g\n",
                         record.time,

@@ -28,14 +28,13 @@ namespace geocone
     {
       unsigned int n = 0, first = materials.size();
       for (unsigned int p = 0; p < points.n_points(); ++p)
-        if (const auto cone =
-              materials[points.material[p]].flow_cone(points.history_of(p)))
-          if (cone->yield_function(to_cone_axes(points.stress[p])) >
-              1e-6 * points.stress[p].norm())
-            {
-              ++n;
-              first = std::min(first, points.material[p]);
-            }
+        if (const auto overstress = materials[points.material[p]].overstress(
+              points.stress[p], points.history_of(p));
+            overstress && *overstress > 1e-6 * points.stress[p].norm())
+          {
+            ++n;
+            first = std::min(first, points.material[p]);
+          }
       n     = Utilities::MPI::sum(n, comm);
       first = Utilities::MPI::min(first, comm);
       if (n == 0)
@@ -180,6 +179,12 @@ namespace geocone
                                    "give Velocity x and y, or " + remedy);
         scene.obstacles.refuse("frozen problems", remedy);
         scene.absorbing.refuse("frozen problems", remedy);
+        scene.geometry.refuse_axis("frozen problems", remedy);
+        if (scene.materials.are_spatial())
+          throw InputError("Output/Freeze steps",
+                           "not empty",
+                           "nothing with laws that are spatial",
+                           remedy);
       }
     freezer.check(scene.loading);
     return warnings;
@@ -416,12 +421,14 @@ namespace geocone
   {
     const std::string result =
       scene.observation.conditions.empty()
-        ? format("kinetic energy = %.3g J/m  plastic strain <= %.3g",
+        ? format("kinetic energy = %.3g %s  plastic strain <= %.3g",
                  present.last.energies.kinetic,
+                 scene.geometry.unit("J/m").c_str(),
                  present.last.largest_plastic_strain)
-        : format("u = %.4g mm  load = %.1f N/m",
+        : format("u = %.4g mm  load = %.1f %s",
                  1e3 * present.displacement,
-                 present.load);
+                 present.load,
+                 scene.geometry.unit("N/m").c_str());
     return result + format("  %u iterations%s",
                            present.iterations,
                            present.last.newton.friction_lag > 0.

@@ -191,6 +191,12 @@ namespace geocone
     , folder_of_parameters(parameter_file.folder())
   {
     shape.declare(*this, "Shape", ". Discs are for MPM only.");
+    symmetry.declare(*this,
+                     "Symmetry",
+                     ": what the scene is a section of. Axisymmetric: a round "
+                     "body, x >= 0 the radius and y its axis; forces are those "
+                     "of the whole body (N). FEM and MPM, with laws that are "
+                     "spatial.");
     add_parameter("Box",
                   box,
                   "Lower left and upper right corner x, y; x, y (m). Its sides "
@@ -253,6 +259,28 @@ namespace geocone
                            folder_of_parameters,
                            "Geometry/File",
                            "an existing gmsh .msh file");
+  }
+
+  std::string
+  Geometry::unit(const std::string &in_plane_strain) const
+  {
+    std::string text = in_plane_strain;
+    if (is_axisymmetric())
+      for (const std::string per : {"_per_m", "/m"})
+        if (const std::size_t place = text.rfind(per);
+            place != std::string::npos)
+          return text.erase(place, per.size());
+    return text;
+  }
+
+  void
+  Geometry::refuse_axis(const std::string &who, const std::string &remedy) const
+  {
+    if (is_axisymmetric())
+      throw InputError("Geometry/Symmetry",
+                       symmetry.word(),
+                       "plane strain with " + who,
+                       remedy);
   }
 
   void

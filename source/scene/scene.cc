@@ -53,6 +53,8 @@ namespace geocone
   {
     geometry.prepare();
     materials.prepare();
+    if (geometry.is_axisymmetric())
+      materials.set_axisymmetric();
     regions.prepare(geometry);
     gravity.prepare();
     water.prepare(gravity);

@@ -150,6 +150,11 @@ namespace geocone
   void
   NonsmoothNewton::check(const IncrementalProblem &problem) const
   {
+    if (problem.is_spatial() && formulation == Formulation::natural_map)
+      throw InputError("Newton/Formulation",
+                       formulation.word(),
+                       "automatic | return map with laws that are spatial",
+                       "set it to automatic");
     if (is_reduced())
       Reduction::check(problem, "Newton/Formulation", formulation.word());
     else if (first_iterate == FirstIterate::gauss_seidel)
@@ -242,9 +247,13 @@ namespace geocone
         return report;
       }
 
-    const bool associated = problem.non_associativity() == 0.;
-    const bool hard       = problem.non_associativity() > Material::hard_flow;
-    bool       elastic_first = hints.elastic_first;
+    // Laws that are spatial have a return map only.
+    const Formulation formulation = problem.is_spatial()
+                                      ? Formulation::return_map
+                                      : Formulation(this->formulation);
+    const bool        associated  = problem.non_associativity() == 0.;
+    const bool        hard = problem.non_associativity() > Material::hard_flow;
+    bool              elastic_first = hints.elastic_first;
     std::vector<Mandel>        first_stress; // of the first iterate
     const std::vector<Mandel> *start_of_s = &problem.stress_at_start();
     if (first_iterate != FirstIterate::none)
@@ -301,9 +310,9 @@ namespace geocone
         if (formulation == Formulation::return_map || (both && !hard))
           try_with(hard ? Method::elastic_blend : Method::line_search,
                    nullptr,
-                   hard || natural_first ? 30
-                   : associated          ? 150
-                                         : 60);
+                   hard || natural_first                 ? 30
+                   : associated && !problem.is_spatial() ? 150
+                                                         : 60);
         if (!report.converged && !natural_first &&
             formulation != Formulation::return_map)
           try_with(Method::elastic_blend, start_of_s, both ? 40 : 100);

@@ -122,6 +122,8 @@ namespace geocone
       "give a layer of soil instead of a surcharge, or set "
       "Discretisation/Method = MPM");
     scene->absorbing.refuse("explicit MPM", "set Discretisation/Method = FEM");
+    scene->geometry.refuse_axis("explicit MPM",
+                                "set Discretisation/Method = FEM");
   }
 
   std::vector<std::string>

@@ -69,9 +69,12 @@ namespace geocone
                        "a formula",
                        "0 without inertia",
                        "set Time stepping/Inertia = true");
+    check_round_body(*scene, space_);
+    check_midpoint(integration, scene->materials, "Time stepping/Integration");
     points      = make_quadrature_points(*scene, mesh_, space_);
     constraints = std::make_unique<Constraints>(*scene, mesh_, space_);
     constraints->number_unknowns(nullptr);
+    constraints->check_axis(mesh_, space_);
     obstacles = std::make_unique<ObstacleContact>(*scene, mesh_, space_, true);
     kinematics.velocity.reinit(space_.partitioner());
     kinematics.displacement.reinit(space_.partitioner());
@@ -244,8 +247,8 @@ namespace geocone
         const Mandel &plastic = ends[p].plastic;
         points.stress[p]      = ends[p].stress;
         points.plastic_strain[p] += plastic;
-        points.cumulative_plastic_strain[p] += plastic.norm();
-        points.plastic_strain_rate[p] = plastic.norm() / h;
+        points.cumulative_plastic_strain[p] += ends[p].slip;
+        points.plastic_strain_rate[p] = ends[p].slip / h;
       }
     points.history = std::move(history);
     constraints->turn_back(v);

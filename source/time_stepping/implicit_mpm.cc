@@ -135,6 +135,12 @@ namespace geocone
     mesh  = &mesh_;
     space = &space_;
     check_parameters();
+    if (!scene->tractions.list.empty())
+      scene->geometry.refuse_axis("tractions on particles",
+                                  "set Discretisation/Method = FEM");
+    check_round_body(*scene, *space);
+    check_midpoint(
+      integration, scene->materials, "Material point method/Integration");
 
     for (const auto &condition : scene->dirichlet.list)
       condition->refuse_normal("free with MPM",
@@ -168,6 +174,7 @@ namespace geocone
         points.affine[p] = scene->initial_velocity.gradient(
           points.position[p], std::sqrt(points.weight[p]));
     begin(points, timer);
+    constraints->check_axis(*mesh, *space);
     newton.check(*problem);
     moving->check_held_particles(points);
     Vector v = problem->make_vector();
@@ -507,7 +514,8 @@ namespace geocone
     report.energies.memory_work         = memory_work;
     report.energies.contact_dissipation = report.contact.dissipation;
     report.energies.ghost_work          = (step.h / step.solved_h) * ghost_work;
-    report.motion = {n_light, moving->n_behind(points), share.largest};
+    report.motion                       = {
+                            n_light, moving->n_behind(points), share.largest, front_of(points)};
     return report;
   }
 

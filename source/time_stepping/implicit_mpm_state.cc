@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace geocone
 {
@@ -119,9 +120,12 @@ namespace geocone
         Tensor<2, dim> stretch = h * gradient;
         for (unsigned int d = 0; d < dim; ++d)
           stretch[d][d] += 1.;
-        const double ratio = determinant(stretch);
-        next.volume        = ratio * points.weight[p];
-        next.spin          = h * (gradient[1][0] - gradient[0][1]) / 2.;
+        const double ratio =
+          determinant(stretch) * (mesh->is_axisymmetric()
+                                    ? next.position[0] / points.position[p][0]
+                                    : 1.);
+        next.volume = ratio * points.weight[p];
+        next.spin   = h * (gradient[1][0] - gradient[0][1]) / 2.;
 
         if (!std::isfinite(next.position.square()) ||
             !std::isfinite(next.velocity.norm_square()))
@@ -228,6 +232,20 @@ namespace geocone
     return Utilities::MPI::sum(work, force.get_mpi_communicator());
   }
 
+  Point<dim>
+  ImplicitMPM::front_of(const MaterialPoints &points) const
+  {
+    Point<dim> front;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        double largest = std::numeric_limits<double>::lowest();
+        for (const Point<dim> &x : points.position)
+          largest = std::max(largest, x[d]);
+        front[d] = Utilities::MPI::max(largest, force.get_mpi_communicator());
+      }
+    return front;
+  }
+
   double
   ImplicitMPM::update_points(const TimeStep           &step,
                              const std::vector<Moved> &moved,
@@ -240,7 +258,7 @@ namespace geocone
     points.history = std::move(history);
     for (unsigned int p = 0; p < points.n_points(); ++p)
       {
-        const auto [stress, plastic, dissipated] =
+        const auto [stress, plastic, slip, dissipated] =
           end_of_step(integration,
                       internal,
                       p,
@@ -251,8 +269,8 @@ namespace geocone
         points.stress[p] = turn(stress, moved[p].spin);
         points.plastic_strain[p] =
           turn(points.plastic_strain[p] + plastic, moved[p].spin);
-        points.cumulative_plastic_strain[p] += plastic.norm();
-        points.plastic_strain_rate[p] = plastic.norm() / step.h;
+        points.cumulative_plastic_strain[p] += slip;
+        points.plastic_strain_rate[p] = slip / step.h;
         points.weight[p]              = moved[p].volume;
         points.displacement[p] += moved[p].displacement;
         points.position[p] = moved[p].position;

@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/exceptions.h>
 #include <geocone/time_stepping/midpoint_rule.h>
 
 namespace geocone
@@ -13,16 +14,29 @@ namespace geocone
               const Mandel         &stress_n,
               const double         *history)
   {
-    const Mandel stress  = solved.trial_stress()[point];
-    const Mandel plastic = solved.plastic_strain_increment(point);
+    const Mandel        stress  = solved.trial_stress()[point];
+    const SpatialMandel whole   = solved.plastic_strain_increment(point);
+    const Mandel        plastic = whole.head<3>();
     if (integration == Integration::backward_euler)
-      return {stress, plastic, stress.dot(plastic)};
+      return {stress, plastic, whole.norm(), solved.work(point).plastic};
     const Mandel beyond = 2. * stress - stress_n;
     const Mandel end    = material.nearest_admissible(beyond, history);
     const Mandel back   = material.elasticity().strain(Mandel(beyond - end));
-    return {end,
-            Mandel(2. * plastic + back),
-            2. * stress.dot(plastic) + stress.dot(back)};
+    const Mandel all    = 2. * plastic + back;
+    return {end, all, all.norm(), 2. * stress.dot(plastic) + stress.dot(back)};
+  }
+
+  void
+  check_midpoint(const Choice<Integration> &integration,
+                 const Materials           &materials,
+                 const std::string         &name)
+  {
+    if (integration == Integration::midpoint && materials.are_spatial())
+      throw InputError(name,
+                       integration.word(),
+                       "backward Euler with laws that are spatial",
+                       "they do not say which stress their strength allows is "
+                       "nearest to another");
   }
 
   void

@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/exceptions.h>
 #include <geocone/base/over_ranks.h>
 #include <geocone/discretisation/cell_record.h>
 #include <geocone/time_stepping/time_stepper.h>
@@ -11,6 +12,20 @@ namespace geocone
 {
   using namespace dealii;
 
+  void
+  check_round_body(const Scene &scene, const Space &space)
+  {
+    if (!scene.geometry.is_axisymmetric())
+      return;
+    scene.obstacles.refuse("Geometry/Symmetry = axisymmetric",
+                           "prescribe velocities of sides instead");
+    if (space.has_b_bar())
+      throw InputError("Discretisation/B-bar",
+                       "true",
+                       "false where Geometry/Symmetry = axisymmetric",
+                       "take elements of degree 2 or 3, which do not lock");
+  }
+
   double
   elastic_energy(const MaterialPoints &points,
                  const Materials      &materials,
@@ -18,11 +33,8 @@ namespace geocone
   {
     double sum = 0.;
     for (unsigned int p = 0; p < points.n_points(); ++p)
-      {
-        const Mandel &s = points.stress[p];
-        sum += points.weight[p] / 2. *
-               s.dot(materials[points.material[p]].elasticity().strain(s));
-      }
+      sum += points.weight[p] * materials[points.material[p]].elastic_energy(
+                                  points.stress[p], points.history_of(p));
     return Utilities::MPI::sum(sum, comm);
   }
 
@@ -113,12 +125,10 @@ namespace geocone
     std::array<double, 3> sums     = {};
     for (unsigned int p = 0; p < points.n_points(); ++p)
       {
-        const Mandel &s = internal.trial_stress()[p];
-        sums[0] += points.weight[p] *
-                   s.dot(materials[points.material[p]].elasticity().strain(
-                     Mandel(s - points.stress[p])));
-        sums[1] +=
-          points.weight[p] * s.dot(internal.plastic_strain_increment(p));
+        const Mandel              &s    = internal.trial_stress()[p];
+        const InternalForces::Work work = internal.work(p);
+        sums[0] += points.weight[p] * work.elastic;
+        sums[1] += points.weight[p] * work.plastic;
         sums[2] += points.weight[p] / 2. *
                    s.dot(materials[points.material[p]].elasticity().strain(s));
       }

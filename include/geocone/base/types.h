@@ -11,7 +11,8 @@
 /**
  * Conventions of the whole code, stated once:
  *  - plane strain in the (x, y) plane, unit thickness: forces are N/m, energies
- *    J/m;
+ *    J/m; or axisymmetric, x the radius, y the axis, z around it: forces are N,
+ *    energies J, of the whole body;
  *  - SI units, angles in parameter files in degrees;
  *  - tension is positive, in stress and strain alike;
  *  - symmetric tensors are Mandel vectors, so that the scalar product of two
@@ -19,7 +20,7 @@
  */
 namespace geocone
 {
-  /** Space dimension of all scenes (plane strain). */
+  /** Space dimension of all scenes . */
   constexpr unsigned int dim = 2;
 
   /** Number of Mandel components in plane strain. */
@@ -31,6 +32,11 @@ namespace geocone
   /** Linear map between Mandel vectors, e.g. a tangent stiffness (Pa). */
   using MandelMatrix =
     Eigen::Matrix<double, n_mandel, n_mandel, Eigen::RowMajor>;
+
+  /** The same with the direction out of the plane: (t11, t22, sqrt(2) t12, t33), 33
+   *  being along z, or around the axis of an axisymmetric scene. */
+  using SpatialMandel       = Eigen::Matrix<double, 4, 1>;
+  using SpatialMandelMatrix = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 
   constexpr double pi    = 3.14159265358979323846;
   constexpr double sqrt2 = 1.41421356237309504880;

@@ -100,6 +100,20 @@ namespace geocone
       return owners;
     }
 
+    /** Whether x is the radius of a round body. */
+    bool
+    is_axisymmetric() const
+    {
+      return axisymmetric;
+    }
+
+    /** Geometry::measure() */
+    double
+    measure(const dealii::Point<dim> &x) const
+    {
+      return axisymmetric ? 2. * pi * x[0] : 1.;
+    }
+
     /** Part of a cell's size by which a point may lie outside of it. */
     static constexpr double tolerance = 1e-8;
 
@@ -168,6 +182,7 @@ namespace geocone
     };
 
     const MPI_Comm  comm;
+    bool            axisymmetric = false;
     MeshParameters  parameters;
     Choice<Storage> storage = {{{"automatic", Storage::automatic},
                                 {"distributed", Storage::distributed},

@@ -48,6 +48,10 @@ namespace geocone
     /** grad N at a point: n_nodes values of d/dx, then n_nodes of d/dy (1/m). */
     std::vector<double> gradients;
 
+    /** N/r at a point, which makes the hoop strain of v_x: n_nodes values (1/m).
+     *  Empty in plane strain. */
+    std::vector<double> hoop;
+
     /** N at a point: n_nodes values. Empty where points do not move. */
     std::vector<double> values;
 
@@ -60,7 +64,8 @@ namespace geocone
     /** Index of the material of each point. */
     std::vector<unsigned int> material;
 
-    /** Volume per unit thickness that a point stands for (m^2). */
+    /** Volume that a point stands for, per unit thickness (m^2), or around the axis
+     *  (m^3). */
     std::vector<double> weight;
 
     std::vector<dealii::Point<dim>> position;

@@ -32,7 +32,7 @@ namespace geocone
 
     const dealii::Quadrature<dim>   quadrature;
     std::vector<dealii::Point<dim>> position;
-    std::vector<double>             weight; ///< JxW (m^2)
+    std::vector<double>             weight; ///< JxW times measure() (m^2, m^3)
 
     /** N_i at point q. */
     double
@@ -46,6 +46,7 @@ namespace geocone
     gradient(const unsigned int i, const unsigned int q) const;
 
   private:
+    const BackgroundMesh               &mesh;
     const Space                        &space;
     const unsigned int                  n_nodes;
     bool                                is_evaluated = false;

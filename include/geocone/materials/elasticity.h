@@ -63,6 +63,31 @@ namespace geocone
               stress[2] / two_G};
     }
 
+    /** @name The same with strain out of the plane */
+    /** @{ */
+    SpatialMandel
+    stress(const SpatialMandel &strain) const
+    {
+      const double volumetric = lambda * (strain[0] + strain[1] + strain[3]);
+      return two_G * strain + volumetric * SpatialMandel(1., 1., 0., 1.);
+    }
+
+    SpatialMandel
+    strain(const SpatialMandel &stress) const
+    {
+      const double volumetric = lambda / spatial_normal_stiffness() *
+                                (stress[0] + stress[1] + stress[3]);
+      return (stress - volumetric * SpatialMandel(1., 1., 0., 1.)) / two_G;
+    }
+
+    /** Three times the bulk modulus, 3 lambda + 2G (Pa). */
+    double
+    spatial_normal_stiffness() const
+    {
+      return 3. * lambda + two_G;
+    }
+    /** @} */
+
     MandelMatrix
     stiffness() const
     {

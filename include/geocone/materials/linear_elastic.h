@@ -4,15 +4,28 @@
 #ifndef geocone_materials_linear_elastic_h
 #define geocone_materials_linear_elastic_h
 
-#include <geocone/materials/material.h>
+#include <geocone/materials/spatial_law.h>
 
 namespace geocone
 {
   /** Isotropic linear elasticity, s = s_n + D e. No parameters of its own. */
-  class LinearElastic : public Material
+  class LinearElastic : public SpatialLaw
   {
   public:
-    using Material::Material;
+    using SpatialLaw::SpatialLaw;
+
+    /** In plane strain it is a law of the plane. */
+    bool
+    is_spatial() const override
+    {
+      return axisymmetric;
+    }
+
+    bool
+    set_axisymmetric() override
+    {
+      return axisymmetric = true;
+    }
 
     void
     update(const Increment &increment, const Response &response) const override;
@@ -20,6 +33,24 @@ namespace geocone
     /** By the kernel of the cones, with one that is never reached. */
     void
     advance(const PointBlock &block, LawCounts &counts) const override;
+
+    double
+    elastic_energy(const Mandel &stress, const double *history) const override
+    {
+      return axisymmetric ? SpatialLaw::elastic_energy(stress, history)
+                          : Material::elastic_energy(stress, history);
+    }
+
+  protected:
+    Mode
+    return_to_strength(const SpatialMandel &trial,
+                       const SpatialMandel &stress_n,
+                       const StepLaw       &step,
+                       SpatialMandel       &stress,
+                       SpatialMandelMatrix *tangent) const override;
+
+  private:
+    bool axisymmetric = false;
   };
 } // namespace geocone
 

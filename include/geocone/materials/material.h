@@ -40,25 +40,42 @@ namespace geocone
     unsigned int  n_history = 0;
 
     StepLaw step;
+
+    /** Strain increments out of the plane, of axisymmetric scenes; null: none. */
+    const double *strain_zz = nullptr;
+  };
+
+  /** What a tangent has besides the plane's, where there is strain out of it (Pa). */
+  struct OutOfPlaneTangent
+  {
+    Mandel by_zz; ///< ds/de_zz
+    Mandel of_zz; ///< ds_zz/de
+    double zz;    ///< ds_zz/de_zz
   };
 
   /** What the material answers. An empty `tangent` is not computed, nor is the
-   *  history if it is null. */
+   *  history if it is null, nor what is out of the plane. */
   struct Response
   {
     dealii::ArrayView<Mandel>       stress;  ///< stress at t_{n+1} (Pa)
     dealii::ArrayView<Mode>         mode;    ///< elastic, cone or apex
     dealii::ArrayView<MandelMatrix> tangent; ///< ds/de, generalised (Pa)
     double *history = nullptr; ///< in: a copy of history_n; out: at t_{n+1}
+
+    /** @name Of laws that are spatial */
+    /** @{ */
+    double            *stress_zz  = nullptr; ///< at t_{n+1} (Pa)
+    OutOfPlaneTangent *tangent_zz = nullptr; ///< with the tangent
+    /** @} */
   };
 
   /**
    * A constitutive law in closed form, which all methods can use: a pure function
    * of a batch of strain increments and states at t_n, with isotropic linear
-   * elasticity and plastic flow in the plane. Then the out-of-plane stress is
-   *   s_zz = nu (s_xx + s_yy) + const.,
-   * and the constant is the first history variable (Pa), to which laws that harden
-   * add theirs.
+   * elasticity. The out-of-plane stress is
+   *   s_zz = nu (s_xx + s_yy) + d,
+   * d (Pa) the first history variable, to which laws that harden add theirs. It is
+   * constant where plastic flow is in the plane; laws that are spatial change it.
    *
    * Parameters of the base: density (kg/m^3), Young modulus (Pa), Poisson ratio.
    */
@@ -125,8 +142,39 @@ namespace geocone
     bool
     has_history() const
     {
-      return n_history() > Material::n_history();
+      return is_spatial() || n_history() > Material::n_history();
     }
+
+    /** Whether strength and flow are those of all stresses, s_zz with them. */
+    virtual bool
+    is_spatial() const
+    {
+      return false;
+    }
+
+    /** Says that there will be strain out of the plane. @return whether the law
+     *  knows it */
+    virtual bool
+    set_axisymmetric()
+    {
+      return is_spatial();
+    }
+
+    /** Of a stress, per volume (J/m^3). @param history of the point */
+    virtual double
+    elastic_energy(const Mandel &stress, const double *history) const;
+
+    /** What of a strain increment is not elastic. @param change of the stress (Pa) */
+    virtual SpatialMandel
+    plastic_strain(const Mandel &strain,
+                   const double  strain_zz,
+                   const Mandel &change,
+                   const double  change_zz) const;
+
+    /** By how much a stress is beyond the strength (Pa), negative within it; nothing
+     *  for laws without one. @param history of the point */
+    virtual std::optional<double>
+    overstress(const Mandel &stress, const double *history) const;
 
     /** Whether steps change flow_cone(). */
     virtual bool
@@ -167,6 +215,22 @@ namespace geocone
              const double   slip) const;
     virtual std::optional<FlowCone>
     exact_end_cone(const double *history_n, const double slip) const;
+
+    /** overstress() of laws that are spatial. */
+    virtual std::optional<double>
+    yield_function(const SpatialMandel & /*stress*/) const
+    {
+      return std::nullopt;
+    }
+
+    /** The cone of laws that are spatial and have one, in the axes of spatial_axes(),
+     *  by which solutions are checked. @param stress_n at t_n */
+    virtual std::optional<FlowCone>
+    spatial_cone(const SpatialMandel & /*stress_n*/,
+                 const StepLaw & /*step*/) const
+    {
+      return std::nullopt;
+    }
 
     /** The relaxation time tau of friction with memory (s); 0: none. */
     virtual double

@@ -47,6 +47,14 @@ namespace geocone
     void
     prepare();
 
+    /** That scenes are around an axis. @throws InputError if a law is not spatial */
+    void
+    set_axisymmetric();
+
+    /** Whether a law is spatial. */
+    bool
+    are_spatial() const;
+
     unsigned int
     size() const
     {

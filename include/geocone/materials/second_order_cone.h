@@ -30,6 +30,23 @@ namespace geocone
     return {(-x[0] + x[1]) / sqrt2, (-x[0] - x[1]) / sqrt2, x[2]};
   }
 
+  /** Cone axes of four components by rows: n = -(1, 1, 0, 1)/sqrt3, then (1, -1, 0,
+   *  0)/sqrt2, (0, 0, 1, 0) and (1, 1, 0, -2)/sqrt6. */
+  inline const SpatialMandelMatrix &
+  spatial_axes()
+  {
+    static const SpatialMandelMatrix axes = [] {
+      const double r2 = 1. / sqrt2, r3 = 1. / std::sqrt(3.), r6 = r2 * r3;
+      SpatialMandelMatrix rows;
+      rows << -r3, -r3, 0., -r3, //
+        r2, -r2, 0., 0.,         //
+        0., 0., 1., 0.,          //
+        r6, r6, 0., -2. * r6;
+      return rows;
+    }();
+    return axes;
+  }
+
   /** A linear map given in cone axes, written in Mandel components. */
   inline MandelMatrix
   from_cone_axes(const MandelMatrix &C)

@@ -63,6 +63,10 @@ namespace geocone
     void
     check_support(const BackgroundMesh &mesh, const Space &space) const;
 
+    /** @throws InputError if a node on the axis of a round body can leave it */
+    void
+    check_axis(const BackgroundMesh &mesh, const Space &space) const;
+
     /** Sets the prescribed components of v to their values at time t. */
     void
     set_values(Vector &v, const double t) const;

@@ -17,7 +17,7 @@ namespace geocone
   {
     dealii::Point<dim>        position;
     dealii::Tensor<1, dim>    normal; ///< outward from the cell
-    double                    weight; ///< JxW (m)
+    double                    weight; ///< JxW times measure() (m, m^2)
     std::vector<unsigned int> nodes;  ///< local, of the cell
     std::vector<double>       values; ///< N at the point, per node
   };

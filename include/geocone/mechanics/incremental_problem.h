@@ -145,6 +145,13 @@ namespace geocone
       return materials.non_associativity();
     }
 
+    /** Whether a law is spatial. */
+    bool
+    is_spatial() const
+    {
+      return materials.are_spatial();
+    }
+
     /**
      * The pattern of the Jacobian on the free dofs, with zero values.
      * @param one_triangle whether the lower triangle of a symmetric one is enough

@@ -145,8 +145,17 @@ namespace geocone
     trial_history() const;
 
     /** -z: the plastic part of the strain increment of a point. */
-    Mandel
+    SpatialMandel
     plastic_strain_increment(const unsigned int point) const;
+
+    /** Of a point in the step, per volume (J/m^3). */
+    struct Work
+    {
+      double elastic; ///< s:S(s - s_n)
+      double plastic; ///< s:(plastic strain increment)
+    };
+    Work
+    work(const unsigned int point) const;
     /** @} */
 
     /** Calls f(p, dof, column of B_p for a local dof) for all that are not 0. */
@@ -185,13 +194,15 @@ namespace geocone
         update_materials(true);
     }
 
-    /** strain[p] = factor B_p v for the points of a cell. */
+    /** strain[p] = factor B_p v for the points of a cell, and around an axis the hoop
+     *  strain. */
     template <int n>
     void
     strains_of_cell(const unsigned int   c,
                     const double        *cell_v,
                     const double         factor,
-                    std::vector<Mandel> &strain) const;
+                    std::vector<Mandel> &strain,
+                    std::vector<double> &strain_zz) const;
 
     /** cell_f += sum B_p' s_p, s_p the stress times the weight. */
     template <int n, typename WeightedStress>
@@ -199,6 +210,35 @@ namespace geocone
     add_forces_of_cell(const unsigned int    c,
                        const WeightedStress &weighted_stress,
                        double               *cell_f) const;
+
+    /** cell_f += what a hoop stress does, times the weight. */
+    template <int n>
+    void
+    add_hoop_force(const unsigned int p,
+                   const double       weighted_stress,
+                   double            *cell_f) const;
+
+    /** K += the parts of a point's tangent out of the plane. */
+    template <int n>
+    void
+    add_hoop_stiffness(const unsigned int p,
+                       const double       blend,
+                       double            *K) const;
+
+    bool
+    is_axisymmetric() const
+    {
+      return !points.hoop.empty();
+    }
+
+    /** Of a point at t_n. */
+    double
+    stress_zz_n(const unsigned int p) const
+    {
+      const Mandel &s = points.stress[p];
+      return materials[points.material[p]].stress_zz(
+        {{s[0], s[1], s[2] / sqrt2}}, points.history_of(p));
+    }
 
     const MaterialPoints &points;
     const Materials      &materials;
@@ -219,6 +259,14 @@ namespace geocone
     mutable std::vector<Mode>         mode;
     std::vector<Mode>                 previous_mode;
     mutable std::vector<MandelMatrix> tangent;
+
+    /** @name Out of the plane: empty but for laws that are spatial, the strain and
+     *  the tangent but for scenes around an axis */
+    /** @{ */
+    std::vector<double>                    strain_zz;
+    mutable std::vector<double>            stress_zz;
+    mutable std::vector<OutOfPlaneTangent> tangent_zz;
+    /** @} */
   };
 } // namespace geocone
 

@@ -138,6 +138,13 @@ namespace geocone
     Json
     results() const;
 
+    /** See Geometry::unit(). */
+    std::string
+    unit(const std::string &in_plane_strain) const
+    {
+      return scene->geometry.unit(in_plane_strain);
+    }
+
     /** Whether the friction of some of the soil has a memory. */
     bool
     remembers() const;

@@ -97,10 +97,44 @@ namespace geocone
       file
     };
 
+    /** What the plane of the scene is a section of. */
+    enum class Symmetry
+    {
+      plane_strain, ///< a body of unit thickness that does not move along z
+      axisymmetric  ///< a round body about x = 0, without torsion
+    };
+
     explicit Geometry(const ParameterFile &file);
 
     void
     prepare();
+
+    Choice<Symmetry> symmetry = {{{"plane strain", Symmetry::plane_strain},
+                                  {"axisymmetric", Symmetry::axisymmetric}}};
+
+    bool
+    is_axisymmetric() const
+    {
+      return symmetry == Symmetry::axisymmetric;
+    }
+
+    /** What an area or a length of the plane at x stands for, over itself: 1 (m per
+     *  metre of thickness), or 2 pi r (m). */
+    double
+    measure(const dealii::Point<dim> &x) const
+    {
+      return is_axisymmetric() ? 2. * pi * x[0] : 1.;
+    }
+
+    /** A unit, e.g. "N/m" or "load (N/m)" or "energy_J_per_m", without what says "per
+     *  metre of thickness" if the body is round. */
+    std::string
+    unit(const std::string &in_plane_strain) const;
+
+    /** @throws InputError where the scene is around an axis @param who cannot be
+     *  @param remedy e.g. "set ..." */
+    void
+    refuse_axis(const std::string &who, const std::string &remedy) const;
 
     Choice<Shape> shape = {{{"box", Shape::box},
                             {"polygon", Shape::polygon},

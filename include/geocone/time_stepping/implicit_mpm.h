@@ -205,6 +205,10 @@ namespace geocone
                          const MaterialPoints     &points,
                          const std::vector<Moved> &moved) const;
 
+    /** The largest coordinates of points (m). */
+    dealii::Point<dim>
+    front_of(const MaterialPoints &points) const;
+
     /** Gives the points their state at the end of the step.
      *  @return the dissipation (J/m) */
     double

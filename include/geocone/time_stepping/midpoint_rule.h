@@ -50,6 +50,7 @@ namespace geocone
   {
     Mandel stress;
     Mandel plastic;     ///< strain increment of the step
+    double slip;        ///< its norm, with what is out of the plane
     double dissipation; ///< of the step, per volume (J/m^3)
   };
 
@@ -65,6 +66,12 @@ namespace geocone
               const Material       &material,
               const Mandel         &stress_n,
               const double         *history);
+
+  /** @throws InputError for laws that it does not know @param name of the parameter */
+  void
+  check_midpoint(const Choice<Integration> &integration,
+                 const Materials           &materials,
+                 const std::string         &name);
 
   /** The histories at the end from those that were solved for. */
   void

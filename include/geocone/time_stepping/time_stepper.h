@@ -68,9 +68,14 @@ namespace geocone
     unsigned int points_behind   = 0;  ///< see MovingConditions::n_behind()
     double       light_share     = 0.; ///< see Multipliers::light_share()
 
+    /** The largest coordinates of points, at the end (m). */
+    dealii::Point<dim> front;
+
+    /** Of two steps, @p other the later one. */
     void
     take_worse(const Motion &other)
     {
+      front           = other.front;
       light_functions = std::max(light_functions, other.light_functions);
       points_behind   = std::max(points_behind, other.points_behind);
       light_share     = std::max(light_share, other.light_share);
@@ -79,7 +84,7 @@ namespace geocone
     void
     state(StateRow &row)
     {
-      row(light_functions, points_behind, light_share);
+      row(light_functions, points_behind, light_share, front);
     }
   };
 
@@ -132,6 +137,10 @@ namespace geocone
           identity_error);
     }
   };
+
+  /** @throws InputError for what a scene around an axis cannot have */
+  void
+  check_round_body(const Scene &scene, const Space &space);
 
   /** sum V s'Ss/2 over the points of all ranks (J/m). */
   double

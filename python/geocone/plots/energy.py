@@ -27,10 +27,10 @@ EXPLICIT = {
 
 
 def energies_of(run, looks):
-    """The energies of a run that are not zero throughout, by name (J/m)."""
-    table = run.statistics
-    found = {name: table[f"{name} (J/m)"] for name in looks
-             if np.any(table.get(f"{name} (J/m)", 0.))}
+    """The energies of a run that are not zero throughout, by name (J/m, or J)."""
+    table, unit = run.statistics, run.per_metre("J")
+    found = {name: table[f"{name} ({unit})"] for name in looks
+             if np.any(table.get(f"{name} ({unit})", 0.))}
     if not found:
         raise Skipped("all energies are zero")
     return found
@@ -40,7 +40,7 @@ def draw_energies(run, time, energies, looks):
     """The figure with the upper panel; the lower one is returned too."""
     figure, (axes, below) = subplots(2, 1, figsize=(9., 6.2), sharex=True,
                                      gridspec_kw={"height_ratios": [3., 2.]})
-    unit = unit_for(np.max(np.abs([*energies.values()])), "J/m")
+    unit = unit_for(np.max(np.abs([*energies.values()])), run.per_metre("J"))
     for name, values in energies.items():
         axes.plot(time, values / unit[1], **{"label": name, **looks[name]})
     axes.set(title=f"{plain(run.name)}: energies", ylabel=f"energy ({unit[0]})")
@@ -48,9 +48,9 @@ def draw_energies(run, time, energies, looks):
     return figure, below
 
 
-def draw_rest(axes, time, values, name, whole, of_what):
+def draw_rest(axes, run, time, values, name, whole, of_what):
     """The lower panel: what is left, and what part of the whole that is."""
-    unit = unit_for(np.max(np.abs(values)), "J/m")
+    unit = unit_for(np.max(np.abs(values)), run.per_metre("J"))
     axes.plot(time, values / unit[1], color=COLORS[-1])
     axes.set(xlabel="time (s)", ylabel=f"{name} ({unit[0]})")
     if whole > 0.:
@@ -62,21 +62,22 @@ def draw_rest(axes, time, values, name, whole, of_what):
 
 def draw_implicit(run, path):
     """Draws the energies of an implicit run, and its numerical loss."""
-    table = run.statistics
-    if "numerical loss (J/m)" not in table:
+    table, unit = run.statistics, run.per_metre("J")
+    if f"numerical loss ({unit})" not in table:
         raise Skipped("statistics.csv has no energies")
-    time, loss = table["time (s)"], table["numerical loss (J/m)"]
+    time, loss = table["time (s)"], table[f"numerical loss ({unit})"]
     energies = energies_of(run, IMPLICIT)
     # The zero of a height is arbitrary: the least potential energy is taken.
     potential = energies.get("potential energy", np.zeros_like(time))
     for name in {"potential energy", "total energy"} & energies.keys():
         energies[name] = energies[name] - potential.min()
-    initial = run.summary.get("energy", {}).get("initial_J_per_m", 0.) - potential[0]
+    energy = run.summary.get("energy", {})
+    initial = energy.get("initial_J_per_m", energy.get("initial_J", 0.)) - potential[0]
     whole, name = max((potential[0] - potential.min(), "released\npotential energy"),
-                      (np.abs(table["external work (J/m)"]).max(), "\nexternal work"),
+                      (np.abs(table[f"external work ({unit})"]).max(), "\nexternal work"),
                       (initial, "\ninitial energy"))
     figure, below = draw_energies(run, time, energies, IMPLICIT)
-    draw_rest(below, [0., *time], np.array([0., *loss]), "loss", whole, name)
+    draw_rest(below, run, [0., *time], np.array([0., *loss]), "loss", whole, name)
     below.set_title("numerical loss")
     save(figure, run, path)
 
@@ -89,7 +90,7 @@ def draw_explicit(run, path):
     energies = {name: values for name, values in energies.items()
                 if np.max(np.abs(values)) > 1e-4 * largest}
     figure, below = draw_energies(run, time, energies, EXPLICIT)
-    draw_rest(below, time, loss, "loss", largest, "largest\nenergy above")
+    draw_rest(below, run, time, loss, "loss", largest, "largest\nenergy above")
     below.axhline(0., color="black", linewidth=0.8)
     below.set_title("numerical loss (taken by time steps and transfer)")
     save(figure, run, path)

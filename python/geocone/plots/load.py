@@ -9,7 +9,8 @@ from matplotlib.ticker import MaxNLocator
 
 from geocone.style import BESIDE, COLORS, ORANGE, Skipped, plain, save, subplots, unit_for
 
-Curve = namedtuple("Curve", "displacement load limit time")  # mm, N/m, of the summary, s
+# mm, N/m or N, of the summary, s
+Curve = namedtuple("Curve", "displacement load limit time")
 
 
 def curve_of(run):
@@ -18,7 +19,7 @@ def curve_of(run):
         raise Skipped(f"no load is observed in '{run.folder}'")
     # The curve starts from rest, before the first step.
     return Curve(np.insert(1e3 * run.statistics["displacement (m)"], 0, 0.),
-                 np.insert(run.statistics["load (N/m)"], 0, 0.),
+                 np.insert(run.statistics[f"load ({run.per_metre('N')})"], 0, 0.),
                  run.summary["limit_load"], np.insert(run.statistics["time (s)"], 0, 0.))
 
 
@@ -72,7 +73,7 @@ def draw_curves(names, curves, title, run, *paths):
                                       for key in ("band_low", "band_high", "reference")]
     loads = np.concatenate([*(curve.load for curve in curves), [e for e in ends if e]])
     size = np.max(np.abs(loads))
-    unit = unit_for(size, "N/m")
+    unit = unit_for(size, {curve.limit.get("unit", "N/m") for curve in curves}.pop())
     figure, axes = subplots(figsize=(7. if single else 9.5, 4.6))
     draw_lines(axes, names, curves, unit)
     origin, = axes.plot(0., 0., " ")  # the axes begin there

@@ -21,7 +21,7 @@ def cell_size(run):
         raise ReadError(f"'{run.folder / 'parameters.prm'}' has no {problem}")
 
 
-def cells_of(run):
+def cells_of(run, unit):
     """The cells of a run's line, by the names of the columns."""
     def number(key, digits, factor=1.):
         value = run.value(key)
@@ -33,7 +33,7 @@ def cells_of(run):
             "steps": number("newton/steps", 0),
             "iterations per step": number("newton/iterations_mean", 1),
             "time (s)": number("cost/total_s", 1),
-            "limit load (N/m)": number("limit_load/value", 2),
+            f"limit load ({unit})": number("limit_load/value", 2),
             "reference": f"{run.value('limit_load/reference_name') or ''} "
             f"{number('limit_load/reference', 2)}".strip(),
             "error (%)": number("limit_load/relative_error", 2, 100.)}
@@ -42,8 +42,9 @@ def cells_of(run):
 def write_table(runs, path):
     """Writes and prints the table, with aligned columns."""
     try:
+        unit = ", ".join(sorted({run.per_metre("N") for run in runs}))
         lines = [{name: " ".join(str(cell).replace("|", "\\|").split())
-                  for name, cell in cells_of(run).items()} for run in runs]
+                  for name, cell in cells_of(run, unit).items()} for run in runs]
     except (LookupError, TypeError, ValueError) as problem:
         raise ReadError(f"a summary.json is damaged: {problem!r}")
     columns = [[name, *(line[name] for line in lines)] for name in lines[0]]

@@ -1,0 +1,98 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_materials_drucker_prager_h
+#define geocone_materials_drucker_prager_h
+
+#include <geocone/base/choice.h>
+#include <geocone/materials/second_order_cone.h>
+#include <geocone/materials/spatial_law.h>
+
+namespace geocone
+{
+  /**
+   * The circular cone of all principal stresses (Drucker and Prager 1952),
+   *   sqrt(J_2) + alpha I_1 <= kappa,  I_1 = tr s,
+   * with the flow of the same cone for the dilatancy angle. Along the axis n = -(1, 1,
+   * 0, 1)/sqrt3 and across it, it is the FlowCone
+   *   |s_t| <= a s_n + k,   a = sqrt6 alpha,  k = sqrt2 kappa,
+   * with D = diag(3 lambda + 2G, 2G, 2G, 2G): return map, change of variable and
+   * natural map are those of the plane cone with one component more.
+   *
+   * Its size is matched to Mohr-Coulomb's pyramid (s = sin, t = tan of the angle):
+   *   outer (its compression edges)    alpha = 2 s/(sqrt3 (3 - s)), kappa = 6 c
+   *     cos/(sqrt3 (3 - s))
+   *   inner (its tension edges)        alpha = 2 s/(sqrt3 (3 + s)), kappa = 6 c
+   *     cos/(sqrt3 (3 + s))
+   *   plane strain (associated flow)   alpha = t/sqrt(9 + 12 t^2), kappa = 3 c/sqrt(9
+   *     + 12 t^2).
+   */
+  class DruckerPrager : public SpatialLaw
+  {
+  public:
+    explicit DruckerPrager(const std::string &section);
+
+    void
+    prepare() override;
+
+    void
+    reduce_strength(const double F) override;
+
+    double
+    earth_pressure_at_rest() const override;
+
+    double
+    non_associativity() const override
+    {
+      return cone.a > 0. ? (cone.a - cone.b) / cone.a : 0.;
+    }
+
+    std::optional<FlowCone>
+    spatial_cone(const SpatialMandel &stress_n,
+                 const StepLaw       &step) const override;
+
+    std::optional<double>
+    yield_function(const SpatialMandel &stress) const override;
+
+  protected:
+    /** von Mises' law, which has no angles. */
+    struct WithoutFriction
+    {};
+    DruckerPrager(const std::string &section, const WithoutFriction &);
+
+    Mode
+    return_to_strength(const SpatialMandel &trial,
+                       const SpatialMandel &stress_n,
+                       const StepLaw       &step,
+                       SpatialMandel       &stress,
+                       SpatialMandelMatrix *tangent) const override;
+
+  private:
+    enum class Match
+    {
+      plane_strain,
+      outer,
+      inner
+    };
+    Choice<Match> match = {{{"plane strain", Match::plane_strain},
+                            {"outer", Match::outer},
+                            {"inner", Match::inner}}};
+
+    FrictionalStrength strength_given;
+    FlowCone           cone;
+
+    FlowCone
+    cone_of(const FrictionalStrength &strength) const;
+  };
+
+  /** von Mises' law sqrt(J_2) <= c: DruckerPrager with phi = theta = 0. */
+  class VonMises : public DruckerPrager
+  {
+  public:
+    explicit VonMises(const std::string &section)
+      : DruckerPrager(section, WithoutFriction())
+    {}
+  };
+} // namespace geocone
+
+#endif

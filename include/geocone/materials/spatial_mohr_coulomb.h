@@ -1,0 +1,109 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_materials_spatial_mohr_coulomb_h
+#define geocone_materials_spatial_mohr_coulomb_h
+
+#include <geocone/materials/spatial_law.h>
+
+#include <Eigen/Dense>
+
+#include <limits>
+
+namespace geocone
+{
+  /**
+   * Mohr-Coulomb's law of all principal stresses s_1 >= s_2 >= s_3: for each pair i < j
+   *   f_ij = s_i - s_j + (s_i + s_j) sin(phi) - 2 c cos(phi) <= 0,
+   * with the flow direction of the same pyramid for theta. In plane strain MohrCoulomb
+   * is its pair in the plane; this law also yields with s_zz, in edges of the pyramid
+   * where it becomes the largest or the smallest stress.
+   *
+   * The return map in principal stresses: to the plane f_13; if that leaves the order
+   * of the stresses, to the edge f_13 = f_12 = 0 (s_2 = s_3) or f_13 = f_23 = 0 (s_1 =
+   * s_2); and if that does too, to the apex s_i = c cot(phi) (de Souza Neto, Peric and
+   * Owen 2008, section 8.2). All of it is linear in the trial stress, and so are its
+   * derivatives; directions turn as those of the trial stress.
+   */
+  class SpatialMohrCoulomb : public SpatialLaw
+  {
+  public:
+    explicit SpatialMohrCoulomb(const std::string &section);
+
+    void
+    prepare() override;
+
+    void
+    reduce_strength(const double F) override;
+
+    double
+    earth_pressure_at_rest() const override;
+
+    /** (sin(phi) - sin(theta))/sin(phi) */
+    double
+    non_associativity() const override;
+
+    std::optional<double>
+    yield_function(const SpatialMandel &stress) const override;
+
+  protected:
+    /** Tresca's law, which has no angles. */
+    struct WithoutFriction
+    {};
+    SpatialMohrCoulomb(const std::string &section, const WithoutFriction &);
+
+    Mode
+    return_to_strength(const SpatialMandel &trial,
+                       const SpatialMandel &stress_n,
+                       const StepLaw       &step,
+                       SpatialMandel       &stress,
+                       SpatialMandelMatrix *tangent) const override;
+
+  private:
+    using Principal       = Eigen::Vector3d;
+    using PrincipalMatrix = Eigen::Matrix3d;
+
+    /** f_ij = s_i - s_j + (s_i + s_j) sine - size, and the stress at the apex. */
+    struct Pyramid
+    {
+      double sine, size; ///< 2 c cos(phi) (Pa)
+
+      double
+      apex() const
+      {
+        return sine > 0. ? size / (2. * sine)
+                         : std::numeric_limits<double>::infinity();
+      }
+    };
+
+    /** With delayed friction: a part of s_1 + s_3, on which strength depends, is that
+     *  of t_n, as in FlowCone::delayed(). */
+    Pyramid
+    delayed(const double lambda, const SpatialMandel &stress_n) const;
+
+    /** Of stresses in order. @param[out] tangent ds/de of principal values */
+    Mode
+    return_principal(const Pyramid   &strength,
+                     const Principal &trial,
+                     Principal       &stress,
+                     PrincipalMatrix &tangent) const;
+
+    void
+    set_strength(const double F);
+
+    FrictionalStrength strength_given;
+    Pyramid            exact     = {0., 0.}; ///< with sin(phi)
+    double             sin_theta = 0.;
+  };
+
+  /** Tresca's law of all principal stresses, s_1 - s_3 <= 2c. */
+  class SpatialTresca : public SpatialMohrCoulomb
+  {
+  public:
+    explicit SpatialTresca(const std::string &section)
+      : SpatialMohrCoulomb(section, WithoutFriction())
+    {}
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,124 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/materials/drucker_prager.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace geocone
+{
+  namespace
+  {
+    const double sqrt3 = std::sqrt(3.);
+  } // namespace
+
+  DruckerPrager::DruckerPrager(const std::string &section)
+    : SpatialLaw(section)
+  {
+    add_parameter(
+      "Cohesion", strength_given.c, "c (Pa), >= 0; > 0 where phi = 0.");
+    add_parameter(
+      "Friction angle", strength_given.phi, "phi (degrees), 0 <= phi < 90.");
+    add_parameter("Dilatancy angle",
+                  strength_given.theta,
+                  "theta (degrees), 0 <= theta <= phi. theta = phi is "
+                  "associated flow.");
+    match.declare(*this,
+                  "Match",
+                  " of the cone and Mohr-Coulomb's pyramid: where both are "
+                  "equally strong. Plane strain: in plane strain with "
+                  "associated flow. Outer: in triaxial compression. Inner: in "
+                  "triaxial extension.");
+  }
+
+  DruckerPrager::DruckerPrager(const std::string &section,
+                               const WithoutFriction &)
+    : SpatialLaw(section)
+  {
+    strength_given.phi = strength_given.theta = 0.;
+    add_parameter(
+      "Cohesion", strength_given.c, "Strength c (Pa) in pure shear, > 0.");
+  }
+
+  void
+  DruckerPrager::prepare()
+  {
+    SpatialLaw::prepare();
+    strength_given.check(parameter("").substr(0, parameter("").size() - 1));
+    cone = cone_of(strength_given);
+  }
+
+  FlowCone
+  DruckerPrager::cone_of(const FrictionalStrength &strength) const
+  {
+    // Alpha, and kappa over c cos(angle).
+    const auto sizes = [&](const double degrees) {
+      const double s = std::sin(radians(degrees)),
+                   q = std::cos(radians(degrees));
+      if (match == Match::plane_strain)
+        {
+          const double root = std::sqrt(9. * q * q + 12. * s * s);
+          return std::pair(s / root, 3. / root);
+        }
+      const double sign = match == Match::outer ? -1. : 1.;
+      const double size = sqrt3 * (3. + sign * s);
+      return std::pair(2. * s / size, 6. / size);
+    };
+    const auto [alpha, kappa] = sizes(strength.phi);
+    FlowCone cone;
+    cone.a = std::sqrt(6.) * alpha;
+    cone.b = std::min(std::sqrt(6.) * sizes(strength.theta).first, cone.a);
+    cone.k = sqrt2 * kappa * strength.c * std::cos(radians(strength.phi));
+    return cone;
+  }
+
+  void
+  DruckerPrager::reduce_strength(const double F)
+  {
+    cone = cone_of(strength_given.reduced(F));
+  }
+
+  double
+  DruckerPrager::earth_pressure_at_rest() const
+  {
+    return 1. - std::sin(radians(strength_given.phi));
+  }
+
+  std::optional<FlowCone>
+  DruckerPrager::spatial_cone(const SpatialMandel &stress_n,
+                              const StepLaw       &step) const
+  {
+    return cone.delayed(step.friction_lag, spatial_axes().row(0).dot(stress_n));
+  }
+
+  Mode
+  DruckerPrager::return_to_strength(const SpatialMandel &trial,
+                                    const SpatialMandel &stress_n,
+                                    const StepLaw       &step,
+                                    SpatialMandel       &stress,
+                                    SpatialMandelMatrix *tangent) const
+  {
+    const SpatialMandel t = spatial_axes() * trial;
+    SpatialMandel       s;
+    const Mode          mode = return_map(*spatial_cone(stress_n, step),
+                                 elasticity().spatial_normal_stiffness(),
+                                 elasticity().two_G,
+                                 t,
+                                 s,
+                                 tangent);
+    // An elastic point keeps its trial stress to the last digit.
+    stress = mode == Mode::elastic
+               ? trial
+               : SpatialMandel(spatial_axes().transpose() * s);
+    if (tangent != nullptr)
+      *tangent = spatial_axes().transpose() * (*tangent * spatial_axes());
+    return mode;
+  }
+
+  std::optional<double>
+  DruckerPrager::yield_function(const SpatialMandel &stress) const
+  {
+    return cone.yield_function(SpatialMandel(spatial_axes() * stress));
+  }
+} // namespace geocone

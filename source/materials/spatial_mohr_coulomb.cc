@@ -1,0 +1,236 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/materials/spatial_mohr_coulomb.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace geocone
+{
+  namespace
+  {
+    /** Principal stresses in order, and where they are: two in the plane, with the
+     *  directions (cos, sin) and (-sin, cos), and the one out of it. */
+    struct Spectrum
+    {
+      Eigen::Vector3d value;
+      std::array<unsigned int, 3>
+             place; ///< of the plane's first, second, and of z
+      double cos = 1., sin = 0.;
+    };
+
+    Spectrum
+    spectrum(const SpatialMandel &s)
+    {
+      const double mean = (s[0] + s[1]) / 2., half = (s[0] - s[1]) / 2.,
+                   shear = s[2] / sqrt2, radius = std::hypot(half, shear);
+      const double angle = radius > 0. ? std::atan2(shear, half) / 2. : 0.;
+      const std::array<double, 3> values = {
+        {mean + radius, mean - radius, s[3]}};
+      std::array<unsigned int, 3> order = {{0, 1, 2}};
+      std::stable_sort(order.begin(),
+                       order.end(),
+                       [&](const unsigned int i, const unsigned int j) {
+                         return values[i] > values[j];
+                       });
+      Spectrum result;
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          result.value[i]        = values[order[i]];
+          result.place[order[i]] = i;
+        }
+      result.cos = std::cos(angle);
+      result.sin = std::sin(angle);
+      return result;
+    }
+  } // namespace
+
+  SpatialMohrCoulomb::SpatialMohrCoulomb(const std::string &section)
+    : SpatialLaw(section)
+  {
+    add_parameter(
+      "Cohesion", strength_given.c, "c (Pa), >= 0; > 0 where phi = 0.");
+    add_parameter(
+      "Friction angle", strength_given.phi, "phi (degrees), 0 <= phi < 90.");
+    add_parameter("Dilatancy angle",
+                  strength_given.theta,
+                  "theta (degrees), 0 <= theta <= phi. theta = phi is "
+                  "associated flow.");
+  }
+
+  SpatialMohrCoulomb::SpatialMohrCoulomb(const std::string &section,
+                                         const WithoutFriction &)
+    : SpatialLaw(section)
+  {
+    strength_given.phi = strength_given.theta = 0.;
+    add_parameter(
+      "Cohesion", strength_given.c, "Undrained shear strength c (Pa), > 0.");
+  }
+
+  void
+  SpatialMohrCoulomb::prepare()
+  {
+    SpatialLaw::prepare();
+    strength_given.check(parameter("").substr(0, parameter("").size() - 1));
+    set_strength(1.);
+  }
+
+  void
+  SpatialMohrCoulomb::set_strength(const double F)
+  {
+    const FrictionalStrength now = strength_given.reduced(F);
+    exact                        = {std::sin(radians(now.phi)),
+                                    2. * now.c * std::cos(radians(now.phi))};
+    sin_theta                    = std::sin(radians(now.theta));
+  }
+
+  void
+  SpatialMohrCoulomb::reduce_strength(const double F)
+  {
+    set_strength(F);
+  }
+
+  double
+  SpatialMohrCoulomb::earth_pressure_at_rest() const
+  {
+    return 1. - exact.sine;
+  }
+
+  double
+  SpatialMohrCoulomb::non_associativity() const
+  {
+    return exact.sine > 0. ? (exact.sine - sin_theta) / exact.sine : 0.;
+  }
+
+  std::optional<double>
+  SpatialMohrCoulomb::yield_function(const SpatialMandel &stress) const
+  {
+    const auto s = spectrum(stress).value;
+    return s[0] - s[2] + (s[0] + s[2]) * exact.sine - exact.size;
+  }
+
+  SpatialMohrCoulomb::Pyramid
+  SpatialMohrCoulomb::delayed(const double         lambda,
+                              const SpatialMandel &stress_n) const
+  {
+    const double part = lambda * (exact.sine - sin_theta);
+    if (part == 0.)
+      return exact;
+    const Principal s_n = spectrum(stress_n).value;
+    return {exact.sine - part,
+            exact.size - part * std::min(s_n[0] + s_n[2], 2. * exact.apex())};
+  }
+
+  Mode
+  SpatialMohrCoulomb::return_principal(const Pyramid   &strength,
+                                       const Principal &trial,
+                                       Principal       &stress,
+                                       PrincipalMatrix &tangent) const
+  {
+    const Elasticity &elastic = elasticity();
+    PrincipalMatrix   D       = elastic.two_G * PrincipalMatrix::Identity();
+    D.array() += elastic.lambda;
+    // Gradients of f_ij, and of the same with theta.
+    const auto gradient =
+      [](const unsigned int i, const unsigned int j, const double sine) {
+        Principal n = Principal::Zero();
+        n[i]        = 1. + sine;
+        n[j]        = -1. + sine;
+        return n;
+      };
+    const Principal f_13 = gradient(0, 2, strength.sine),
+                    g_13 = gradient(0, 2, sin_theta);
+    const double f       = f_13.dot(trial) - strength.size;
+    if (f <= 0.)
+      {
+        stress  = trial;
+        tangent = D;
+        return Mode::elastic;
+      }
+    const auto in_order = [&](const Principal &s) {
+      return s[0] >= s[1] && s[1] >= s[2];
+    };
+    const Principal Dg = D * g_13, Df = D * f_13;
+    const double    H = f_13.dot(Dg);
+    stress            = trial - (f / H) * Dg;
+    if (in_order(stress))
+      {
+        tangent = D - Dg * Df.transpose() / H;
+        return Mode::cone;
+      }
+    // The edge on the side of the trial stress: s_2 = s_3 or s_1 = s_2.
+    const bool two_three = (1. - sin_theta) * trial[0] - 2. * trial[1] +
+                             (1. + sin_theta) * trial[2] >
+                           0.;
+    const unsigned int          i = two_three ? 0 : 1, j = two_three ? 1 : 2;
+    Eigen::Matrix<double, 3, 2> F, G;
+    F << f_13, gradient(i, j, strength.sine);
+    G << g_13, gradient(i, j, sin_theta);
+    const Eigen::Matrix<double, 3, 2> DG      = D * G;
+    const Eigen::Matrix2d             inverse = (F.transpose() * DG).inverse();
+    const Eigen::Vector2d             over =
+      F.transpose() * trial - Eigen::Vector2d::Constant(strength.size);
+    const Eigen::Vector2d gamma = inverse * over;
+    stress                      = trial - DG * gamma;
+    // Equal to the last digit.
+    const unsigned int a = two_three ? 1 : 0, b = a + 1;
+    stress[a] = stress[b] = (stress[a] + stress[b]) / 2.;
+    if (stress[0] + stress[2] <= 2. * strength.apex())
+      {
+        tangent = D - DG * inverse * (F.transpose() * D);
+        return Mode::cone;
+      }
+    stress.setConstant(strength.apex());
+    tangent.setZero();
+    return Mode::apex;
+  }
+
+  Mode
+  SpatialMohrCoulomb::return_to_strength(const SpatialMandel &trial,
+                                         const SpatialMandel &stress_n,
+                                         const StepLaw       &step,
+                                         SpatialMandel       &stress,
+                                         SpatialMandelMatrix *tangent) const
+  {
+    const Spectrum  at = spectrum(trial);
+    Principal       s;
+    PrincipalMatrix C;
+    const Mode      mode =
+      return_principal(delayed(step.friction_lag, stress_n), at.value, s, C);
+    const auto [a, b, z] = at.place;
+    const double c = at.cos, q = at.sin;
+    // Mandel vectors of the directions in the plane, and of the shear between them.
+    const Mandel m_a(c * c, q * q, sqrt2 * c * q),
+      m_b(q * q, c * c, -sqrt2 * c * q),
+      m_ab(-sqrt2 * c * q, sqrt2 * c * q, c * c - q * q);
+    // An elastic point keeps its trial stress to the last digit.
+    if (mode == Mode::elastic)
+      stress = trial;
+    else
+      stress << s[a] * m_a + s[b] * m_b, s[z];
+    if (tangent == nullptr)
+      return mode;
+    // Shear turns the directions: (s_a - s_b)/(e_a - e_b).
+    const double apart = at.value[a] - at.value[b];
+    const double shear =
+      apart > 1e-12 * (std::abs(at.value[a]) + std::abs(at.value[b]))
+        ? elasticity().two_G * (s[a] - s[b]) / apart
+        : C(a, a) - C(a, b);
+    SpatialMandelMatrix directions              = SpatialMandelMatrix::Zero();
+    directions.block<3, 1>(0, 0)                = m_a;
+    directions.block<3, 1>(0, 1)                = m_b;
+    directions.block<3, 1>(0, 2)                = m_ab;
+    directions(3, 3)                            = 1.;
+    SpatialMandelMatrix               along     = SpatialMandelMatrix::Zero();
+    const std::array<unsigned int, 3> principal = {{a, b, z}},
+                                      row       = {{0, 1, 3}};
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        along(row[i], row[j]) = C(principal[i], principal[j]);
+    along(2, 2) = shear;
+    *tangent    = directions * (along * directions.transpose());
+    return mode;
+  }
+} // namespace geocone

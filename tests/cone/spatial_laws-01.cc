@@ -1,0 +1,196 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// If this failed, laws of all principal stresses would leave their strength, return to
+// another point than the law says, or give Newton's method another matrix than their
+// derivative. Associated laws return to the point of their strength that is nearest in
+// elastic energy: (s* - s):S(t - s) <= 0 for the trial stress t and all admissible s*.
+// Drucker-Prager's law, associated or not, has the natural map of its cone. In plane
+// strain Drucker-Prager matched to it flows at the strength of the plane cone.
+
+#include <geocone/materials/material_library.h>
+#include <geocone/materials/second_order_cone.h>
+
+#include <array>
+#include <memory>
+#include <sstream>
+
+#include "cone_tests.h"
+
+using namespace cone_tests;
+using namespace geocone;
+
+using V = SpatialMandel;
+using M = SpatialMandelMatrix;
+
+struct Answer
+{
+  V    stress;
+  M    tangent;
+  Mode mode;
+};
+
+struct Law
+{
+  std::unique_ptr<ConstitutiveLaw> owner;
+  const Material                  *law;
+
+  Law(const std::string &type, const std::string &parameters)
+  {
+    dealii::ParameterAcceptor::clear();
+    owner = make_material(type, "Materials/soil");
+    dealii::ParameterAcceptor::declare_all_parameters();
+    dealii::ParameterAcceptor::prm.parse_input_from_string(
+      "subsection Materials\nsubsection soil\nset Young modulus = 100\n"
+      "set Poisson ratio = 0.2\n" +
+      parameters + "end\nend\n");
+    dealii::ParameterAcceptor::parse_all_parameters();
+    owner->prepare();
+    law = dynamic_cast<const Material *>(owner.get());
+  }
+
+  /** From the stress 0, where the strain increment is that of a trial stress. */
+  Answer
+  operator()(const V &trial) const
+  {
+    const V             e        = law->elasticity().strain(trial);
+    const Mandel        in_plane = e.head<3>(), none = Mandel::Zero();
+    const double        zz = e[3];
+    std::vector<double> history_n(law->n_history(), 0.), history = history_n;
+    Increment           increment;
+    increment.strain    = dealii::ArrayView<const Mandel>(&in_plane, 1);
+    increment.stress_n  = dealii::ArrayView<const Mandel>(&none, 1);
+    increment.history_n = history_n.data();
+    increment.n_history = history_n.size();
+    increment.strain_zz = &zz;
+    Mandel            stress;
+    MandelMatrix      tangent;
+    OutOfPlaneTangent out;
+    double            stress_zz;
+    Answer            answer;
+    Response          response;
+    response.stress     = dealii::ArrayView<Mandel>(&stress, 1);
+    response.mode       = dealii::ArrayView<Mode>(&answer.mode, 1);
+    response.tangent    = dealii::ArrayView<MandelMatrix>(&tangent, 1);
+    response.history    = history.data();
+    response.stress_zz  = &stress_zz;
+    response.tangent_zz = &out;
+    law->update(increment, response);
+    answer.stress << stress, stress_zz;
+    answer.tangent.topLeftCorner<3, 3>()    = tangent;
+    answer.tangent.topRightCorner<3, 1>()   = out.by_zz;
+    answer.tangent.bottomLeftCorner<1, 3>() = out.of_zz.transpose();
+    answer.tangent(3, 3)                    = out.zz;
+    return answer;
+  }
+};
+
+void
+check(const std::string &type,
+      const std::string &parameters,
+      const bool         associated)
+{
+  const Law        law(type, parameters);
+  const Elasticity elastic = law.law->elasticity();
+  Random           random;
+  Largest          beyond, nearer, differences, natural;
+  unsigned int     counts[3] = {};
+  std::vector<V>   admissible;
+  for (unsigned int i = 0; i < 400; ++i)
+    {
+      V trial = random.vector<V>(6.);
+      if (i % 3 == 0) // beyond the apex
+        trial += V(12., 12., 0., 12.);
+      const Answer answer = law(trial);
+      ++counts[static_cast<int>(answer.mode)];
+      beyond.add(*law.law->yield_function(answer.stress));
+      admissible.push_back(answer.stress);
+      if (answer.mode == Mode::elastic)
+        beyond.add((answer.stress - trial).norm());
+      const V z = elastic.strain(V(answer.stress - trial));
+      if (const auto cone = law.law->spatial_cone(V::Zero(), {}))
+        {
+          const V x = spatial_axes() * answer.stress, y = spatial_axes() * z;
+          natural.add(
+            natural_map(*cone, x, V(cone->psi(y)), elastic.two_G).norm());
+        }
+      if (associated)
+        for (const V &other : admissible)
+          nearer.add(-(other - answer.stress).dot(z));
+      // Differences where no edge is near.
+      M    slopes;
+      bool smooth = true;
+      for (int j = 0; j < 4; ++j)
+        {
+          V step             = V::Zero();
+          step[j]            = 1e-5;
+          const Answer plus  = law(trial + elastic.stress(step)),
+                       minus = law(trial - elastic.stress(step));
+          const V curved =
+            plus.stress + minus.stress - 2. * answer.stress; // 0 where smooth
+          smooth = smooth && curved.norm() < 1e-6 && plus.mode == minus.mode;
+          slopes.col(j) = (plus.stress - minus.stress) / 2e-5;
+        }
+      if (smooth)
+        differences.add((slopes - answer.tangent).norm() / 100.);
+    }
+  std::cout << type << (associated ? ", associated" : "") << ": all modes "
+            << (counts[0] > 10 && counts[1] > 10 &&
+                    (counts[2] > 10 ||
+                     parameters.find("angle") == std::string::npos)
+                  ? "met"
+                  : "not met")
+            << std::endl;
+  print_below("beyond the strength", beyond, "1e-12");
+  if (associated)
+    print_below("nearer admissible stresses", nearer, "1e-12");
+  if (law.law->spatial_cone(V::Zero(), {}))
+    print_below("natural map", natural, "1e-12");
+  print_below("tangent against differences", differences, "1e-5");
+}
+
+/** Shear of plane strain until the stress stands, under a mean stress that is held. */
+void
+check_match()
+{
+  const double c = 2., phi = 25.;
+  const Law    law("Drucker-Prager",
+                "set Cohesion = 2\nset Friction angle = 25\n"
+                   "set Dilatancy angle = 25\nset Match = plane strain\n");
+  // Associated flow dilates: the volume is let go so that the mean stress stays.
+  V            stress = V::Zero();
+  const double K      = law.law->elasticity().normal_stiffness();
+  for (unsigned int step = 0; step < 4000; ++step)
+    {
+      V e;
+      e << 0., 0., 0.01, 0.;
+      for (unsigned int k = 0; k < 20; ++k)
+        {
+          const V now = law(stress + law.law->elasticity().stress(e)).stress;
+          e.head<2>().array() += (-5. - (now[0] + now[1]) / 2.) / K;
+        }
+      stress = law(stress + law.law->elasticity().stress(e)).stress;
+    }
+  const double strength =
+    sqrt2 * (5. * std::sin(radians(phi)) + c * std::cos(radians(phi)));
+  print("Drucker-Prager flows in plane strain at Mohr-Coulomb's strength",
+        std::abs(to_cone_axes(Mandel(stress.head<3>())).tail<2>().norm() /
+                   strength -
+                 1.) < 1e-6);
+}
+
+int
+main()
+{
+  const std::string c = "set Cohesion = 2\n", phi = "set Friction angle = 30\n",
+                    same    = "set Dilatancy angle = 30\n",
+                    without = "set Dilatancy angle = 5\n";
+  check("spatial Tresca", c, true);
+  check("spatial Mohr-Coulomb", c + phi + same, true);
+  check("spatial Mohr-Coulomb", c + phi + without, false);
+  check("von Mises", c, true);
+  check("Drucker-Prager", c + phi + same, true);
+  check("Drucker-Prager", c + phi + without + "set Match = outer\n", false);
+  check("Drucker-Prager", c + phi + same + "set Match = inner\n", true);
+  check_match();
+}
