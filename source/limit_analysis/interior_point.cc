@@ -214,6 +214,23 @@ namespace geocone
       void
       direction(const Points &d);
 
+      /**
+       * Gondzio's corrector (1996): with longer steps than the direction allows, points
+       * would leave the neighbourhood of the central path; a direction whose right-hand
+       * side moves them back may be taken farther. It costs a solution, no
+       * factorisation.
+       * @param l the scaled point @param target centre times mu
+       * @param[in,out] d the right-hand side @param[in,out] steps
+       * @return whether the direction was changed
+       */
+      template <typename LargestSteps>
+      bool
+      correct(const Points          &l,
+              const double           target,
+              Points                &d,
+              std::array<double, 2> &steps,
+              const LargestSteps    &largest_steps);
+
       /** Repairs equilibrium in the metric of the cones, in which x hardly moves
        *  across their borders; until what is missed no longer falls. */
       void
@@ -386,6 +403,58 @@ namespace geocone
           else
             dx[p] = r_c[p] - scaling[p].square * dz[p];
         }
+    }
+
+    template <typename LargestSteps>
+    bool
+    Solver::correct(const Points          &l,
+                    const double           target,
+                    Points                &d,
+                    std::array<double, 2> &steps,
+                    const LargestSteps    &largest_steps)
+    {
+      constexpr double longer = 0.1, near = 0.1, gained = 0.01;
+      if (std::min(steps[0], steps[1]) > 0.5)
+        return false;
+      const double t_x = std::min(1., steps[0] + longer),
+                   t_z = std::min(1., steps[1] + longer);
+      Points d_new     = d;
+      for (unsigned int p = 0; p < n; ++p)
+        {
+          const Vector3d v = product(l[p] + t_x * (scaling[p].inverse * dx[p]),
+                                     l[p] + t_z * (scaling[p].W * dz[p]));
+          const double   T = v.tail<2>().norm();
+          // Its eigenvalues, moved to the neighbourhood of the target.
+          const auto moved = [&](const double x) {
+            return std::max(std::clamp(x, near * target, target / near) - x,
+                            -target / near);
+          };
+          const double a = moved(v[0] + T), b = moved(v[0] - T);
+          if (a == 0. && b == 0.)
+            continue;
+          Vector3d w = Vector3d::Zero();
+          w[0]       = (a + b) / 2.;
+          if (T > 0.)
+            w.tail<2>() = (a - b) / (2. * T) * v.tail<2>();
+          d_new[p] += divide(l[p], w);
+        }
+      const Points   dx_old = dx, dz_old = dz;
+      const VectorXd dq_old = dq, ds_old = ds_n;
+      const double   d_lambda_old = d_lambda;
+      direction(d_new);
+      const auto next = largest_steps();
+      if (std::min(next[0], next[1]) < std::min(steps[0], steps[1]) + gained)
+        {
+          dx       = dx_old;
+          dz       = dz_old;
+          dq       = dq_old;
+          ds_n     = ds_old;
+          d_lambda = d_lambda_old;
+          return false;
+        }
+      d     = d_new;
+      steps = next;
+      return true;
     }
 
     void
@@ -598,7 +667,10 @@ namespace geocone
               d[p] = -l[p] + divide(l[p], c);
             }
           direction(d);
-          steps            = largest_steps();
+          steps = largest_steps();
+          for (unsigned int k = 0; k < options.correctors; ++k)
+            if (!correct(l, centre * mu, d, steps, largest_steps))
+              break;
           const double b_x = std::min(1., 0.99 * steps[0]),
                        b_z = std::min(1., 0.99 * steps[1]);
           last_step        = std::min(b_x, b_z);

@@ -372,6 +372,8 @@ namespace geocone
     Motion worst;
     for (const StepRecord &record : records)
       worst.take_worse(record.last.motion);
+    const dealii::Point<dim> front =
+      records.empty() ? worst.front : records.back().last.motion.front;
     // Steps whose load is more than 5 % below those before and after, while what
     // presses moves on.
     unsigned int n_drops = 0;
@@ -388,8 +390,8 @@ namespace geocone
       {"points_behind", worst.points_behind},
       {"empty_functions", worst.light_functions},
       {"light_share_max", worst.light_share},
-      {"front_x_m", worst.front[0]},
-      {"front_y_m", worst.front[1]},
+      {"front_x_m", front[0]},
+      {"front_y_m", front[1]},
       {unit("ghost_work_J_per_m"), ghost_work},
       {"ghost_work_relative", work > 0. ? Json(ghost_work / work) : Json()}};
   }

@@ -58,6 +58,8 @@ namespace geocone
       /** What stresses are to be in their cones by, as if k were so much less: what
        *  cannot be scaled back into them is then in them soon. */
       double strength_margin = 0.;
+
+      unsigned int correctors = 2; ///< at most, of an iteration
     };
 
     static BoundSolution

@@ -68,14 +68,12 @@ namespace geocone
     unsigned int points_behind   = 0;  ///< see MovingConditions::n_behind()
     double       light_share     = 0.; ///< see Multipliers::light_share()
 
-    /** The largest coordinates of points, at the end (m). */
+    /** The largest coordinates of points at the end (m). */
     dealii::Point<dim> front;
 
-    /** Of two steps, @p other the later one. */
     void
     take_worse(const Motion &other)
     {
-      front           = other.front;
       light_functions = std::max(light_functions, other.light_functions);
       points_behind   = std::max(points_behind, other.points_behind);
       light_share     = std::max(light_share, other.light_share);
