@@ -125,7 +125,8 @@ def disks(axes, field, values):
     its size is that of the point, as far as is known."""
     points = field.points
     if "volume" in field.data:
-        size = 1.2 * np.sqrt(field.data["volume"][:, 0])
+        area = field.data.get("area", field.data["volume"])  # of a round body
+        size = 1.2 * np.sqrt(area[:, 0])
         # Points that fly may have grown without limit.
         size = np.minimum(size, np.quantile(size, 0.98))
     else:

@@ -17,7 +17,8 @@ namespace geocone
   std::string
   ConstitutiveLaw::parameter(const std::string &name) const
   {
-    return get_section_name().substr(1) + "/" + name;
+    const std::string section = get_section_name().substr(1);
+    return name.empty() ? section : section + "/" + name;
   }
 
   void

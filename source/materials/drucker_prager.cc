@@ -16,14 +16,7 @@ namespace geocone
   DruckerPrager::DruckerPrager(const std::string &section)
     : SpatialLaw(section)
   {
-    add_parameter(
-      "Cohesion", strength_given.c, "c (Pa), >= 0; > 0 where phi = 0.");
-    add_parameter(
-      "Friction angle", strength_given.phi, "phi (degrees), 0 <= phi < 90.");
-    add_parameter("Dilatancy angle",
-                  strength_given.theta,
-                  "theta (degrees), 0 <= theta <= phi. theta = phi is "
-                  "associated flow.");
+    strength_given.declare(*this);
     match.declare(*this,
                   "Match",
                   " of the cone and Mohr-Coulomb's pyramid: where both are "
@@ -36,16 +29,16 @@ namespace geocone
                                const WithoutFriction &)
     : SpatialLaw(section)
   {
-    strength_given.phi = strength_given.theta = 0.;
-    add_parameter(
-      "Cohesion", strength_given.c, "Strength c (Pa) in pure shear, > 0.");
+    strength_given = FrictionalStrength::without_friction();
+    strength_given.declare_cohesion(*this,
+                                    "Strength c (Pa) in pure shear, > 0.");
   }
 
   void
   DruckerPrager::prepare()
   {
     SpatialLaw::prepare();
-    strength_given.check(parameter("").substr(0, parameter("").size() - 1));
+    strength_given.check(parameter());
     cone = cone_of(strength_given);
   }
 

@@ -16,12 +16,7 @@ namespace geocone
   MohrCoulomb::MohrCoulomb(const std::string &section)
     : Material(section)
   {
-    add_parameter("Cohesion", c, "c (Pa), >= 0; > 0 where phi = 0.");
-    add_parameter("Friction angle", phi, "phi (degrees), 0 <= phi < 90.");
-    add_parameter("Dilatancy angle",
-                  theta,
-                  "theta (degrees), 0 <= theta <= phi. theta = phi is "
-                  "associated flow.");
+    given.declare(*this);
     add_parameter("Friction memory",
                   memory_text,
                   "Time (s) in which the strength follows the normal stress, "
@@ -36,39 +31,17 @@ namespace geocone
 
   MohrCoulomb::MohrCoulomb(const std::string &section, const WithoutFriction &)
     : Material(section)
-    , phi(0.)
-    , theta(0.)
+    , given(FrictionalStrength::without_friction())
     , memory_text("0")
   {
-    add_parameter("Cohesion", c, "Undrained shear strength c (Pa), > 0.");
+    given.declare_cohesion(*this, "Undrained shear strength c (Pa), > 0.");
   }
 
   void
   MohrCoulomb::prepare()
   {
     Material::prepare();
-    if (!(phi >= 0. && phi < 90.))
-      throw InputError(parameter("Friction angle"),
-                       phi,
-                       "0 <= phi < 90 degrees",
-                       "give the angle in degrees; soils have 0 to 45");
-    if (!(theta >= 0. && theta <= phi))
-      throw InputError(
-        parameter("Dilatancy angle"),
-        theta,
-        "0 <= theta <= phi = " + std::to_string(phi).substr(0, 6) + " degrees",
-        "theta = phi is associated flow, theta = 0 flow without "
-        "dilatancy; more dilatancy than friction would create "
-        "energy");
-    if (!(c >= 0.))
-      throw InputError(
-        parameter("Cohesion"), c, "c >= 0 Pa", "give the cohesion in Pa");
-    if (c == 0. && phi == 0.)
-      throw InputError(parameter("Cohesion"),
-                       c,
-                       "c > 0 Pa where phi = 0",
-                       "a material without cohesion and friction has no "
-                       "strength at all: give it one of them");
+    given.check(parameter());
     set_cone(1.);
     prepare_memory();
   }
@@ -76,11 +49,8 @@ namespace geocone
   void
   MohrCoulomb::set_cone(const double F)
   {
-    // For F = 1 to the last digit what the file says.
-    const double angle = F == 1. ? phi
-                                 : std::atan(std::tan(radians(phi)) / F) *
-                                     180. / dealii::numbers::PI;
-    cone               = cone_of(c / F, angle, theta == phi ? angle : theta);
+    const FrictionalStrength now = given.reduced(F);
+    cone                         = cone_of(now.c, now.phi, now.theta);
   }
 
   FlowCone

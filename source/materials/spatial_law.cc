@@ -1,10 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/base/exceptions.h>
 #include <geocone/materials/spatial_law.h>
-
-#include <cmath>
 
 namespace geocone
 {
@@ -81,40 +78,5 @@ namespace geocone
   SpatialLaw::overstress(const Mandel &stress, const double *history) const
   {
     return yield_function(whole_stress(stress, history));
-  }
-
-  void
-  FrictionalStrength::check(const std::string &section) const
-  {
-    if (!(phi >= 0. && phi < 90.))
-      throw InputError(section + "/Friction angle",
-                       phi,
-                       "0 <= phi < 90 degrees",
-                       "give the angle in degrees; soils have 0 to 45");
-    if (!(theta >= 0. && theta <= phi))
-      throw InputError(section + "/Dilatancy angle",
-                       theta,
-                       "0 <= theta <= phi, the friction angle",
-                       "theta = phi is associated flow, theta = 0 flow without "
-                       "dilatancy; more dilatancy than friction would create "
-                       "energy");
-    if (!(c >= 0.))
-      throw InputError(
-        section + "/Cohesion", c, "c >= 0 Pa", "give the cohesion in Pa");
-    if (c == 0. && phi == 0.)
-      throw InputError(section + "/Cohesion",
-                       c,
-                       "c > 0 Pa where phi = 0",
-                       "a material without cohesion and friction has no "
-                       "strength at all: give it one of them");
-  }
-
-  FrictionalStrength
-  FrictionalStrength::reduced(const double F) const
-  {
-    if (F == 1.)
-      return *this;
-    const double angle = std::atan(std::tan(radians(phi)) / F) * (180. / pi);
-    return {c / F, angle, theta == phi ? angle : std::min(theta, angle)};
   }
 } // namespace geocone

@@ -50,30 +50,23 @@ namespace geocone
   SpatialMohrCoulomb::SpatialMohrCoulomb(const std::string &section)
     : SpatialLaw(section)
   {
-    add_parameter(
-      "Cohesion", strength_given.c, "c (Pa), >= 0; > 0 where phi = 0.");
-    add_parameter(
-      "Friction angle", strength_given.phi, "phi (degrees), 0 <= phi < 90.");
-    add_parameter("Dilatancy angle",
-                  strength_given.theta,
-                  "theta (degrees), 0 <= theta <= phi. theta = phi is "
-                  "associated flow.");
+    strength_given.declare(*this);
   }
 
   SpatialMohrCoulomb::SpatialMohrCoulomb(const std::string &section,
                                          const WithoutFriction &)
     : SpatialLaw(section)
   {
-    strength_given.phi = strength_given.theta = 0.;
-    add_parameter(
-      "Cohesion", strength_given.c, "Undrained shear strength c (Pa), > 0.");
+    strength_given = FrictionalStrength::without_friction();
+    strength_given.declare_cohesion(*this,
+                                    "Undrained shear strength c (Pa), > 0.");
   }
 
   void
   SpatialMohrCoulomb::prepare()
   {
     SpatialLaw::prepare();
-    strength_given.check(parameter("").substr(0, parameter("").size() - 1));
+    strength_given.check(parameter());
     set_strength(1.);
   }
 

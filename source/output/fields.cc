@@ -171,6 +171,10 @@ namespace geocone
       }
     add("material", [&](const std::size_t p) { return points.material[p]; });
     add("volume", [&](const std::size_t p) { return points.weight[p]; });
+    if (mesh.is_axisymmetric()) // what a point is in the plane of the pictures
+      add("area", [&](const std::size_t p) {
+        return points.weight[p] / mesh.measure(points.position[p]);
+      });
     const auto add_tensor = [&](const std::string         &name,
                                 const std::vector<Mandel> &values) {
       add(name + "_xx", [&](const std::size_t p) { return values[p][0]; });

@@ -3,7 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
-#include <geocone/materials/mohr_coulomb.h>
+#include <geocone/materials/material_library.h>
 #include <geocone/scene/observation.h>
 
 #include <cmath>
@@ -152,11 +152,10 @@ namespace geocone
     for (unsigned int i = 0; i < materials.size(); ++i)
       if (materials.name(i) == material || (material.empty() && i == 0))
         index = i;
-    const auto *law =
-      index < materials.size()
-        ? dynamic_cast<const MohrCoulomb *>(&materials.law(index))
-        : nullptr;
-    if (law == nullptr)
+    const auto law = index < materials.size()
+                       ? materials.law(index).plane_strain_strength()
+                       : std::nullopt;
+    if (!law)
       throw InputError("Observation/Reference material",
                        material,
                        "the name of a Mohr-Coulomb or Tresca material",
@@ -171,9 +170,9 @@ namespace geocone
                        surcharge,
                        ">= 0 Pa, finite",
                        "give the pressure beside the footing");
-    const double phi = law->friction_angle();
+    const double phi = law->phi;
     // Weight adds to the load of a soil with friction, and to none other.
-    if (phi > 0. && law->density() > 0. && gravity.acts())
+    if (phi > 0. && materials.law(index).density() > 0. && gravity.acts())
       throw InputError(
         "Observation/Reference",
         value,
@@ -181,9 +180,8 @@ namespace geocone
         "friction: Prandtl's load is that of weightless soil",
         "set Reference = none or give the load of the soil with "
         "its weight, or set Gravity/Acceleration = 0, 0");
-    const double load =
-      width * (law->cohesion() * bearing_capacity_factor_c(phi) +
-               surcharge * bearing_capacity_factor_q(phi));
+    const double load = width * (law->c * bearing_capacity_factor_c(phi) +
+                                 surcharge * bearing_capacity_factor_q(phi));
     if (!(load > 0. && std::isfinite(load)))
       throw InputError("Observation/Reference",
                        value,

@@ -74,6 +74,10 @@ namespace geocone
                            "conditions/Names'",
                            "both can be observed by name: rename one of them");
     observation.prepare(supports(), materials, gravity);
+    if (observation.reference_name == "Prandtl")
+      geometry.refuse_axis("'Observation/Reference' = Prandtl",
+                           "it is the load of a strip; set it to none or to "
+                           "the load of the round footing (N)");
   }
 
   std::vector<std::string>

@@ -5,11 +5,13 @@
 #define geocone_materials_constitutive_law_h
 
 #include <geocone/base/types.h>
+#include <geocone/materials/frictional_strength.h>
 #include <geocone/materials/point_block.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,6 +53,13 @@ namespace geocone
     earth_pressure_at_rest() const
     {
       return 1.;
+    }
+
+    /** What Prandtl's load is that of in plane strain, of laws that have one. */
+    virtual std::optional<FrictionalStrength>
+    plane_strain_strength() const
+    {
+      return std::nullopt;
     }
 
     /** @name Explicit steps */
@@ -114,9 +123,9 @@ namespace geocone
     /** @} */
 
   protected:
-    /** "Materials/soil/NAME", for messages. */
+    /** "Materials/soil/NAME", for messages; without a name, of the section. */
     std::string
-    parameter(const std::string &name) const;
+    parameter(const std::string &name = "") const;
 
   private:
     double rho = 2000.;

@@ -5,6 +5,7 @@
 #define geocone_materials_drucker_prager_h
 
 #include <geocone/base/choice.h>
+#include <geocone/materials/frictional_strength.h>
 #include <geocone/materials/second_order_cone.h>
 #include <geocone/materials/spatial_law.h>
 
@@ -40,6 +41,13 @@ namespace geocone
 
     double
     earth_pressure_at_rest() const override;
+
+    std::optional<FrictionalStrength>
+    plane_strain_strength() const override
+    {
+      return match == Match::plane_strain ? std::optional(strength_given)
+                                          : std::nullopt;
+    }
 
     double
     non_associativity() const override

@@ -4,6 +4,7 @@
 #ifndef geocone_materials_mohr_coulomb_h
 #define geocone_materials_mohr_coulomb_h
 
+#include <geocone/materials/frictional_strength.h>
 #include <geocone/materials/material.h>
 
 namespace geocone
@@ -84,24 +85,30 @@ namespace geocone
     void
     reduce_strength(const double F) override;
 
+    std::optional<FrictionalStrength>
+    plane_strain_strength() const override
+    {
+      return given;
+    }
+
     double
     cohesion() const
     {
-      return c;
+      return given.c;
     }
 
     /** Friction angle (degrees). */
     double
     friction_angle() const
     {
-      return phi;
+      return given.phi;
     }
 
     /** Dilatancy angle (degrees). */
     double
     dilatancy_angle() const
     {
-      return theta;
+      return given.theta;
     }
 
   protected:
@@ -139,10 +146,8 @@ namespace geocone
     MohrCoulomb(const std::string &section, const WithoutFriction &);
 
   private:
-    double   c     = 2000.;
-    double   phi   = 25.;
-    double   theta = 25.;
-    FlowCone cone;
+    FrictionalStrength given;
+    FlowCone           cone;
 
     /** Place of p in the history, if tau > 0. */
     static constexpr unsigned int memory      = 1;

@@ -53,22 +53,6 @@ namespace geocone
     SpatialMandel
     whole_stress(const Mandel &in_plane, const double *history) const;
   };
-
-  /** The friction and the dilatancy of a law, and what is read and checked of them. */
-  struct FrictionalStrength
-  {
-    double c     = 2000.;
-    double phi   = 25.; ///< (degrees)
-    double theta = 25.; ///< (degrees)
-
-    /** @throws InputError @param section of the law */
-    void
-    check(const std::string &section) const;
-
-    /** c and tan(phi) divided by F, theta at most the reduced phi. */
-    FrictionalStrength
-    reduced(const double F) const;
-  };
 } // namespace geocone
 
 #endif

@@ -4,6 +4,7 @@
 #ifndef geocone_materials_spatial_mohr_coulomb_h
 #define geocone_materials_spatial_mohr_coulomb_h
 
+#include <geocone/materials/frictional_strength.h>
 #include <geocone/materials/spatial_law.h>
 
 #include <Eigen/Dense>
@@ -38,6 +39,12 @@ namespace geocone
 
     double
     earth_pressure_at_rest() const override;
+
+    std::optional<FrictionalStrength>
+    plane_strain_strength() const override
+    {
+      return strength_given;
+    }
 
     /** (sin(phi) - sin(theta))/sin(phi) */
     double

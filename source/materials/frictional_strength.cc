@@ -1,0 +1,66 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/types.h>
+#include <geocone/materials/frictional_strength.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace geocone
+{
+  void
+  FrictionalStrength::declare(dealii::ParameterAcceptor &law)
+  {
+    declare_cohesion(law, "c (Pa), >= 0; > 0 where phi = 0.");
+    law.add_parameter("Friction angle", phi, "phi (degrees), 0 <= phi < 90.");
+    law.add_parameter("Dilatancy angle",
+                      theta,
+                      "theta (degrees), 0 <= theta <= phi. theta = phi is "
+                      "associated flow.");
+  }
+
+  void
+  FrictionalStrength::declare_cohesion(dealii::ParameterAcceptor &law,
+                                       const std::string         &documentation)
+  {
+    law.add_parameter("Cohesion", c, documentation);
+  }
+
+  void
+  FrictionalStrength::check(const std::string &section) const
+  {
+    if (!(phi >= 0. && phi < 90.))
+      throw InputError(section + "/Friction angle",
+                       phi,
+                       "0 <= phi < 90 degrees",
+                       "give the angle in degrees; soils have 0 to 45");
+    if (!(theta >= 0. && theta <= phi))
+      throw InputError(
+        section + "/Dilatancy angle",
+        theta,
+        "0 <= theta <= phi = " + std::to_string(phi).substr(0, 6) + " degrees",
+        "theta = phi is associated flow, theta = 0 flow without "
+        "dilatancy; more dilatancy than friction would create "
+        "energy");
+    if (!(c >= 0.))
+      throw InputError(
+        section + "/Cohesion", c, "c >= 0 Pa", "give the cohesion in Pa");
+    if (c == 0. && phi == 0.)
+      throw InputError(section + "/Cohesion",
+                       c,
+                       "c > 0 Pa where phi = 0",
+                       "a material without cohesion and friction has no "
+                       "strength at all: give it one of them");
+  }
+
+  FrictionalStrength
+  FrictionalStrength::reduced(const double F) const
+  {
+    if (F == 1.)
+      return *this;
+    const double angle = std::atan(std::tan(radians(phi)) / F) * 180. / pi;
+    return {c / F, angle, theta == phi ? angle : std::min(theta, angle)};
+  }
+} // namespace geocone
