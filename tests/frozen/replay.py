@@ -22,10 +22,11 @@ import h5py
 HERE = pathlib.Path(__file__).resolve().parent
 
 # Problems that default options do not solve with the exact law, and those where
-# rounding decides.
+# rounding decides: fem_huge_step_theta0 takes 35 to 45 iterations of the natural map
+# where rho changes by 1e-9 of itself, and may have 40.
 UNSOLVED = {"mpm_slope_huge_theta0"}
 EITHER = {"fem_unload_theta0", "fem_failed_blend_theta0", "fem_failed_lag_theta0",
-          "mpm_failed_lag_theta0"}
+          "fem_huge_step_theta0", "mpm_failed_lag_theta0"}
 
 # With a memory of four steps: steps that a run cuts. Not more than these.
 CUT = {"fem_failed_lag_theta0", "fem_huge_step_theta0", "fem_unload_theta0",

@@ -12,7 +12,7 @@ run --output a --set 'Material point method/Transfer = APIC' \
 grep -q '^warning: set, but not used by this run: ' err
 for name in 'Material point method/Transfer (needs Discretisation/Method = MPM or explicit MPM)' \
   'Explicit/Courant number (needs Discretisation/Method = explicit MPM)' \
-  'Materials/soil/Friction angle (needs Type = Mohr-Coulomb or hardening Mohr-Coulomb)'; do
+  'Materials/soil/Friction angle (needs Type = Mohr-Coulomb or hardening Mohr-Coulomb or spatial Mohr-Coulomb or Drucker-Prager)'; do
   grep -qF "$name" err || { cat err; exit 1; }
 done
 /usr/bin/python3 - <<'PYTHON'
