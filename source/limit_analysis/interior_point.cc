@@ -3,6 +3,7 @@
 
 #include <geocone/base/log.h>
 #include <geocone/limit_analysis/cell_matrix.h>
+#include <geocone/limit_analysis/cone_algebra.h>
 #include <geocone/limit_analysis/interior_point.h>
 
 #include <algorithm>
@@ -18,6 +19,7 @@ namespace geocone
     using Eigen::Vector3d;
     using Eigen::VectorXd;
     using Points = std::vector<Vector3d>;
+    using namespace cone_algebra;
 
     /** Stiffness of the method of multipliers for Tresca's normal stress, where
      *  strength, lengths and velocities are of order one. */
@@ -25,114 +27,6 @@ namespace geocone
 
     /** A load below all others: of stresses that prove none. */
     constexpr double nothing = -std::numeric_limits<double>::infinity();
-
-    double
-    root_of_determinant(const Vector3d &x)
-    {
-      const double t = x.tail<2>().norm();
-      return std::sqrt(std::max((x[0] - t) * (x[0] + t), 0.));
-    }
-
-    /** The Jordan product. */
-    Vector3d
-    product(const Vector3d &u, const Vector3d &v)
-    {
-      Vector3d p;
-      p[0]        = u.dot(v);
-      p.tail<2>() = u[0] * v.tail<2>() + v[0] * u.tail<2>();
-      return p;
-    }
-
-    /** y with product(l, y) = d. */
-    Vector3d
-    divide(const Vector3d &l, const Vector3d &d)
-    {
-      const double t = l.tail<2>().norm();
-      Vector3d     y;
-      y[0] = (l[0] * d[0] - l.tail<2>().dot(d.tail<2>())) /
-             ((l[0] - t) * (l[0] + t));
-      y.tail<2>() = (d.tail<2>() - y[0] * l.tail<2>()) / l[0];
-      return y;
-    }
-
-    /** The largest step with l + step d in the cone, at most 1/0.99. */
-    double
-    step_in_cone(const Vector3d &l, const Vector3d &d)
-    {
-      // |l_t + a d_t|^2 = (l_0 + a d_0)^2: the smallest positive root.
-      const double A = d[0] * d[0] - d.tail<2>().squaredNorm(),
-                   B = l[0] * d[0] - l.tail<2>().dot(d.tail<2>()),
-                   t = l.tail<2>().norm(), C = (l[0] - t) * (l[0] + t);
-      double step = 1. / 0.99;
-      if (d[0] < 0.)
-        step = std::min(step, -l[0] / d[0]);
-      const double discriminant = B * B - A * C;
-      if (discriminant >= 0.)
-        {
-          // A a^2 + 2 B a + C = 0, without cancellation.
-          const double r = -(B + std::copysign(std::sqrt(discriminant), B));
-          for (const double root :
-               {A != 0. ? r / A : -1., r != 0. ? C / r : -1.})
-            if (root > 0.)
-              step = std::min(step, root);
-        }
-      return step;
-    }
-
-    /** Nesterov's and Todd's scaling of a point: W z = W^-1 x. */
-    struct Scaling
-    {
-      double   eta2;
-      Vector3d w;
-      Matrix3d W, inverse, square;
-
-      Scaling(const Vector3d &x, const Vector3d &z)
-      {
-        const double   dx = root_of_determinant(x), dz = root_of_determinant(z);
-        const Vector3d u = x / dx, v = z / dz;
-        const double   gamma = std::sqrt((1. + u.dot(v)) / 2.);
-        w                    = u + v;
-        w.tail<2>()          = u.tail<2>() - v.tail<2>();
-        w /= 2. * gamma;
-        w[0]             = std::sqrt(1. + w.tail<2>().squaredNorm());
-        eta2             = dx / dz;
-        const double eta = std::sqrt(eta2);
-        Matrix3d     S;
-        S(0, 0)             = w[0];
-        S.block<1, 2>(0, 1) = w.tail<2>().transpose();
-        S.block<2, 1>(1, 0) = w.tail<2>();
-        S.block<2, 2>(1, 1) =
-          Eigen::Matrix2d::Identity() +
-          w.tail<2>() * w.tail<2>().transpose() / (1. + w[0]);
-        W = eta * S;
-        S.block<1, 2>(0, 1) *= -1.;
-        S.block<2, 1>(1, 0) *= -1.;
-        inverse = S / eta;
-        square  = 2. * w * w.transpose();
-        square(0, 0) -= 1.;
-        square(1, 1) += 1.;
-        square(2, 2) += 1.;
-        square *= eta2;
-      }
-
-      /** @name Of a cylinder, whose x_0 does not change */
-      /** @{ */
-      Eigen::Matrix2d
-      tangential() const
-      {
-        return eta2 * (Eigen::Matrix2d::Identity() -
-                       2. * w.tail<2>() * w.tail<2>().transpose() /
-                         (1. + 2. * w.tail<2>().squaredNorm()));
-      }
-      Vector2d
-      eliminated(const Vector3d &r) const
-      {
-        return r.tail<2>() - 2. * w[0] * r[0] /
-                               (1. + 2. * w.tail<2>().squaredNorm()) *
-                               w.tail<2>();
-      }
-      /** @} */
-    };
 
     class Solver
     {
@@ -210,26 +104,45 @@ namespace geocone
       void
       evaluate();
 
-      /** A Newton direction for W^-1 dx + W dz = d. */
-      void
-      direction(const Points &d);
+      /** A direction of the iterate, and the largest steps of x and z along it. */
+      struct Direction
+      {
+        Points                x, z;
+        VectorXd              s_n, q;
+        double                lambda = 0.;
+        std::array<double, 2> steps;
+
+        double
+        shorter() const
+        {
+          return std::min(steps[0], steps[1]);
+        }
+      };
+
+      /** Newton's direction for W^-1 dx + W dz = d. */
+      Direction
+      direction(const Points &d) const;
+
+      /** Scales the iterate. @return whether the matrix of the directions could be
+       *  factorised */
+      bool
+      factorise();
+
+      /** Mehrotra's direction (1992), with correctors. */
+      Direction
+      centred_direction();
 
       /**
        * Gondzio's corrector (1996): with longer steps than the direction allows, points
        * would leave the neighbourhood of the central path; a direction whose right-hand
        * side moves them back may be taken farther. It costs a solution, no
        * factorisation.
-       * @param l the scaled point @param target centre times mu
-       * @param[in,out] d the right-hand side @param[in,out] steps
+       * @param target centre times mu
+       * @param[in,out] d the right-hand side
        * @return whether the direction was changed
        */
-      template <typename LargestSteps>
       bool
-      correct(const Points          &l,
-              const double           target,
-              Points                &d,
-              std::array<double, 2> &steps,
-              const LargestSteps    &largest_steps);
+      correct(const double target, Points &d, Direction &along) const;
 
       /** Repairs equilibrium in the metric of the cones, in which x hardly moves
        *  across their borders; until what is missed no longer falls. */
@@ -254,15 +167,17 @@ namespace geocone
       std::vector<double>                omega;
       double                             margin = 0.; ///< of the rates of cones
 
-      Points   x, z, dx, dz;
-      VectorXd s_n, ds_n, q, dq;
-      double   lambda = 0., d_lambda = 0.;
+      Points   x, z;
+      VectorXd s_n, q;
+      double   lambda = 0.;
 
       Points               rate, r_p;
       VectorXd             r_d, x_2;
       double               r_g = 0., mu = 0., gap = 0., load = 0.;
       double               equilibrium = 0., flow = 0.;
       std::vector<Scaling> scaling;
+      Points               scaled;         ///< W z = W^-1 x
+      double               last_step = 1.; ///< the shorter one
 
       Points kept; ///< stresses() of the best iterate, and what they bear
       double kept_load = 0., most_admissible = nothing;
@@ -358,10 +273,11 @@ namespace geocone
       equilibrium        = r_d.norm() / force;
     }
 
-    void
-    Solver::direction(const Points &d)
+    Solver::Direction
+    Solver::direction(const Points &d) const
     {
-      Points rhs(n), r_c(n);
+      Direction along;
+      Points    rhs(n), r_c(n);
       for (unsigned int p = 0; p < n; ++p)
         {
           r_c[p] = scaling[p].W * d[p];
@@ -375,55 +291,114 @@ namespace geocone
           else
             rhs[p] = r_c[p] + scaling[p].square * r_p[p];
         }
-      dq       = matrix.solve(-r_d - forces(rhs));
-      d_lambda = 0.;
+      along.q = matrix.solve(-r_d - forces(rhs));
       if (problem.has_factor())
         {
-          d_lambda = (r_g - problem.live.dot(dq)) / problem.live.dot(x_2);
-          dq += d_lambda * x_2;
+          along.lambda =
+            (r_g - problem.live.dot(along.q)) / problem.live.dot(x_2);
+          along.q += along.lambda * x_2;
         }
-      const Points e = rates(dq);
-      dx.resize(n);
-      dz.resize(n);
-      ds_n.setZero(n);
+      const Points e = rates(along.q);
+      along.x.resize(n);
+      along.z.resize(n);
+      along.s_n.setZero(n);
+      along.steps = {{1. / 0.99, 1. / 0.99}};
       for (unsigned int p = 0; p < n; ++p)
         {
-          dz[p] = -r_p[p] - omega[p] * e[p];
+          const Scaling &scale = scaling[p];
+          Vector3d      &dx = along.x[p], &dz = along.z[p];
+          dz = -r_p[p] - omega[p] * e[p];
           if (problem.cone[p].is_cylinder())
             {
-              const Scaling &scale = scaling[p];
-              const Vector2d dz_t  = dz[p].tail<2>();
-              dx[p][0]             = 0.;
-              dx[p].tail<2>() =
+              const Vector2d dz_t = dz.tail<2>();
+              dx[0]               = 0.;
+              dx.tail<2>() =
                 scale.eliminated(r_c[p]) - scale.tangential() * dz_t;
-              dz[p][0] = (r_c[p][0] - scale.square.block<1, 2>(0, 1) * dz_t) /
-                         scale.square(0, 0);
-              ds_n[p] = bulk * (rate[p][0] + e[p][0]);
+              dz[0] = (r_c[p][0] - scale.square.block<1, 2>(0, 1) * dz_t) /
+                      scale.square(0, 0);
+              along.s_n[p] = bulk * (rate[p][0] + e[p][0]);
             }
           else
-            dx[p] = r_c[p] - scaling[p].square * dz[p];
+            dx = r_c[p] - scale.square * dz;
+          along.steps[0] = std::min(
+            along.steps[0], step_in_cone(scaled[p], scale.inverse * dx));
+          along.steps[1] =
+            std::min(along.steps[1], step_in_cone(scaled[p], scale.W * dz));
         }
+      return along;
     }
 
-    template <typename LargestSteps>
     bool
-    Solver::correct(const Points          &l,
-                    const double           target,
-                    Points                &d,
-                    std::array<double, 2> &steps,
-                    const LargestSteps    &largest_steps)
+    Solver::factorise()
     {
-      constexpr double longer = 0.1, near = 0.1, gained = 0.01;
-      if (std::min(steps[0], steps[1]) > 0.5)
+      scaling.clear();
+      scaled.resize(n);
+      CellMatrix::PointBlocks blocks(n);
+      for (unsigned int p = 0; p < n; ++p)
+        {
+          scaling.emplace_back(x[p], z[p]);
+          scaled[p] = scaling[p].W * z[p];
+          blocks[p] = omega[p] * scaling[p].square;
+          if (problem.cone[p].is_cylinder())
+            {
+              blocks[p].setZero();
+              blocks[p](0, 0)             = bulk;
+              blocks[p].block<2, 2>(1, 1) = omega[p] * scaling[p].tangential();
+            }
+          blocks[p] *= problem.volume[p];
+        }
+      return matrix.factorise(blocks);
+    }
+
+    Solver::Direction
+    Solver::centred_direction()
+    {
+      if (problem.has_factor())
+        x_2 = matrix.solve(problem.live);
+      Points d(n);
+      for (unsigned int p = 0; p < n; ++p)
+        d[p] = -scaled[p];
+      Direction    along  = direction(d);
+      double       affine = 0.;
+      const double a_x    = std::min(1., along.steps[0]),
+                   a_z    = std::min(1., along.steps[1]);
+      for (unsigned int p = 0; p < n; ++p)
+        affine += (x[p] + a_x * along.x[p]).dot(z[p] + a_z * along.z[p]);
+      affine /= 2. * n;
+      // After a short step back to the middle of the cones, or more would follow.
+      const double centre = std::max(std::pow(std::max(affine, 0.) / mu, 3),
+                                     last_step < 0.15 ? 0.8 : 0.);
+      for (unsigned int p = 0; p < n; ++p)
+        {
+          Vector3d c = -product(scaling[p].inverse * along.x[p],
+                                scaling[p].W * along.z[p]);
+          c[0] += centre * mu;
+          d[p] = -scaled[p] + divide(scaled[p], c);
+        }
+      along = direction(d);
+      for (unsigned int k = 0; k < options.correctors; ++k)
+        if (!correct(centre * mu, d, along))
+          break;
+      return along;
+    }
+
+    bool
+    Solver::correct(const double target, Points &d, Direction &along) const
+    {
+      // Steps that are long enough; by how much longer ones are tried, and are to be;
+      // and how near eigenvalues stay to the target.
+      constexpr double enough = 0.5, longer = 0.1, gained = 0.01, near = 0.1;
+      if (along.shorter() > enough)
         return false;
-      const double t_x = std::min(1., steps[0] + longer),
-                   t_z = std::min(1., steps[1] + longer);
+      const double t_x = std::min(1., along.steps[0] + longer),
+                   t_z = std::min(1., along.steps[1] + longer);
       Points d_new     = d;
       for (unsigned int p = 0; p < n; ++p)
         {
-          const Vector3d v = product(l[p] + t_x * (scaling[p].inverse * dx[p]),
-                                     l[p] + t_z * (scaling[p].W * dz[p]));
-          const double   T = v.tail<2>().norm();
+          const Vector3d v =
+            product(scaled[p] + t_x * (scaling[p].inverse * along.x[p]),
+                    scaled[p] + t_z * (scaling[p].W * along.z[p]));
+          const double T = v.tail<2>().norm();
           // Its eigenvalues, moved to the neighbourhood of the target.
           const auto moved = [&](const double x) {
             return std::max(std::clamp(x, near * target, target / near) - x,
@@ -436,24 +411,13 @@ namespace geocone
           w[0]       = (a + b) / 2.;
           if (T > 0.)
             w.tail<2>() = (a - b) / (2. * T) * v.tail<2>();
-          d_new[p] += divide(l[p], w);
+          d_new[p] += divide(scaled[p], w);
         }
-      const Points   dx_old = dx, dz_old = dz;
-      const VectorXd dq_old = dq, ds_old = ds_n;
-      const double   d_lambda_old = d_lambda;
-      direction(d_new);
-      const auto next = largest_steps();
-      if (std::min(next[0], next[1]) < std::min(steps[0], steps[1]) + gained)
-        {
-          dx       = dx_old;
-          dz       = dz_old;
-          dq       = dq_old;
-          ds_n     = ds_old;
-          d_lambda = d_lambda_old;
-          return false;
-        }
-      d     = d_new;
-      steps = next;
+      Direction next = direction(d_new);
+      if (next.shorter() < along.shorter() + gained)
+        return false;
+      d     = std::move(d_new);
+      along = std::move(next);
       return true;
     }
 
@@ -533,7 +497,6 @@ namespace geocone
       unsigned int n_without    = 0;
       double       smallest_gap = std::numeric_limits<double>::infinity(),
              least_equilibrium  = smallest_gap;
-      double last_step          = 1.;
       for (unsigned int iteration = 0;; ++iteration)
         {
           evaluate();
@@ -604,24 +567,7 @@ namespace geocone
               break;
             }
 
-          scaling.clear();
-          CellMatrix::PointBlocks blocks(n);
-          Points                  l(n);
-          for (unsigned int p = 0; p < n; ++p)
-            {
-              scaling.emplace_back(x[p], z[p]);
-              l[p]      = scaling[p].W * z[p];
-              blocks[p] = omega[p] * scaling[p].square;
-              if (problem.cone[p].is_cylinder())
-                {
-                  blocks[p].setZero();
-                  blocks[p](0, 0) = bulk;
-                  blocks[p].block<2, 2>(1, 1) =
-                    omega[p] * scaling[p].tangential();
-                }
-              blocks[p] *= problem.volume[p];
-            }
-          if (!matrix.factorise(blocks))
+          if (!factorise())
             {
               solution.reason =
                 "the matrix is singular: some velocities have no resistance";
@@ -631,57 +577,18 @@ namespace geocone
               gap < std::max(4. * allowed,
                              0.05 * std::abs(load) * !problem.can_be_scaled()))
             keep_stresses();
-          if (problem.has_factor())
-            x_2 = matrix.solve(problem.live);
-
-          const auto largest_steps = [&]() {
-            std::array<double, 2> steps = {{1. / 0.99, 1. / 0.99}};
-            for (unsigned int p = 0; p < n; ++p)
-              {
-                steps[0] = std::min(
-                  steps[0], step_in_cone(l[p], scaling[p].inverse * dx[p]));
-                steps[1] =
-                  std::min(steps[1], step_in_cone(l[p], scaling[p].W * dz[p]));
-              }
-            return steps;
-          };
-          Points d(n);
-          for (unsigned int p = 0; p < n; ++p)
-            d[p] = -l[p];
-          direction(d);
-          auto         steps  = largest_steps();
-          double       affine = 0.;
-          const double a_x    = std::min(1., steps[0]),
-                       a_z    = std::min(1., steps[1]);
-          for (unsigned int p = 0; p < n; ++p)
-            affine += (x[p] + a_x * dx[p]).dot(z[p] + a_z * dz[p]);
-          affine /= 2. * n;
-          // After a short step back to the middle of the cones, or more would follow.
-          const double centre = std::max(std::pow(std::max(affine, 0.) / mu, 3),
-                                         last_step < 0.15 ? 0.8 : 0.);
+          const Direction along = centred_direction();
+          const double    b_x   = std::min(1., 0.99 * along.steps[0]),
+                       b_z      = std::min(1., 0.99 * along.steps[1]);
+          last_step             = std::min(b_x, b_z);
           for (unsigned int p = 0; p < n; ++p)
             {
-              Vector3d c =
-                -product(scaling[p].inverse * dx[p], scaling[p].W * dz[p]);
-              c[0] += centre * mu;
-              d[p] = -l[p] + divide(l[p], c);
+              x[p] += b_x * along.x[p];
+              z[p] += b_z * along.z[p];
             }
-          direction(d);
-          steps = largest_steps();
-          for (unsigned int k = 0; k < options.correctors; ++k)
-            if (!correct(l, centre * mu, d, steps, largest_steps))
-              break;
-          const double b_x = std::min(1., 0.99 * steps[0]),
-                       b_z = std::min(1., 0.99 * steps[1]);
-          last_step        = std::min(b_x, b_z);
-          for (unsigned int p = 0; p < n; ++p)
-            {
-              x[p] += b_x * dx[p];
-              z[p] += b_z * dz[p];
-            }
-          s_n += b_x * ds_n;
-          lambda += b_x * d_lambda;
-          q += b_z * dq;
+          s_n += b_x * along.s_n;
+          lambda += b_x * along.lambda;
+          q += b_z * along.q;
         }
       if (solution.converged && !scaling.empty())
         polish();
