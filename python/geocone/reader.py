@@ -83,7 +83,10 @@ class Run:
     def per_metre(self, unit):
         """A unit of forces or energies: per metre of thickness, or, of a round body,
         of all of it; e.g. "N/m" or "N" for "N"."""
-        return unit if "load (N)" in self.statistics else f"{unit}/m"
+        try:
+            return unit if "load (N)" in self.statistics else f"{unit}/m"
+        except Missing:
+            return f"{unit}/m"
 
     def table(self, name):
         """The columns of NAME.csv, {"name (unit)": array}.

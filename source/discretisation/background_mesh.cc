@@ -112,8 +112,8 @@ namespace geocone
     parameters.prepare(scene.geometry, method);
     const CoarseMesh mesh =
       fitted_mesh(parameters, scene, comm, sizes ? &*sizes : nullptr);
-    axisymmetric = scene.geometry.is_axisymmetric();
-    if (axisymmetric)
+    symmetry = scene.geometry.symmetry;
+    if (is_axisymmetric())
       for (const Point<dim> &x : mesh.points)
         if (!(x[0] >= 0.))
           throw InputError(

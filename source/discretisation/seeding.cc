@@ -432,7 +432,7 @@ namespace geocone
     if (detail == Detail::material)
       return;
     if (!given[ParticleFile::volume])
-      seed.volume *= scene.geometry.measure(seed.position);
+      seed.volume *= Geometry::measure(scene.geometry.symmetry, seed.position);
     if (!given[ParticleFile::vx])
       seed.velocity = scene.initial_velocity.at(seed.position);
     if (!given[ParticleFile::sxx])

@@ -14,9 +14,8 @@ namespace geocone
   } // namespace
 
   DruckerPrager::DruckerPrager(const std::string &section)
-    : SpatialLaw(section)
+    : FrictionalSpatialLaw(section)
   {
-    strength_given.declare(*this);
     match.declare(*this,
                   "Match",
                   " of the cone and Mohr-Coulomb's pyramid: where both are "
@@ -25,25 +24,8 @@ namespace geocone
                   "triaxial extension.");
   }
 
-  DruckerPrager::DruckerPrager(const std::string &section,
-                               const WithoutFriction &)
-    : SpatialLaw(section)
-  {
-    strength_given = FrictionalStrength::without_friction();
-    strength_given.declare_cohesion(*this,
-                                    "Strength c (Pa) in pure shear, > 0.");
-  }
-
   void
-  DruckerPrager::prepare()
-  {
-    SpatialLaw::prepare();
-    strength_given.check(parameter());
-    cone = cone_of(strength_given);
-  }
-
-  FlowCone
-  DruckerPrager::cone_of(const FrictionalStrength &strength) const
+  DruckerPrager::set_strength(const FrictionalStrength &strength)
   {
     // Alpha, and kappa over c cos(angle).
     const auto sizes = [&](const double degrees) {
@@ -59,23 +41,9 @@ namespace geocone
       return std::pair(2. * s / size, 6. / size);
     };
     const auto [alpha, kappa] = sizes(strength.phi);
-    FlowCone cone;
-    cone.a = std::sqrt(6.) * alpha;
+    cone.a                    = std::sqrt(6.) * alpha;
     cone.b = std::min(std::sqrt(6.) * sizes(strength.theta).first, cone.a);
     cone.k = sqrt2 * kappa * strength.c * std::cos(radians(strength.phi));
-    return cone;
-  }
-
-  void
-  DruckerPrager::reduce_strength(const double F)
-  {
-    cone = cone_of(strength_given.reduced(F));
-  }
-
-  double
-  DruckerPrager::earth_pressure_at_rest() const
-  {
-    return 1. - std::sin(radians(strength_given.phi));
   }
 
   std::optional<FlowCone>

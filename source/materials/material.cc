@@ -52,21 +52,21 @@ namespace geocone
     return history[0] + poisson_ratio * (in_plane[0] + in_plane[1]);
   }
 
-  double
-  Material::elastic_energy(const Mandel &stress, const double *) const
+  SpatialMandel
+  Material::whole_stress(const Mandel &in_plane, const double *history) const
   {
-    return stress.dot(elastic.strain(stress)) / 2.;
+    SpatialMandel whole;
+    whole << in_plane,
+      stress_zz({{in_plane[0], in_plane[1], in_plane[2] / sqrt2}}, history);
+    return whole;
   }
 
   SpatialMandel
-  Material::plastic_strain(const Mandel &strain,
-                           const double,
-                           const Mandel &change,
-                           const double) const
+  Material::elastic_strain(const SpatialMandel &stress) const
   {
-    SpatialMandel plastic;
-    plastic << strain - elastic.strain(change), 0.;
-    return plastic;
+    SpatialMandel strain;
+    strain << elastic.strain(Mandel(stress.head<3>())), 0.;
+    return strain;
   }
 
   std::optional<double>
@@ -172,12 +172,10 @@ namespace geocone
                        (block.l_xy[p] + block.l_yx[p]) / sqrt2};
       }
     std::vector<double> history = history_n;
-    std::vector<double> stress_zz(n);
     Response            response;
-    response.stress    = dealii::ArrayView<Mandel>(stress.data(), n);
-    response.stress_zz = stress_zz.data();
-    response.mode      = dealii::ArrayView<Mode>(mode.data(), n);
-    response.history   = history.data();
+    response.stress  = dealii::ArrayView<Mandel>(stress.data(), n);
+    response.mode    = dealii::ArrayView<Mode>(mode.data(), n);
+    response.history = history.data();
     update({dealii::ArrayView<const Mandel>(strain.data(), n),
             dealii::ArrayView<const Mandel>(stress_n.data(), n),
             history_n.data(),
@@ -189,17 +187,14 @@ namespace geocone
         for (unsigned int k = 0; k < m; ++k)
           block.history[k][p] = history[m * p + k];
         const Mandel change = stress[p] - stress_n[p];
-        const double change_zz =
-          is_spatial()
-            ? stress_zz[p] -
-                this->stress_zz({{stress_n[p][0], stress_n[p][1], 0.}},
-                                &history_n[m * p])
-            : 0.;
-        block.work[p] = strain[p].dot(stress_n[p] + change / 2.);
+        block.work[p]       = strain[p].dot(stress_n[p] + change / 2.);
         block.plastic_strain[p] +=
           mode[p] == Mode::elastic
             ? 0.
-            : plastic_strain(strain[p], 0., change, change_zz).norm();
+            : (SpatialMandel(strain[p][0], strain[p][1], strain[p][2], 0.) -
+               elastic_strain(whole_stress(stress[p], &history[m * p]) -
+                              whole_stress(stress_n[p], &history_n[m * p])))
+                .norm();
         block.s_xx[p]         = stress[p][0];
         block.s_yy[p]         = stress[p][1];
         block.s_xy[p]         = stress[p][2] / sqrt2;

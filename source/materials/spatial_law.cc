@@ -3,17 +3,10 @@
 
 #include <geocone/materials/spatial_law.h>
 
+#include <cmath>
+
 namespace geocone
 {
-  SpatialMandel
-  SpatialLaw::whole_stress(const Mandel &in_plane, const double *history) const
-  {
-    SpatialMandel stress;
-    stress << in_plane,
-      stress_zz({{in_plane[0], in_plane[1], in_plane[2] / sqrt2}}, history);
-    return stress;
-  }
-
   void
   SpatialLaw::update(const Increment &increment, const Response &response) const
   {
@@ -54,29 +47,37 @@ namespace geocone
       }
   }
 
-  double
-  SpatialLaw::elastic_energy(const Mandel &in_plane,
-                             const double *history) const
-  {
-    const SpatialMandel stress = whole_stress(in_plane, history);
-    return stress.dot(elasticity().strain(stress)) / 2.;
-  }
-
-  SpatialMandel
-  SpatialLaw::plastic_strain(const Mandel &strain,
-                             const double  strain_zz,
-                             const Mandel &change,
-                             const double  change_zz) const
-  {
-    SpatialMandel whole, whole_change;
-    whole << strain, strain_zz;
-    whole_change << change, change_zz;
-    return whole - elasticity().strain(whole_change);
-  }
-
   std::optional<double>
   SpatialLaw::overstress(const Mandel &stress, const double *history) const
   {
     return yield_function(whole_stress(stress, history));
+  }
+
+  FrictionalSpatialLaw::FrictionalSpatialLaw(const std::string &section)
+    : SpatialLaw(section)
+  {
+    given.declare(*this);
+  }
+
+  FrictionalSpatialLaw::FrictionalSpatialLaw(const std::string &section,
+                                             const std::string &cohesion)
+    : SpatialLaw(section)
+    , given(FrictionalStrength::without_friction())
+  {
+    given.declare_cohesion(*this, cohesion);
+  }
+
+  void
+  FrictionalSpatialLaw::prepare()
+  {
+    SpatialLaw::prepare();
+    given.check(parameter());
+    set_strength(given);
+  }
+
+  double
+  FrictionalSpatialLaw::earth_pressure_at_rest() const
+  {
+    return 1. - std::sin(radians(given.phi));
   }
 } // namespace geocone

@@ -47,48 +47,12 @@ namespace geocone
     }
   } // namespace
 
-  SpatialMohrCoulomb::SpatialMohrCoulomb(const std::string &section)
-    : SpatialLaw(section)
-  {
-    strength_given.declare(*this);
-  }
-
-  SpatialMohrCoulomb::SpatialMohrCoulomb(const std::string &section,
-                                         const WithoutFriction &)
-    : SpatialLaw(section)
-  {
-    strength_given = FrictionalStrength::without_friction();
-    strength_given.declare_cohesion(*this,
-                                    "Undrained shear strength c (Pa), > 0.");
-  }
-
   void
-  SpatialMohrCoulomb::prepare()
+  SpatialMohrCoulomb::set_strength(const FrictionalStrength &strength)
   {
-    SpatialLaw::prepare();
-    strength_given.check(parameter());
-    set_strength(1.);
-  }
-
-  void
-  SpatialMohrCoulomb::set_strength(const double F)
-  {
-    const FrictionalStrength now = strength_given.reduced(F);
-    exact                        = {std::sin(radians(now.phi)),
-                                    2. * now.c * std::cos(radians(now.phi))};
-    sin_theta                    = std::sin(radians(now.theta));
-  }
-
-  void
-  SpatialMohrCoulomb::reduce_strength(const double F)
-  {
-    set_strength(F);
-  }
-
-  double
-  SpatialMohrCoulomb::earth_pressure_at_rest() const
-  {
-    return 1. - exact.sine;
+    exact     = {std::sin(radians(strength.phi)),
+                 2. * strength.c * std::cos(radians(strength.phi))};
+    sin_theta = std::sin(radians(strength.theta));
   }
 
   double

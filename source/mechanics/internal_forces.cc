@@ -79,14 +79,23 @@ namespace geocone
         (mean[0] + mean[1] - result[p][0] - result[p][1]) / 2.;
   }
 
-  template <int n, typename WeightedStress>
+  template <int n, typename WeightedStress, typename WeightedHoopStress>
   void
-  InternalForces::add_forces_of_cell(const unsigned int    c,
-                                     const WeightedStress &weighted_stress,
-                                     double               *cell_f) const
+  InternalForces::add_forces_of_cell(
+    const unsigned int        c,
+    const WeightedStress     &weighted_stress,
+    const WeightedHoopStress &weighted_hoop_stress,
+    double                   *cell_f) const
   {
     const unsigned int begin = points.first_point[c],
                        end   = points.first_point[c + 1];
+    if (is_axisymmetric())
+      for (unsigned int p = begin; p < end; ++p)
+        {
+          const double hoop = weighted_hoop_stress(p);
+          for (int i = 0; i < n; ++i)
+            cell_f[2 * i] += points.hoop[n * p + i] * hoop;
+        }
     if (points.mean_gradients.empty())
       {
         for (unsigned int p = begin; p < end; ++p)
@@ -106,16 +115,6 @@ namespace geocone
     add_force<n>(&points.mean_gradients[2 * n * c],
                  Mandel(volumetric, volumetric, 0.),
                  cell_f);
-  }
-
-  template <int n>
-  void
-  InternalForces::add_hoop_force(const unsigned int p,
-                                 const double       weighted_stress,
-                                 double            *cell_f) const
-  {
-    for (int i = 0; i < n; ++i)
-      cell_f[2 * i] += points.hoop[n * p + i] * weighted_stress;
   }
 
   template <int n>
@@ -245,12 +244,10 @@ namespace geocone
             [&](const unsigned int p) -> Mandel {
               return points.weight[p] * stress[p];
             },
+            [&](const unsigned int p) {
+              return points.weight[p] * stress_zz[p];
+            },
             cell_f);
-          if (is_axisymmetric())
-            for (unsigned int p = points.first_point[c];
-                 p < points.first_point[c + 1];
-                 ++p)
-              add_hoop_force<n>(p, points.weight[p] * stress_zz[p], cell_f);
           turned.forces_to_dofs(c, cell_f);
           scatter_add<n>(cell_f, &points.nodes[c * n], part.begin());
         }
@@ -422,16 +419,11 @@ namespace geocone
                 change += rate_zz[p] * tangent_zz[p].by_zz;
               return points.weight[p] * change;
             },
+            [&](const unsigned int p) {
+              return points.weight[p] * (tangent_zz[p].of_zz.dot(rate[p]) +
+                                         tangent_zz[p].zz * rate_zz[p]);
+            },
             cell_f);
-          if (is_axisymmetric())
-            for (unsigned int p = points.first_point[c];
-                 p < points.first_point[c + 1];
-                 ++p)
-              add_hoop_force<n>(p,
-                                points.weight[p] *
-                                  (tangent_zz[p].of_zz.dot(rate[p]) +
-                                   tangent_zz[p].zz * rate_zz[p]),
-                                cell_f);
           turned.forces_to_dofs(c, cell_f);
           scatter_add<n>(cell_f, &points.nodes[c * n], part.begin());
         }
@@ -469,27 +461,39 @@ namespace geocone
   {
     if (mode[p] == Mode::elastic)
       return SpatialMandel::Zero();
-    const Material &law = materials[points.material[p]];
-    return law.plastic_strain(strain[p],
-                              is_axisymmetric() ? strain_zz[p] : 0.,
-                              stress[p] - points.stress[p],
-                              law.is_spatial() ? stress_zz[p] - stress_zz_n(p)
-                                               : 0.);
+    return whole_strain(p) - materials[points.material[p]].elastic_strain(
+                               whole_stress(p) - whole_stress_n(p));
+  }
+
+  SpatialMandel
+  InternalForces::whole_stress(const unsigned int p) const
+  {
+    SpatialMandel whole;
+    whole << stress[p], stress_zz.empty() ? 0. : stress_zz[p];
+    return whole;
+  }
+
+  SpatialMandel
+  InternalForces::whole_stress_n(const unsigned int p) const
+  {
+    return materials[points.material[p]].whole_stress(points.stress[p],
+                                                      points.history_of(p));
+  }
+
+  SpatialMandel
+  InternalForces::whole_strain(const unsigned int p) const
+  {
+    SpatialMandel whole;
+    whole << strain[p], is_axisymmetric() ? strain_zz[p] : 0.;
+    return whole;
   }
 
   InternalForces::Work
   InternalForces::work(const unsigned int p) const
   {
-    const Material     &law     = materials[points.material[p]];
-    const Mandel       &s       = stress[p];
-    const Mandel        change  = s - points.stress[p];
-    const SpatialMandel plastic = plastic_strain_increment(p);
-    if (!law.is_spatial())
-      return {s.dot(law.elasticity().strain(change)), s.dot(plastic.head<3>())};
-    SpatialMandel whole, whole_change;
-    whole << s, stress_zz[p];
-    whole_change << change, stress_zz[p] - stress_zz_n(p);
-    return {whole.dot(law.elasticity().strain(whole_change)),
-            whole.dot(plastic)};
+    const SpatialMandel s = whole_stress(p);
+    return {s.dot(materials[points.material[p]].elastic_strain(
+              s - whole_stress_n(p))),
+            s.dot(plastic_strain_increment(p))};
   }
 } // namespace geocone

@@ -61,22 +61,23 @@ namespace geocone
         {
           const Material   &law     = materials[run.material];
           const Elasticity &elastic = law.elasticity();
+          const bool        is_cone =
+            law.flow_cone(points.history_of(run.begin)).has_value();
           for (unsigned int p = run.begin; p < run.end; ++p)
             if (law.is_spatial())
               {
-                SpatialMandel s, s_n, e;
-                s << stress[p], stress_zz[p];
-                s_n << points.stress[p], stress_zz_n(p);
-                e << strain[p], is_axisymmetric() ? strain_zz[p] : 0.;
+                const SpatialMandel s   = whole_stress(p),
+                                    s_n = whole_stress_n(p);
                 if (const auto solved = law.spatial_cone(s_n, step_law()))
                   f(SpatialMandel(spatial_axes() *
-                                  (elastic.strain(SpatialMandel(s - s_n)) - e)),
+                                  (elastic.strain(SpatialMandel(s - s_n)) -
+                                   whole_strain(p))),
                     SpatialMandel(spatial_axes() * s),
                     *solved,
                     *law.spatial_cone(s_n, {}),
                     elastic.two_G);
               }
-            else if (law.flow_cone(points.history_of(p)))
+            else if (is_cone)
               {
                 const Mandel z = to_cone_axes(
                   Mandel(elastic.strain(Mandel(stress[p] - points.stress[p])) -
@@ -138,12 +139,9 @@ namespace geocone
       for (unsigned int p = run.begin;
            p < run.end && materials[run.material].is_spatial();
            ++p)
-        {
-          SpatialMandel s;
-          s << stress[p], stress_zz[p];
-          if (const auto f = materials[run.material].yield_function(s))
-            worst.cone_excess = std::max(worst.cone_excess, *f);
-        }
+        if (const auto f =
+              materials[run.material].yield_function(whole_stress(p)))
+          worst.cone_excess = std::max(worst.cone_excess, *f);
     std::array<double, 5> values = {{worst.natural_map,
                                      worst.cone_violation,
                                      worst.dual_violation,

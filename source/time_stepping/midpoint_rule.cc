@@ -18,7 +18,8 @@ namespace geocone
     const SpatialMandel whole   = solved.plastic_strain_increment(point);
     const Mandel        plastic = whole.head<3>();
     if (integration == Integration::backward_euler)
-      return {stress, plastic, whole.norm(), solved.work(point).plastic};
+      return {
+        stress, plastic, whole.norm(), solved.whole_stress(point).dot(whole)};
     const Mandel beyond = 2. * stress - stress_n;
     const Mandel end    = material.nearest_admissible(beyond, history);
     const Mandel back   = material.elasticity().strain(Mandel(beyond - end));

@@ -20,7 +20,7 @@
  */
 namespace geocone
 {
-  /** Space dimension of all scenes . */
+  /** Space dimension of all scenes. */
   constexpr unsigned int dim = 2;
 
   /** Number of Mandel components in plane strain. */

@@ -104,14 +104,14 @@ namespace geocone
     bool
     is_axisymmetric() const
     {
-      return axisymmetric;
+      return symmetry == Geometry::Symmetry::axisymmetric;
     }
 
     /** Geometry::measure() */
     double
     measure(const dealii::Point<dim> &x) const
     {
-      return axisymmetric ? 2. * pi * x[0] : 1.;
+      return Geometry::measure(symmetry, x);
     }
 
     /** Part of a cell's size by which a point may lie outside of it. */
@@ -181,9 +181,11 @@ namespace geocone
       shared
     };
 
-    const MPI_Comm  comm;
-    bool            axisymmetric = false;
-    MeshParameters  parameters;
+    const MPI_Comm comm;
+    MeshParameters parameters;
+
+    Geometry::Symmetry symmetry = Geometry::Symmetry::plane_strain;
+
     Choice<Storage> storage = {{{"automatic", Storage::automatic},
                                 {"distributed", Storage::distributed},
                                 {"shared", Storage::shared}}};

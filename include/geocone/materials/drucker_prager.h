@@ -5,7 +5,6 @@
 #define geocone_materials_drucker_prager_h
 
 #include <geocone/base/choice.h>
-#include <geocone/materials/frictional_strength.h>
 #include <geocone/materials/second_order_cone.h>
 #include <geocone/materials/spatial_law.h>
 
@@ -28,25 +27,15 @@ namespace geocone
    *   plane strain (associated flow)   alpha = t/sqrt(9 + 12 t^2), kappa = 3 c/sqrt(9
    *     + 12 t^2).
    */
-  class DruckerPrager : public SpatialLaw
+  class DruckerPrager : public FrictionalSpatialLaw
   {
   public:
     explicit DruckerPrager(const std::string &section);
 
-    void
-    prepare() override;
-
-    void
-    reduce_strength(const double F) override;
-
-    double
-    earth_pressure_at_rest() const override;
-
     std::optional<FrictionalStrength>
     plane_strain_strength() const override
     {
-      return match == Match::plane_strain ? std::optional(strength_given)
-                                          : std::nullopt;
+      return match == Match::plane_strain ? std::optional(given) : std::nullopt;
     }
 
     double
@@ -63,10 +52,10 @@ namespace geocone
     yield_function(const SpatialMandel &stress) const override;
 
   protected:
-    /** von Mises' law, which has no angles. */
-    struct WithoutFriction
-    {};
-    DruckerPrager(const std::string &section, const WithoutFriction &);
+    using FrictionalSpatialLaw::FrictionalSpatialLaw;
+
+    void
+    set_strength(const FrictionalStrength &strength) override;
 
     Mode
     return_to_strength(const SpatialMandel &trial,
@@ -86,11 +75,7 @@ namespace geocone
                             {"outer", Match::outer},
                             {"inner", Match::inner}}};
 
-    FrictionalStrength strength_given;
-    FlowCone           cone;
-
-    FlowCone
-    cone_of(const FrictionalStrength &strength) const;
+    FlowCone cone;
   };
 
   /** von Mises' law sqrt(J_2) <= c: DruckerPrager with phi = theta = 0. */
@@ -98,7 +83,7 @@ namespace geocone
   {
   public:
     explicit VonMises(const std::string &section)
-      : DruckerPrager(section, WithoutFriction())
+      : DruckerPrager(section, "Strength c (Pa) in pure shear, > 0.")
     {}
   };
 } // namespace geocone

@@ -34,11 +34,11 @@ namespace geocone
     void
     advance(const PointBlock &block, LawCounts &counts) const override;
 
-    double
-    elastic_energy(const Mandel &stress, const double *history) const override
+    SpatialMandel
+    elastic_strain(const SpatialMandel &stress) const override
     {
-      return axisymmetric ? SpatialLaw::elastic_energy(stress, history)
-                          : Material::elastic_energy(stress, history);
+      return axisymmetric ? SpatialLaw::elastic_strain(stress)
+                          : Material::elastic_strain(stress);
     }
 
   protected:

@@ -160,16 +160,22 @@ namespace geocone
       return is_spatial();
     }
 
-    /** Of a stress, per volume (J/m^3). @param history of the point */
-    virtual double
-    elastic_energy(const Mandel &stress, const double *history) const;
+    /** (s_xx, s_yy, s_xy, s_zz) of a stress in the plane. @param history of the point */
+    SpatialMandel
+    whole_stress(const Mandel &in_plane, const double *history) const;
 
-    /** What of a strain increment is not elastic. @param change of the stress (Pa) */
+    /** What of the strain is elastic. Laws of the plane have no elastic strain along z,
+     *  and s_zz does no work. */
     virtual SpatialMandel
-    plastic_strain(const Mandel &strain,
-                   const double  strain_zz,
-                   const Mandel &change,
-                   const double  change_zz) const;
+    elastic_strain(const SpatialMandel &stress) const;
+
+    /** Of a stress, per volume (J/m^3). @param history of the point */
+    double
+    elastic_energy(const Mandel &stress, const double *history) const
+    {
+      const SpatialMandel whole = whole_stress(stress, history);
+      return whole.dot(elastic_strain(whole)) / 2.;
+    }
 
     /** By how much a stress is beyond the strength (Pa), negative within it; nothing
      *  for laws without one. @param history of the point */

@@ -4,7 +4,10 @@
 #ifndef geocone_materials_spatial_law_h
 #define geocone_materials_spatial_law_h
 
+#include <geocone/materials/frictional_strength.h>
 #include <geocone/materials/material.h>
+
+#include <string>
 
 namespace geocone
 {
@@ -28,14 +31,11 @@ namespace geocone
     void
     update(const Increment &increment, const Response &response) const override;
 
-    double
-    elastic_energy(const Mandel &stress, const double *history) const override;
-
     SpatialMandel
-    plastic_strain(const Mandel &strain,
-                   const double  strain_zz,
-                   const Mandel &change,
-                   const double  change_zz) const override;
+    elastic_strain(const SpatialMandel &stress) const override
+    {
+      return elasticity().strain(stress);
+    }
 
     std::optional<double>
     overstress(const Mandel &stress, const double *history) const override;
@@ -49,9 +49,37 @@ namespace geocone
                        const StepLaw       &step,
                        SpatialMandel       &stress,
                        SpatialMandelMatrix *tangent) const = 0;
+  };
 
-    SpatialMandel
-    whole_stress(const Mandel &in_plane, const double *history) const;
+  /** A spatial law with cohesion, friction and dilatancy. */
+  class FrictionalSpatialLaw : public SpatialLaw
+  {
+  public:
+    void
+    prepare() override;
+
+    void
+    reduce_strength(const double F) override
+    {
+      set_strength(given.reduced(F));
+    }
+
+    /** Jaky's 1 - sin(phi). */
+    double
+    earth_pressure_at_rest() const override;
+
+  protected:
+    explicit FrictionalSpatialLaw(const std::string &section);
+
+    /** For laws without friction. @param cohesion documentation of their parameter */
+    FrictionalSpatialLaw(const std::string &section,
+                         const std::string &cohesion);
+
+    /** Takes what the file gives, or less. */
+    virtual void
+    set_strength(const FrictionalStrength &strength) = 0;
+
+    FrictionalStrength given;
   };
 } // namespace geocone
 

@@ -4,7 +4,6 @@
 #ifndef geocone_materials_spatial_mohr_coulomb_h
 #define geocone_materials_spatial_mohr_coulomb_h
 
-#include <geocone/materials/frictional_strength.h>
 #include <geocone/materials/spatial_law.h>
 
 #include <Eigen/Dense>
@@ -26,24 +25,17 @@ namespace geocone
    * Owen 2008, section 8.2). All of it is linear in the trial stress, and so are its
    * derivatives; directions turn as those of the trial stress.
    */
-  class SpatialMohrCoulomb : public SpatialLaw
+  class SpatialMohrCoulomb : public FrictionalSpatialLaw
   {
   public:
-    explicit SpatialMohrCoulomb(const std::string &section);
-
-    void
-    prepare() override;
-
-    void
-    reduce_strength(const double F) override;
-
-    double
-    earth_pressure_at_rest() const override;
+    explicit SpatialMohrCoulomb(const std::string &section)
+      : FrictionalSpatialLaw(section)
+    {}
 
     std::optional<FrictionalStrength>
     plane_strain_strength() const override
     {
-      return strength_given;
+      return given;
     }
 
     /** (sin(phi) - sin(theta))/sin(phi) */
@@ -54,10 +46,10 @@ namespace geocone
     yield_function(const SpatialMandel &stress) const override;
 
   protected:
-    /** Tresca's law, which has no angles. */
-    struct WithoutFriction
-    {};
-    SpatialMohrCoulomb(const std::string &section, const WithoutFriction &);
+    using FrictionalSpatialLaw::FrictionalSpatialLaw;
+
+    void
+    set_strength(const FrictionalStrength &strength) override;
 
     Mode
     return_to_strength(const SpatialMandel &trial,
@@ -95,12 +87,8 @@ namespace geocone
                      Principal       &stress,
                      PrincipalMatrix &tangent) const;
 
-    void
-    set_strength(const double F);
-
-    FrictionalStrength strength_given;
-    Pyramid            exact     = {0., 0.}; ///< with sin(phi)
-    double             sin_theta = 0.;
+    Pyramid exact     = {0., 0.}; ///< with sin(phi)
+    double  sin_theta = 0.;
   };
 
   /** Tresca's law of all principal stresses, s_1 - s_3 <= 2c. */
@@ -108,7 +96,7 @@ namespace geocone
   {
   public:
     explicit SpatialTresca(const std::string &section)
-      : SpatialMohrCoulomb(section, WithoutFriction())
+      : SpatialMohrCoulomb(section, "Undrained shear strength c (Pa), > 0.")
     {}
   };
 } // namespace geocone

@@ -148,6 +148,10 @@ namespace geocone
     SpatialMandel
     plastic_strain_increment(const unsigned int point) const;
 
+    /** Of a point, with s_zz of laws that are spatial (else 0). */
+    SpatialMandel
+    whole_stress(const unsigned int point) const;
+
     /** Of a point in the step, per volume (J/m^3). */
     struct Work
     {
@@ -204,19 +208,14 @@ namespace geocone
                     std::vector<Mandel> &strain,
                     std::vector<double> &strain_zz) const;
 
-    /** cell_f += sum B_p' s_p, s_p the stress times the weight. */
-    template <int n, typename WeightedStress>
+    /** cell_f += sum B_p' s_p, s_p the stress times the weight, in the plane and, of
+     *  round bodies, along the hoop. */
+    template <int n, typename WeightedStress, typename WeightedHoopStress>
     void
-    add_forces_of_cell(const unsigned int    c,
-                       const WeightedStress &weighted_stress,
-                       double               *cell_f) const;
-
-    /** cell_f += what a hoop stress does, times the weight. */
-    template <int n>
-    void
-    add_hoop_force(const unsigned int p,
-                   const double       weighted_stress,
-                   double            *cell_f) const;
+    add_forces_of_cell(const unsigned int        c,
+                       const WeightedStress     &weighted_stress,
+                       const WeightedHoopStress &weighted_hoop_stress,
+                       double                   *cell_f) const;
 
     /** K += the parts of a point's tangent out of the plane. */
     template <int n>
@@ -231,14 +230,11 @@ namespace geocone
       return !points.hoop.empty();
     }
 
-    /** Of a point at t_n. */
-    double
-    stress_zz_n(const unsigned int p) const
-    {
-      const Mandel &s = points.stress[p];
-      return materials[points.material[p]].stress_zz(
-        {{s[0], s[1], s[2] / sqrt2}}, points.history_of(p));
-    }
+    /** Of a point at t_n, and its strain increment. */
+    SpatialMandel
+    whole_stress_n(const unsigned int point) const;
+    SpatialMandel
+    whole_strain(const unsigned int point) const;
 
     const MaterialPoints &points;
     const Materials      &materials;

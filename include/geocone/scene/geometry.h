@@ -120,10 +120,10 @@ namespace geocone
 
     /** What an area or a length of the plane at x stands for, over itself: 1 (m per
      *  metre of thickness), or 2 pi r (m). */
-    double
-    measure(const dealii::Point<dim> &x) const
+    static double
+    measure(const Symmetry symmetry, const dealii::Point<dim> &x)
     {
-      return is_axisymmetric() ? 2. * pi * x[0] : 1.;
+      return symmetry == Symmetry::axisymmetric ? 2. * pi * x[0] : 1.;
     }
 
     /** A unit, e.g. "N/m" or "load (N/m)" or "energy_J_per_m", without what says "per
