@@ -1,232 +1,49 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/base/exceptions.h>
-#include <geocone/base/version.h>
 #include <geocone/command_line.h>
-#include <geocone/element/element_test.h>
-#include <geocone/limit_analysis/limit_analysis.h>
-#include <geocone/limit_analysis/mesh_from_bounds.h>
 #include <geocone/output/run_folder.h>
-#include <geocone/replay.h>
-#include <geocone/run/explicit_simulation.h>
-#include <geocone/run/implicit_simulation.h>
-#include <geocone/unused_parameters.h>
-
-#include <deal.II/base/mpi.h>
+#include <geocone/program.h>
 
 #include <omp.h>
 
 #include <cstdlib>
-#include <iostream>
-#include <sstream>
 
 #include <dlfcn.h>
+
+// The same program for scenes in three dimensions (CMakeLists.txt).
+namespace geocone_3d
+{
+  int
+  run_geocone(int argc, char **argv);
+}
 
 namespace
 {
   using namespace geocone;
 
-  const char *usage =
-    "geocone FILE.prm [--output FOLDER] [--set 'Section/Parameter = "
-    "value']...\n"
-    "        [--dry-run] [--force] [--quiet]\n"
-    "mpirun -np RANKS geocone FILE.prm ...\n"
-    "geocone --resume FOLDER [--force] [--quiet]\n"
-    "geocone --replay FILE.h5|FILE.dat [--output FOLDER] [--set ...]...\n"
-    "\n"
-    "  --output FOLDER      folder of the results (default: results/NAME)\n"
-    "  --set 'S/P = value'  overrides a parameter of the file; repeatable\n"
-    "  --replay FILE        solves a frozen problem again ('Output/Freeze "
-    "steps', or\n"
-    "                       a problem file of Siconos); --set takes options "
-    "of the\n"
-    "                       solver, e.g. 'Newton/Globalisation = line "
-    "search'\n"
-    "  --resume FOLDER      goes on with a run that was stopped or killed, "
-    "from "
-    "its last\n"
-    "                       checkpoint (section Checkpoint), in the same "
-    "folder\n"
-    "  --dry-run            checks everything, prints how large the run is, "
-    "and "
-    "ends:\n"
-    "                       nothing is computed or written\n"
-    "  --force              runs also what is too large for this machine's "
-    "memory\n"
-    "  --quiet              nothing on the screen but errors and warnings\n"
-    "  --defaults NEW.prm   writes all parameters with their defaults, "
-    "commented;\n"
-    "                       --set 'Materials/soil/Type = LAW' tells those of "
-    "other laws\n"
-    "  --help               this text and all parameters\n"
-    "  --version            versions of geocone and its libraries\n"
-    "\n"
-    "The exit code is 0 if the run has finished and its expectations hold, "
-    "and\n"
-    "1 otherwise; 130 and 143 after Ctrl-C and SIGTERM.\n";
-
-  /** The runs of all methods, so that a file may hold the parameters of all. */
-  struct Methods
+  /** That of the parameters that the program is called with. What is wrong with them
+   *  is said by the program of plane scenes. */
+  std::string
+  dimension_of(const int argc, char **argv)
   {
-    Methods(const ParameterFile &file, Log &log)
-      : point(MPI_COMM_WORLD, file, log)
-      , implicit(MPI_COMM_WORLD, file, log, sizes_from_bounds)
-      , explicit_mpm(MPI_COMM_WORLD, file, log)
-      , limit_analysis(MPI_COMM_WORLD, file, log)
-    {}
-
-    /** That of the parameter file, which has been parsed. */
-    Simulation &
-    chosen()
-    {
-      if (limit_analysis.kind() != AnalysisKind::steps)
-        return limit_analysis;
-      const std::string name = ParameterFile::value("Discretisation/Method");
-      if (name == "point")
-        return point;
-      if (name == "explicit MPM")
-        return explicit_mpm;
-      return implicit;
-    }
-
-    ElementTest        point;
-    ImplicitSimulation implicit;
-    ExplicitSimulation explicit_mpm;
-    LimitAnalysis      limit_analysis;
-  };
-
-  /** All parameters with an example of each kind of named section.
-   *  @param overrides e.g. another law of the material 'soil' */
-  void
-  print_defaults(std::ostream &out, const std::vector<std::string> &overrides)
-  {
-    const ParameterFile file = ParameterFile::from_text(
-      "subsection Boundary conditions\nset Names = footing\n"
-      "subsection footing\nend\nend\n"
-      "subsection Tractions\nset Names = surcharge\n"
-      "subsection surcharge\nend\nend\n",
-      "defaults",
-      overrides);
-    Log     log(MPI_COMM_WORLD, true);
-    Methods methods(file, log);
-    file.parse();
-    ParameterFile::print(out, true);
-  }
-
-  /** @throws InputError if --resume is given with what would change the run */
-  void
-  check_resume(const CommandLine &call)
-  {
-    if (!call.file.empty() || !call.folder.empty() || !call.overrides.empty())
-      throw InputError("--resume takes no parameter file, --output or --set\n"
-                       "  remedy:  'geocone --resume FOLDER' goes on with the "
-                       "parameters that the run has; start another one with "
-                       "'geocone FILE.prm'");
-  }
-
-  int
-  run(const int argc, char **argv, Drawing &drawing)
-  {
-    const bool first =
-      dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-    const CommandLine call =
-      parse_command_line(argc, argv, "geocone", {"--replay", "--resume"});
-    if (call.version)
-      {
-        if (first)
-          std::cout << "geocone " << version << " (deal.II "
-                    << DEAL_II_PACKAGE_VERSION << ", "
-#ifdef __clang__
-                    << "clang " << __clang_version__
-#else
-                    << "g++ " << __VERSION__
-#endif
-#ifdef DEBUG
-                    << ", with assertions)" << std::endl;
-#else
-                    << ", optimised)" << std::endl;
-#endif
-        return 0;
-      }
-    if (call.help)
-      {
-        if (first)
-          {
-            // In one piece, for the reader of a pipe may have seen enough of it.
-            std::ostringstream text;
-            print_defaults(text, call.overrides);
-            std::cout << usage << "\nAll parameters, with their defaults:\n\n"
-                      << text.str() << std::flush;
-            if (!std::cout)
-              std::_Exit(0); // or else libraries complain of the closed pipe
-          }
-        return 0;
-      }
-    if (!call.defaults_file.empty())
-      {
-        if (first)
-          write_file(call.defaults_file, [&](std::ostream &out) {
-            print_defaults(out, call.overrides);
-          });
-        return 0;
-      }
-    if (call.own.count("--replay") > 0)
-      {
-        if (!call.file.empty())
-          throw InputError("--replay takes no parameter file, but '" +
-                           call.file +
-                           "' was given\n  remedy:  use --set for "
-                           "options of the solver");
-        if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
-          throw InputError("--replay works on one rank\n"
-                           "  remedy:  call it without mpirun");
-        Log log(MPI_COMM_WORLD, call.quiet);
-        return replay(call.own.at("--replay"), call.overrides, call.folder, log)
-                 ? 0
-                 : 1;
-      }
-    const bool resumes = call.own.count("--resume") > 0;
-    if (call.file.empty() && !resumes)
-      {
-        if (first)
-          std::cerr << "error: no parameter file\n" << usage;
-        return 1;
-      }
-    if (resumes)
-      check_resume(call);
-
-    const ParameterFile::OfOthers             of_others = parameters_of_laws();
-    const ParameterFile                       file      = resumes
-                                                            ? parameters_of_run(call.own.at("--resume"))
-                                                            : ParameterFile(call.file, call.overrides);
-    Log                                       log(MPI_COMM_WORLD, call.quiet);
-    Methods                                   methods(file, log);
-    const std::vector<ParameterFile::Setting> settings = file.parse(of_others);
-    RunOptions                                options = run_options(call, file);
-    if (resumes)
-      {
-        options.resumes = true;
-        options.folder  = call.own.at("--resume");
-      }
-    if (const std::string unused = unused_parameters(settings);
-        !unused.empty() && !resumes)
-      log.warn(unused);
-    Simulation &simulation = methods.chosen();
-    bool        ok         = false;
+    const std::string parameter = "Geometry/Dimension", plane = "2";
     try
       {
-        ok = simulation.run(options);
+        const CommandLine call =
+          parse_command_line(argc, argv, "geocone", {"--replay", "--resume"});
+        if (const auto resumed = call.own.find("--resume");
+            resumed != call.own.end())
+          return parameters_of_run(resumed->second).peek(parameter, plane);
+        if (call.file.empty())
+          return ParameterFile::from_text("", "call", call.overrides)
+            .peek(parameter, plane);
+        return ParameterFile(call.file, call.overrides).peek(parameter, plane);
       }
-    catch (...)
+    catch (const std::exception &)
       {
-        end_if_alone();
-        throw;
+        return plane;
       }
-    OutputBase &output = simulation.output();
-    if (first && !call.dry_run && output.wants_pictures())
-      drawing = {output.folder(), call.quiet};
-    return ok ? 0 : 1;
   }
 } // namespace
 
@@ -252,6 +69,6 @@ main(int argc, char **argv)
   if (const auto set_blas_threads = reinterpret_cast<void (*)(int)>(
         dlsym(RTLD_DEFAULT, "openblas_set_num_threads")))
     set_blas_threads(1);
-  return run_program(
-    argc, argv, [&](Drawing &drawing) { return run(argc, argv, drawing); });
+  return dimension_of(argc, argv) == "3" ? geocone_3d::run_geocone(argc, argv)
+                                         : geocone::run_geocone(argc, argv);
 }

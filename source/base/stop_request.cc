@@ -14,15 +14,18 @@ namespace geocone
   {
     volatile std::sig_atomic_t request = 0;
 
-    extern "C" void
-    note_request(const int signal)
+    extern "C" // what a handler is called as, of this unit alone
     {
-      if (request != 0)
-        {
-          std::signal(signal, SIG_DFL);
-          std::raise(signal);
-        }
-      request = signal;
+      static void
+      note_request(const int signal)
+      {
+        if (request != 0)
+          {
+            std::signal(signal, SIG_DFL);
+            std::raise(signal);
+          }
+        request = signal;
+      }
     }
 
     std::string

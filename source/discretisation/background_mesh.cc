@@ -5,6 +5,7 @@
 #include <geocone/base/log.h>
 #include <geocone/discretisation/background_mesh.h>
 
+#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/mpi.h>
 
 #include <deal.II/distributed/shared_tria.h>
@@ -54,7 +55,15 @@ namespace geocone
         const double    size =
           std::filesystem::file_size(scene.geometry.file, error);
         const double n = error ? 1. : std::max(1., size / 80.);
-        return {n, {{n, 1.}}, 1., !method.is_mpm(), false, "Geometry/File"};
+        Expected     expected;
+        expected.n_cells = n;
+        expected.intervals.fill(1.);
+        expected.intervals[0]  = n;
+        expected.area          = 1.;
+        expected.is_simplicial = !method.is_mpm();
+        expected.is_grid       = false;
+        expected.parameter     = "Geometry/File";
+        return expected;
       }
     const bool is_box = !parameters.is_unstructured();
     expected.is_simplicial =
@@ -63,7 +72,9 @@ namespace geocone
     if (is_box)
       {
         expected.intervals = grid_size(parameters);
-        expected.n_cells   = expected.intervals[0] * expected.intervals[1];
+        expected.n_cells   = 1.;
+        for (const double intervals : expected.intervals)
+          expected.n_cells *= intervals;
         if (expected.is_simplicial)
           expected.n_cells *=
             parameters.diagonals == MeshParameters::Diagonals::crossed ? 4.
@@ -74,11 +85,14 @@ namespace geocone
         expected.n_cells = parameters.type == MeshParameters::Type::from_bounds
                              ? parameters.number
                              : unstructured_size(parameters);
-        expected.intervals = {{expected.n_cells, 1.}};
+        expected.intervals.fill(1.);
+        expected.intervals[0] = expected.n_cells;
       }
     expected.area          = 0.;
     const Polygon &outline = parameters.outline;
-    for (std::size_t i = 0; i < outline.size(); ++i)
+    if (dim == 3)
+      expected.area = BoundingBox<dim>(outline).volume();
+    for (std::size_t i = 0; i < outline.size() && dim == 2; ++i)
       {
         const Point<dim> &a = outline[i],
                          &b = outline[(i + 1) % outline.size()];
@@ -126,13 +140,13 @@ namespace geocone
             "put the axis at x = 0 and the body on its right");
     sides                      = mesh.sides;
     lines                      = mesh.grid;
-    simplicial                 = mesh.has_triangles();
+    simplicial                 = mesh.has_simplices();
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
     if (simplicial && mesh.cells.size() > 0 &&
         std::any_of(mesh.cells.begin(), mesh.cells.end(), [](const auto &cell) {
-          return cell.vertices.size() == 4;
+          return cell.vertices.size() != dim + 1;
         }))
-      throw InputError("the mesh mixes triangles and quadrilaterals\n"
+      throw InputError("the mesh mixes simplices and other cells\n"
                        "  allowed: one kind of cells\n"
                        "  remedy:  recombine all or none in gmsh");
     if (n_ranks > mesh.cells.size())
@@ -169,8 +183,8 @@ namespace geocone
         Utilities::MPI::this_mpi_process(comm);
     Utilities::MPI::max(owners, comm, owners);
 
-    // Parts connected through edges, by union of the vertices of cells that
-    // share an edge: cells that touch in one vertex only can still rotate.
+    // Parts connected through faces, by union of the vertices of cells that share
+    // dim of them: cells that touch in less can still rotate.
     std::vector<unsigned int> part(mesh.cells.size());
     std::iota(part.begin(), part.end(), 0U);
     const auto root = [&](unsigned int i) {
@@ -178,18 +192,25 @@ namespace geocone
         i = part[i] = part[part[i]];
       return i;
     };
-    std::map<std::pair<unsigned int, unsigned int>, unsigned int> first_cell;
+    std::map<std::array<unsigned int, dim>, unsigned int> first_cell;
     for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       {
         const auto        &v = mesh.cells[c].vertices;
         const unsigned int n = v.size();
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int j = i + 1; j < n; ++j)
-            {
-              const auto entry =
-                first_cell.emplace(std::minmax(v[i], v[j]), c).first;
-              part[root(c)] = root(entry->second);
-            }
+            for (unsigned int k = dim == 2 ? 0 : j + 1; k < (dim == 2 ? 1 : n);
+                 ++k)
+              {
+                std::array<unsigned int, dim> shared;
+                shared[0] = v[i];
+                shared[1] = v[j];
+                if (dim == 3)
+                  shared.back() = v[k];
+                std::sort(shared.begin(), shared.end());
+                const auto entry = first_cell.emplace(shared, c).first;
+                part[root(c)]    = root(entry->second);
+              }
       }
     std::map<unsigned int, unsigned int> number;
     part_of_vertex.assign(mesh.points.size(), 0);
@@ -233,11 +254,18 @@ namespace geocone
         along[d] = cell->vertex(1 + d) - cell->vertex(0);
     else
       {
-        // Vertices 0, 1 below and 2, 3 above; bilinear.
-        along[0] = (1. - unit[1]) * (cell->vertex(1) - cell->vertex(0)) +
-                   unit[1] * (cell->vertex(3) - cell->vertex(2));
-        along[1] = (1. - unit[0]) * (cell->vertex(2) - cell->vertex(0)) +
-                   unit[0] * (cell->vertex(3) - cell->vertex(1));
+        // Multilinear: the edges along each direction, by their places in the others.
+        for (unsigned int d = 0; d < dim; ++d)
+          for (unsigned int v = 0; v < (1U << dim); ++v)
+            if ((v >> d) % 2 == 0)
+              {
+                double part = 1.;
+                for (unsigned int c = 0; c < dim; ++c)
+                  if (c != d)
+                    part *= (v >> c) % 2 == 0 ? 1. - unit[c] : unit[c];
+                along[d] +=
+                  part * (cell->vertex(v | (1U << d)) - cell->vertex(v));
+              }
       }
     Tensor<2, dim> jacobian;
     for (unsigned int c = 0; c < dim; ++c)
@@ -264,16 +292,23 @@ namespace geocone
     Point<dim> unit;
     if (simplicial)
       {
-        // Affine; inside where the three area coordinates are not negative.
+        // Affine; inside where no barycentric coordinate is negative.
         unit += inverse_jacobian(cell, unit) * (x - cell->vertex(0));
-        const double smallest =
-          std::min({unit[0], unit[1], 1. - unit[0] - unit[1]});
-        if (!(smallest >= -tolerance))
-          return std::nullopt;
+        double smallest = 1., sum = 0.;
         for (unsigned int d = 0; d < dim; ++d)
-          unit[d] = std::max(0., unit[d]);
-        const double beyond = std::max(1., unit[0] + unit[1]);
-        return Point<dim>(unit / beyond);
+          {
+            smallest = std::min(smallest, unit[d]);
+            sum += unit[d];
+          }
+        if (!(std::min(smallest, 1. - sum) >= -tolerance))
+          return std::nullopt;
+        sum = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            unit[d] = std::max(0., unit[d]);
+            sum += unit[d];
+          }
+        return Point<dim>(unit / std::max(1., sum));
       }
     try
       {

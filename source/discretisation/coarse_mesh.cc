@@ -5,6 +5,8 @@
 #include <geocone/base/log.h>
 #include <geocone/discretisation/coarse_mesh.h>
 
+#include <deal.II/grid/reference_cell.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,10 +16,10 @@ namespace geocone
   using dealii::Point;
 
   bool
-  CoarseMesh::has_triangles() const
+  CoarseMesh::has_simplices() const
   {
     return std::any_of(cells.begin(), cells.end(), [](const auto &cell) {
-      return cell.vertices.size() == 3;
+      return cell.vertices.size() == dim + 1;
     });
   }
 
@@ -30,35 +32,75 @@ namespace geocone
     return sum / double(cell.vertices.size());
   }
 
-  std::vector<std::array<unsigned int, 2>>
-  CoarseMesh::outer_edges() const
+  std::vector<CoarseMesh::Face>
+  CoarseMesh::outer_faces() const
   {
-    // Vertices of the edges: of triangles around the cell, of quadrilaterals in
-    // deal.II's lexicographic numbering.
-    static const std::vector<std::array<unsigned int, 2>>
-      edges_of_triangle      = {{{0, 1}}, {{1, 2}}, {{2, 0}}},
-      edges_of_quadrilateral = {{{0, 1}}, {{1, 3}}, {{3, 2}}, {{2, 0}}};
-
-    std::vector<std::array<unsigned int, 2>> edges;
+    const auto sorted = [](Face face) {
+      std::sort(face.begin(), face.end());
+      return face;
+    };
+    // By their sorted vertices, which neighbours share.
+    std::vector<std::pair<Face, Face>> faces;
     for (const auto &cell : cells)
-      for (const auto &edge : cell.vertices.size() == 3
-                                ? edges_of_triangle
-                                : edges_of_quadrilateral)
-        {
-          const unsigned int a = cell.vertices[edge[0]];
-          const unsigned int b = cell.vertices[edge[1]];
-          edges.push_back({{std::min(a, b), std::max(a, b)}});
-        }
-    std::sort(edges.begin(), edges.end());
-    std::vector<std::array<unsigned int, 2>> outer;
-    for (std::size_t i = 0, j; i < edges.size(); i = j)
       {
-        for (j = i; j < edges.size() && edges[j] == edges[i];)
+        const auto reference =
+          dealii::ReferenceCell::n_vertices_to_type(dim, cell.vertices.size());
+        for (const unsigned int f : reference.face_indices())
+          {
+            Face face;
+            face.fill(no_vertex);
+            for (unsigned int i = 0;
+                 i < reference.face_reference_cell(f).n_vertices();
+                 ++i)
+              face[i] =
+                cell.vertices[reference.face_to_cell_vertices(f, i, true)];
+            faces.emplace_back(sorted(face), dim == 2 ? sorted(face) : face);
+          }
+      }
+    std::sort(faces.begin(), faces.end());
+    std::vector<Face> outer;
+    for (std::size_t i = 0, j; i < faces.size(); i = j)
+      {
+        for (j = i; j < faces.size() && faces[j].first == faces[i].first;)
           ++j;
         if (j == i + 1)
-          outer.push_back(edges[i]);
+          outer.push_back(faces[i].second);
       }
     return outer;
+  }
+
+  Point<dim>
+  CoarseMesh::centre(const Face &face) const
+  {
+    Point<dim>   sum;
+    unsigned int n = 0;
+    for (const unsigned int v : face)
+      if (v != no_vertex)
+        {
+          sum += points[v];
+          ++n;
+        }
+    return sum / double(n);
+  }
+
+  void
+  CoarseMesh::add_boundary(const Face                      &face,
+                           const dealii::types::boundary_id side)
+  {
+    if constexpr (dim == 2)
+      {
+        dealii::CellData<1> line(2);
+        line.vertices    = {face[0], face[1]};
+        line.boundary_id = side;
+        boundary.boundary_lines.push_back(line);
+      }
+    else
+      {
+        dealii::CellData<2> quad(face.back() == no_vertex ? 3 : 4);
+        std::copy_n(face.begin(), quad.vertices.size(), quad.vertices.begin());
+        quad.boundary_id = side;
+        boundary.boundary_quads.push_back(quad);
+      }
   }
 
   MeshParameters::MeshParameters()
@@ -78,7 +120,9 @@ namespace geocone
                   "edges on the border of the body.");
     cells.declare(*this,
                   "Cells",
-                  ". Automatic: triangles for FEM, quadrilaterals for MPM.");
+                  dim == 2
+                    ? ". Automatic: triangles for FEM, quadrilaterals for MPM."
+                    : ". Boxes have hexahedra; files what they hold.");
     diagonals.declare(
       *this,
       "Diagonals",
@@ -142,7 +186,7 @@ namespace geocone
                        "the body reaches from " +
                          dealii::Patterns::Tools::to_string(lower) + " to " +
                          dealii::Patterns::Tools::to_string(upper));
-    outline = {box[0], {box[1][0], box[0][1]}, box[1], {box[0][0], box[1][1]}};
+    outline = outline_of_box(box[0], box[1]);
   }
 
   void
@@ -170,6 +214,19 @@ namespace geocone
           throw InputError(
             "Mesh/Number of cells", number, "20 to 200000", "1500 are usual");
         cells = Cells::triangles;
+      }
+    if (dim == 3 && geometry.shape != Geometry::Shape::file)
+      {
+        const Cells only =
+          is_unstructured() ? Cells::triangles : Cells::quadrilaterals;
+        if (cells != Cells::automatic && cells != only)
+          throw InputError(
+            "Mesh/Cells",
+            cells.word(),
+            "automatic: tetrahedra for Mesh/Type = unstructured, "
+            "hexahedra for the others",
+            "set Mesh/Cells = automatic");
+        cells = only;
       }
     if (cells == Cells::automatic)
       cells = method.is_mpm() ? Cells::quadrilaterals : Cells::triangles;
@@ -210,7 +267,7 @@ namespace geocone
       for (const Point<dim> &x : grading_points)
         {
           double distance = 1e300;
-          for (std::size_t i = 0; i < outline.size(); ++i)
+          for (std::size_t i = 0; i < outline.size() && dim == 2; ++i)
             distance =
               std::min(distance,
                        distance_to_segment(
@@ -246,10 +303,12 @@ namespace geocone
     else
       {
         const std::array<double, dim> n = grid_size(*this);
-        n_cells                         = n[0] * n[1] *
-                  (cells == Cells::quadrilaterals    ? 1.
-                   : diagonals == Diagonals::crossed ? 4.
-                                                     : 2.);
+        n_cells                         = 1.;
+        for (const double intervals : n)
+          n_cells *= intervals;
+        n_cells *= (cells == Cells::quadrilaterals    ? 1.
+                    : diagonals == Diagonals::crossed ? 4.
+                                                      : 2.);
       }
     if (!(n_cells <= most_cells))
       throw InputError(entry,
@@ -389,11 +448,20 @@ namespace geocone
     }
   } // namespace
 
+  namespace
+  {
+    /** The lowest and the highest corner of the domain. */
+    std::pair<Point<dim>, Point<dim>>
+    corners(const MeshParameters &parameters)
+    {
+      return {parameters.outline[0], parameters.outline[dim == 2 ? 2 : 1]};
+    }
+  } // namespace
+
   std::array<double, dim>
   grid_size(const MeshParameters &parameters)
   {
-    const Point<dim> lower = parameters.outline[0],
-                     upper = parameters.outline[2];
+    const auto [lower, upper] = corners(parameters);
     std::array<double, dim> n;
     for (unsigned int c = 0; c < dim; ++c)
       if (parameters.type == MeshParameters::Type::graded)
@@ -418,7 +486,8 @@ namespace geocone
 
   namespace
   {
-    /** Integrates 1/h^2 over triangles, by parts in which h hardly varies. */
+    /** Integrates 1/h^2 over triangles, 1/h^3 over boxes, by parts in which h hardly
+     *  varies. */
     class IntegralOfSizes
     {
     public:
@@ -442,12 +511,48 @@ namespace geocone
             size(distance + radius) <= 1.5 * size(distance - radius))
           {
             const double h = size(distance);
-            return cross_product_2d(b - a) * (c - a) / -2. / (h * h);
+            return ((b[0] - a[0]) * (c[1] - a[1]) -
+                    (b[1] - a[1]) * (c[0] - a[0])) /
+                   2. / (h * h);
           }
         const Point<dim> ab = a + (b - a) / 2., bc = b + (c - b) / 2.,
                          ca = c + (a - c) / 2.;
         return over({{a, ab, ca}}, depth - 1) + over({{ab, b, bc}}, depth - 1) +
                over({{ca, bc, c}}, depth - 1) + over({{ab, bc, ca}}, depth - 1);
+      }
+
+      /** Of 1/h^3 over a box. */
+      double
+      over_box(const std::array<Point<dim>, 2> &corners,
+               const int                        depth = 20) const
+      {
+        const auto &[a, b]        = corners;
+        const Point<dim> centre   = a + (b - a) / 2.;
+        const double     radius   = a.distance(b) / 2.;
+        double           distance = std::numeric_limits<double>::max();
+        for (const Point<dim> &x : parameters.grading_points)
+          distance = std::min(distance, centre.distance(x));
+        if (depth == 0 ||
+            size(distance + radius) <= 1.5 * size(distance - radius))
+          {
+            double part = 1.;
+            for (unsigned int c = 0; c < dim; ++c)
+              part *= (b[c] - a[c]) / size(distance);
+            return part;
+          }
+        double sum = 0.;
+        for (unsigned int v = 0; v < (1U << dim); ++v)
+          {
+            std::array<Point<dim>, 2> part;
+            for (unsigned int c = 0; c < dim; ++c)
+              {
+                const bool upper = (v >> c) % 2 == 1;
+                part[0][c]       = upper ? centre[c] : a[c];
+                part[1][c]       = upper ? b[c] : centre[c];
+              }
+            sum += over_box(part, depth - 1);
+          }
+        return sum;
       }
 
     private:
@@ -470,7 +575,10 @@ namespace geocone
   {
     const Polygon        &outline = parameters.outline;
     const IntegralOfSizes integral(parameters);
-    double                sum = 0.;
+    if (dim == 3) // a regular tetrahedron of edge h has the volume h^3/6 sqrt2
+      return std::max(
+        6., 6. * sqrt2 * integral.over_box({{outline[0], outline[1]}}));
+    double sum = 0.;
     for (std::size_t i = 1; i + 1 < outline.size(); ++i)
       sum += integral.over({{outline[0], outline[i], outline[i + 1]}});
     const double n_triangles =
@@ -483,8 +591,7 @@ namespace geocone
   std::array<std::vector<double>, dim>
   grid_lines(const MeshParameters &parameters)
   {
-    const Point<dim> lower = parameters.outline[0],
-                     upper = parameters.outline[2];
+    const auto [lower, upper] = corners(parameters);
     std::array<std::vector<double>, dim> x;
     for (unsigned int c = 0; c < dim; ++c)
       if (parameters.type == MeshParameters::Type::graded)
@@ -506,7 +613,7 @@ namespace geocone
                    0.1 * resolved),
             format("there are two lines at %c = %.17g: take one of two points "
                    "that are so close together",
-                   "xy"[c],
+                   coordinate[c],
                    x[c][i]));
     return x;
   }
@@ -516,17 +623,47 @@ namespace geocone
   {
     const std::array<std::vector<double>, dim> x = grid_lines(parameters);
 
-    CoarseMesh         mesh;
-    const unsigned int nx = x[0].size() - 1, ny = x[1].size() - 1;
-    for (unsigned int j = 0; j <= ny; ++j)
-      for (unsigned int i = 0; i <= nx; ++i)
-        mesh.points.emplace_back(x[0][i], x[1][j]);
+    CoarseMesh                    mesh;
+    std::array<unsigned int, dim> n;
+    for (unsigned int c = 0; c < dim; ++c)
+      n[c] = x[c].size();
+    const unsigned int nx = n[0] - 1, ny = n[1] - 1, nz = n[dim - 1] - 1;
+    for (unsigned int k = 0; k <= (dim == 3 ? nz : 0); ++k)
+      for (unsigned int j = 0; j <= ny; ++j)
+        for (unsigned int i = 0; i <= nx; ++i)
+          {
+            Point<dim> vertex;
+            vertex[dim - 1] = x[dim - 1][k];
+            vertex[0]       = x[0][i];
+            vertex[1]       = x[1][j];
+            mesh.points.push_back(vertex);
+          }
 
     const auto add_cell = [&](const std::vector<unsigned int> &vertices) {
       dealii::CellData<dim> cell(vertices.size());
       cell.vertices = vertices;
       mesh.cells.push_back(cell);
     };
+    if (dim == 3)
+      {
+        for (unsigned int k = 0; k < nz; ++k)
+          for (unsigned int j = 0; j < ny; ++j)
+            for (unsigned int i = 0; i < nx; ++i)
+              {
+                const unsigned int row = nx + 1, layer = row * (ny + 1);
+                const unsigned int a = k * layer + j * row + i;
+                add_cell({a,
+                          a + 1,
+                          a + row,
+                          a + row + 1,
+                          a + layer,
+                          a + layer + 1,
+                          a + layer + row,
+                          a + layer + row + 1});
+              }
+        mesh.grid = x;
+        return mesh;
+      }
     const bool crossed =
       parameters.diagonals == MeshParameters::Diagonals::crossed;
     for (unsigned int j = 0; j < ny; ++j)
@@ -539,8 +676,10 @@ namespace geocone
           else if (crossed)
             {
               const unsigned int m = mesh.points.size();
-              mesh.points.emplace_back((x[0][i] + x[0][i + 1]) / 2.,
-                                       (x[1][j] + x[1][j + 1]) / 2.);
+              Point<dim>         middle;
+              middle[0] = (x[0][i] + x[0][i + 1]) / 2.;
+              middle[1] = (x[1][j] + x[1][j + 1]) / 2.;
+              mesh.points.push_back(middle);
               add_cell({a, b, m});
               add_cell({b, d, m});
               add_cell({d, c, m});

@@ -14,15 +14,26 @@ namespace geocone
 
   namespace
   {
-    const std::map<std::string, types::boundary_id> sides_of_box = {
-      {"bottom", 0}, {"right", 1}, {"top", 2}, {"left", 3}};
-
     /** The side of a polygon on which x lies (the nearest one). */
     types::boundary_id
     nearest_side(const Polygon &outline, const Point<dim> &x)
     {
       std::size_t nearest  = 0;
       double      distance = std::numeric_limits<double>::max();
+      if (dim == 3)
+        {
+          // In the order of the coordinates, the lower one first.
+          static const char *const names[] = {
+            "left", "right", "bottom", "top", "back", "front"};
+          for (unsigned int c = 0; c < dim; ++c)
+            for (unsigned int i = 0; i < 2; ++i)
+              if (const double d = std::abs(x[c] - outline[i][c]); d < distance)
+                {
+                  distance = d;
+                  nearest  = 2 * c + i;
+                }
+          return sides_of_box().at(names[nearest]);
+        }
       for (std::size_t i = 0; i < outline.size(); ++i)
         if (const double d = distance_to_segment(
               x, outline[i], outline[(i + 1) % outline.size()]);
@@ -44,26 +55,26 @@ namespace geocone
     if (scene.geometry.shape == Geometry::Shape::file)
       return mesh_of_file(scene.geometry, scene.regions, comm);
     const dealii::BoundingBox<dim> domain(parameters.outline);
-    const MeshLines                lines = scene.water.lines(
-      domain.get_boundary_points().first, domain.get_boundary_points().second);
-    CoarseMesh mesh =
-      sizes != nullptr
-        ? mesh_with_sizes(parameters, scene.regions, lines, *sizes, comm)
-      : parameters.is_unstructured()
-        ? unstructured_mesh(parameters, scene.regions, lines, comm)
-        : structured_mesh(parameters);
+    CoarseMesh                     mesh;
+    if (!parameters.is_unstructured())
+      mesh = structured_mesh(parameters);
+    else
+      {
+        MeshLines lines;
+        if (dim == 2)
+          lines = scene.water.lines(domain.get_boundary_points().first,
+                                    domain.get_boundary_points().second);
+        mesh =
+          sizes != nullptr
+            ? mesh_with_sizes(parameters, scene.regions, lines, *sizes, comm)
+            : unstructured_mesh(parameters, scene.regions, lines, comm);
+      }
     for (auto &cell : mesh.cells)
       cell.material_id = scene.regions.material_at(mesh.centre(cell), -1);
-    mesh.sides = parameters.fits_body ? scene.geometry.sides : sides_of_box;
-    for (const auto &edge : mesh.outer_edges())
-      {
-        CellData<1> line(2);
-        line.vertices = {edge[0], edge[1]};
-        line.boundary_id =
-          nearest_side(parameters.outline,
-                       0.5 * (mesh.points[edge[0]] + mesh.points[edge[1]]));
-        mesh.boundary.boundary_lines.push_back(line);
-      }
+    mesh.sides = parameters.fits_body ? scene.geometry.sides : sides_of_box();
+    for (const CoarseMesh::Face &face : mesh.outer_faces())
+      mesh.add_boundary(face,
+                        nearest_side(parameters.outline, mesh.centre(face)));
     return mesh;
   }
 

@@ -146,11 +146,11 @@ namespace geocone
     }
 
     /**
-     * Copies the present gmsh model. @p surfaces: the surfaces to take, all if
+     * Copies the present gmsh model. @p chosen: the surfaces or volumes to take, all if
      * empty.
      */
     MshData
-    copy_model(const std::set<int> &surfaces, const std::string &what)
+    copy_model(const std::set<int> &chosen, const std::string &what)
     {
       MshData                  data;
       std::vector<std::size_t> node_tags;
@@ -162,14 +162,14 @@ namespace geocone
                                 coordinates[3 * i + 1],
                                 coordinates[3 * i + 2]}}});
 
-      for (const int dimension : {1, 2})
+      for (const int dimension : {int(dim) - 1, int(dim)})
         {
           gmsh::vectorpair entities;
           gmsh::model::getEntities(entities, dimension);
           for (const auto &entity : entities)
             {
-              if (dimension == 2 && !surfaces.empty() &&
-                  surfaces.count(entity.second) == 0)
+              if (dimension == int(dim) && !chosen.empty() &&
+                  chosen.count(entity.second) == 0)
                 continue;
               const std::vector<int> groups =
                 physical_groups(dimension, entity.second);
@@ -190,18 +190,18 @@ namespace geocone
                                                   {}};
                       for (unsigned int i = 0; i < n; ++i)
                         element.nodes[i] = nodes[t][n * e + i];
-                      (dimension == 1 ? data.lines : data.cells)
+                      (dimension == int(dim) ? data.cells : data.faces)
                         .push_back(element);
                     }
                 }
-              if (dimension == 1)
+              if (dimension == int(dim) - 1)
                 for (const int group : groups)
                   {
                     std::string name;
-                    gmsh::model::getPhysicalName(1, group, name);
-                    data.curve_groups.insert(group);
+                    gmsh::model::getPhysicalName(dimension, group, name);
+                    data.face_groups.insert(group);
                     if (!name.empty())
-                      data.curve_names[group] = name;
+                      data.face_names[group] = name;
                   }
             }
         }
@@ -219,15 +219,15 @@ namespace geocone
                          std::vector<int>                      types;
                          std::vector<std::vector<std::size_t>> elements, nodes;
                          gmsh::model::mesh::getElements(
-                           types, elements, nodes, 2);
+                           types, elements, nodes, dim);
                          if (types.empty())
-                           gmsh::model::mesh::generate(2);
-                         // As gmsh saves a mesh: if some surfaces are physical, these only.
+                           gmsh::model::mesh::generate(dim);
+                         // As gmsh saves a mesh: if some surfaces or volumes are physical, these only.
                          std::set<int>    physical;
                          gmsh::vectorpair entities;
-                         gmsh::model::getEntities(entities, 2);
+                         gmsh::model::getEntities(entities, dim);
                          for (const auto &entity : entities)
-                           if (!physical_groups(2, entity.second).empty())
+                           if (!physical_groups(dim, entity.second).empty())
                              physical.insert(entity.second);
                          return copy_model(physical, what);
                        });
@@ -253,9 +253,10 @@ namespace geocone
                          path.filename().string(),
                          "a gmsh .msh file; a geo script is a program, which "
                          "can run commands and write files",
-                         "mesh it (gmsh -2 NAME.geo) and give the .msh file; "
-                         "or, if you trust the script, set Geometry/Run gmsh "
-                         "script = true");
+                         std::string("mesh it (gmsh -") + char('0' + dim) +
+                           " NAME.geo) and give the .msh file; "
+                           "or, if you trust the script, set Geometry/Run gmsh "
+                           "script = true");
       return run_script(geometry.file, what);
     }
   } // namespace
@@ -317,7 +318,14 @@ namespace geocone
       namespace occ = gmsh::model::occ;
       gmsh::model::add("domain");
 
-      const auto surface = [](const Polygon &polygon) {
+      // A plane surface, or in three dimensions a box.
+      const auto body = [](const Polygon &polygon) {
+        if constexpr (dim == 3)
+          {
+            const Point<dim>            &a    = polygon[0];
+            const dealii::Tensor<1, dim> size = polygon[1] - a;
+            return occ::addBox(a[0], a[1], a[2], size[0], size[1], size[2]);
+          }
         std::vector<int> points, lines;
         for (const Point<dim> &x : polygon)
           points.push_back(occ::addPoint(x[0], x[1], 0.));
@@ -329,12 +337,12 @@ namespace geocone
 
       // The domain is fragmented by the borders of the body and the materials, by
       // lines of which it takes what is inside, and by the grading points, which so become edges and vertices of the mesh.
-      const gmsh::vectorpair domain = {{2, surface(parameters.outline)}};
+      const gmsh::vectorpair domain = {{int(dim), body(parameters.outline)}};
       gmsh::vectorpair       tools;
       if (!parameters.body.empty())
-        tools.emplace_back(2, surface(parameters.body));
+        tools.emplace_back(dim, body(parameters.body));
       for (const Polygon &polygon : regions.polygons())
-        tools.emplace_back(2, surface(polygon));
+        tools.emplace_back(dim, body(polygon));
       for (const auto &line : lines)
         {
           const int tag =
@@ -348,15 +356,16 @@ namespace geocone
               tools.push_back(part);
         }
       for (const Point<dim> &x : parameters.grading_points)
-        tools.emplace_back(0, occ::addPoint(x[0], x[1], 0.));
+        tools.emplace_back(
+          0, occ::addPoint(x[0], x[1], dim == 3 ? x[dim - 1] : 0.));
       gmsh::vectorpair              pieces = domain;
       std::vector<gmsh::vectorpair> origin = {domain};
       if (!tools.empty())
         occ::fragment(domain, tools, pieces, origin);
       occ::synchronize();
-      std::set<int> surfaces;
+      std::set<int> cells_of;
       for (const auto &piece : origin[0])
-        surfaces.insert(piece.second);
+        cells_of.insert(piece.second);
 
       if (sizes != nullptr)
         set_sizes(*sizes);
@@ -381,10 +390,11 @@ namespace geocone
               gmsh::model::mesh::field::setString(
                 field,
                 "F",
-                format("%.17g*Sqrt((x-(%.17g))^2+(y-(%.17g))^2)",
+                format("%.17g*Sqrt((x-(%.17g))^2+(y-(%.17g))^2+(z-(%.17g))^2)",
                        parameters.size_ratio,
                        x[0],
-                       x[1]));
+                       x[1],
+                       dim == 3 ? x[dim - 1] : 0.));
               fields.push_back(field);
             }
           const int smallest = gmsh::model::mesh::field::add("Min");
@@ -404,8 +414,8 @@ namespace geocone
           gmsh::option::setNumber("Mesh.RecombinationAlgorithm", 1);
           gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 1);
         }
-      gmsh::model::mesh::generate(2);
-      return copy_model(surfaces, what);
+      gmsh::model::mesh::generate(dim);
+      return copy_model(cells_of, what);
     }
   } // namespace
 

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/types.h>
 #include <geocone/discretisation/msh_scanner.h>
 
 #include <algorithm>
@@ -17,6 +18,9 @@ namespace geocone
 {
   namespace
   {
+    /** What gmsh calls the faces of cells. */
+    const std::string face_word = dim == 2 ? "curve" : "surface";
+
     // Five million nodes in ASCII; the solvers end long before.
     constexpr std::uintmax_t largest_file = 512ULL << 20;
 
@@ -131,10 +135,10 @@ namespace geocone
               in.refuse("the name " + shown_part(name) +
                           " has unprintable letters",
                         "rename the physical group");
-            if (dimension == 1 && !name.empty() &&
-                !data.curve_names.emplace(number, name).second)
-              in.refuse("the physical curve " + std::to_string(number) +
-                          " has two names",
+            if (dimension == int(dim) - 1 && !name.empty() &&
+                !data.face_names.emplace(number, name).second)
+              in.refuse("the physical " + face_word + " " +
+                          std::to_string(number) + " has two names",
                         "delete one of them");
           }
       }
@@ -166,9 +170,9 @@ namespace geocone
                 in.skip_integers<int>(
                   in.integer<std::uint64_t>("the number of bounding entities"),
                   "bounding entities");
-              if (dimension == 1)
-                data.curve_groups.insert(groups.begin(), groups.end());
-              if ((dimension == 1 || dimension == 2) &&
+              if (dimension == int(dim) - 1)
+                data.face_groups.insert(groups.begin(), groups.end());
+              if ((dimension == int(dim) - 1 || dimension == int(dim)) &&
                   !groups_of_entity[dimension]
                      .emplace(entity, data.index_of_groups(groups))
                      .second)
@@ -252,7 +256,7 @@ namespace geocone
                     "copy it again, or " + msh_remedy);
       }
 
-      /** Reads the nodes of an element and keeps it unless it is a point. */
+      /** Reads the nodes of an element and keeps it if it is a cell or a face. */
       void
       element(const std::uint64_t tag,
               const int           type,
@@ -265,9 +269,9 @@ namespace geocone
           element.nodes[i] =
             four ? in.integer<std::uint64_t>("a node of an element", 1)
                  : in.integer("a node of an element", 1);
-        if (type == MshData::line)
-          data.lines.push_back(element);
-        else if (type != MshData::point)
+        if (dimension_of_type(type) == int(dim) - 1)
+          data.faces.push_back(element);
+        else if (dimension_of_type(type) == int(dim))
           data.cells.push_back(element);
       }
 
@@ -282,8 +286,8 @@ namespace geocone
           entity = in.integer<int>("the entity of an element");
         if (n_tags > 2)
           in.skip_integers<int>(n_tags - 2, "tags");
-        if (type == MshData::line && group > 0)
-          data.curve_groups.insert(group);
+        if (dimension_of_type(type) == int(dim) - 1 && group > 0)
+          data.face_groups.insert(group);
         element(
           tag, type, entity, group > 0 ? data.index_of_groups({group}) : 0);
       }
@@ -338,9 +342,7 @@ namespace geocone
             const int entity    = in.integer<int>("the number of an entity");
             const int type      = in.integer<int>("the type of elements");
             check_element_type(type, what, "");
-            if (dimension != (type == MshData::point  ? 0
-                              : type == MshData::line ? 1
-                                                      : 2))
+            if (dimension != dimension_of_type(type))
               in.refuse("elements of gmsh's type " + std::to_string(type) +
                         " in an entity of dimension " +
                         std::to_string(dimension));
@@ -360,9 +362,9 @@ namespace geocone
       void
       take_groups_of_entities()
       {
-        for (const int dimension : {1, 2})
+        for (const int dimension : {int(dim) - 1, int(dim)})
           for (MshData::Element &element :
-               dimension == 1 ? data.lines : data.cells)
+               dimension == int(dim) ? data.cells : data.faces)
             {
               const auto entity =
                 groups_of_entity[dimension].find(element.entity);
@@ -384,7 +386,7 @@ namespace geocone
       void
       merge_copies()
       {
-        for (auto *elements : {&data.lines, &data.cells})
+        for (auto *elements : {&data.faces, &data.cells})
           {
             std::vector<std::size_t> order(elements->size());
             std::iota(order.begin(), order.end(), std::size_t(0));
@@ -427,7 +429,7 @@ namespace geocone
       MshData                                    data;
       bool                                       four          = false;
       bool                                       have_entities = false;
-      std::array<std::map<int, unsigned int>, 3> groups_of_entity;
+      std::array<std::map<int, unsigned int>, 4> groups_of_entity;
     };
   } // namespace
 
@@ -444,7 +446,19 @@ namespace geocone
   unsigned int
   n_nodes_of_type(const int type)
   {
-    return type == MshData::point ? 1 : type + 1;
+    return type == MshData::point         ? 1
+           : type == MshData::hexahedron  ? 8
+           : type == MshData::tetrahedron ? 4
+                                          : type + 1;
+  }
+
+  int
+  dimension_of_type(const int type)
+  {
+    return type == MshData::point           ? 0
+           : type == MshData::line          ? 1
+           : type <= MshData::quadrilateral ? 2
+                                            : 3;
   }
 
   void
@@ -452,16 +466,22 @@ namespace geocone
                      const std::string &what,
                      const std::string &element)
   {
-    if (type != MshData::line && type != MshData::triangle &&
-        type != MshData::quadrilateral && type != MshData::point)
+    if (type != MshData::point &&
+        (type < MshData::line ||
+         type > (dim == 2 ? MshData::quadrilateral : MshData::hexahedron)))
       throw InputError(
         what +
         (element.empty() ? " has elements"
                          : ": the element" + element + " is") +
         " of gmsh's type " + std::to_string(type) +
-        "\n  allowed: 1, 2, 3 and 15: lines, triangles, quadrilaterals (of "
-        "first order) and points\n  remedy:  mesh the plane only, with "
-        "Mesh.ElementOrder = 1");
+        (dim == 2
+           ? "\n  allowed: 1, 2, 3 and 15: lines, triangles, quadrilaterals "
+             "(of "
+             "first order) and points\n  remedy:  mesh the plane only, with "
+             "Mesh.ElementOrder = 1"
+           : "\n  allowed: 1 to 5 and 15: lines, triangles, quadrilaterals, "
+             "tetrahedra, hexahedra (of first order) and points\n  remedy:  "
+             "mesh with Mesh.ElementOrder = 1"));
   }
 
   bool

@@ -20,6 +20,9 @@ namespace geocone
 
   namespace
   {
+    /** What gmsh calls the faces of cells. */
+    const std::string face_word = dim == 2 ? "curve" : "surface";
+
     double
     signed_area(const std::vector<Point<dim>>   &points,
                 const std::vector<unsigned int> &around)
@@ -56,7 +59,83 @@ namespace geocone
     std::string
     place(const Point<dim> &x)
     {
-      return format("(%g, %g)", x[0], x[1]);
+      return "(" + text_of_place(x) + ")";
+    }
+
+    /** Six times the volume of the tetrahedron of four vertices, with its sign. */
+    double
+    sixfold_volume(const std::vector<Point<dim>> &points,
+                   const std::array<unsigned, 4> &v)
+    {
+      dealii::Tensor<1, 3> edge[3];
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int c = 0; c < dim; ++c)
+          edge[i][c] = points[v[i + 1]][c] - points[v[0]][c];
+      return dealii::cross_product_3d(edge[0], edge[1]) * edge[2];
+    }
+
+    /** The smallest of the corners of a tetrahedron or a hexahedron, in gmsh's
+     *  order: negative where it is inverted or not convex there. */
+    double
+    worst_corner_of_solid(const std::vector<Point<dim>>   &points,
+                          const std::vector<unsigned int> &v)
+    {
+      if (v.size() == 4)
+        return sixfold_volume(points, {{v[0], v[1], v[2], v[3]}});
+      // Of each corner its neighbours, turning to the left seen from within.
+      static constexpr unsigned int corners[8][4] = {{0, 1, 3, 4},
+                                                     {1, 2, 0, 5},
+                                                     {2, 3, 1, 6},
+                                                     {3, 0, 2, 7},
+                                                     {4, 7, 5, 0},
+                                                     {5, 4, 6, 1},
+                                                     {6, 5, 7, 2},
+                                                     {7, 6, 4, 3}};
+      double                        worst = std::numeric_limits<double>::max();
+      for (const auto &c : corners)
+        worst = std::min(
+          worst,
+          sixfold_volume(points, {{v[c[0]], v[c[1]], v[c[2]], v[c[3]]}}));
+      return worst;
+    }
+
+    /** The other orientation. */
+    void
+    turn_round(std::vector<unsigned int> &v)
+    {
+      if (dim == 2)
+        std::reverse(v.begin(), v.end());
+      else if (v.size() == 4)
+        std::swap(v[0], v[1]);
+      else
+        for (unsigned int i = 0; i < 4; ++i)
+          std::swap(v[i], v[i + 4]);
+    }
+
+    /** In three dimensions: vertices at one place, which leave a gap between cells. */
+    void
+    check_double_nodes(const CoarseMesh &mesh, const std::string &what)
+    {
+      std::vector<unsigned int> order(mesh.points.size());
+      std::iota(order.begin(), order.end(), 0U);
+      const double tolerance = resolved_length(mesh.points);
+      std::sort(order.begin(),
+                order.end(),
+                [&](const unsigned int a, const unsigned int b) {
+                  return mesh.points[a][0] < mesh.points[b][0];
+                });
+      for (std::size_t i = 0; i < order.size(); ++i)
+        for (std::size_t j = i + 1;
+             j < order.size() &&
+             mesh.points[order[j]][0] - mesh.points[order[i]][0] < tolerance;
+             ++j)
+          if (mesh.points[order[i]].distance(mesh.points[order[j]]) < tolerance)
+            throw InputError(
+              what + ": there are two nodes at " +
+              place(mesh.points[order[i]]) +
+              "\n  allowed: conforming meshes without double nodes\n"
+              "  remedy:  in gmsh, Coherence before meshing, or "
+              "Mesh.RemoveDuplicateNodes");
     }
 
     /** Each edge must be passed once in each direction at most. */
@@ -86,11 +165,12 @@ namespace geocone
                      const std::string                            &what)
     {
       for (const Point<dim> &x : points)
-        if (std::max(std::abs(x[0]), std::abs(x[1])) > largest_coordinate)
-          throw InputError(what + ": there is a node at " + place(x) +
-                           format("\n  allowed: coordinates up to %g m\n",
-                                  largest_coordinate) +
-                           "  remedy:  scale the mesh to m");
+        for (unsigned int c = 0; c < dim; ++c)
+          if (std::abs(x[c]) > largest_coordinate)
+            throw InputError(what + ": there is a node at " + place(x) +
+                             format("\n  allowed: coordinates up to %g m\n",
+                                    largest_coordinate) +
+                             "  remedy:  scale the mesh to m");
       const double smallest = resolved_length(points);
       for (const auto &v : around)
         for (std::size_t i = 0; i < v.size(); ++i)
@@ -113,7 +193,9 @@ namespace geocone
     void
     check_hanging_nodes(const CoarseMesh &mesh, const std::string &what)
     {
-      const auto                edges = mesh.outer_edges();
+      if (dim == 3)
+        return check_double_nodes(mesh, what);
+      const auto                edges = mesh.outer_faces();
       std::vector<unsigned int> vertices;
       for (const auto &edge : edges)
         vertices.insert(vertices.end(), edge.begin(), edge.end());
@@ -156,17 +238,17 @@ namespace geocone
     void
     set_sides(const MshData &data, const std::string &what, CoarseMesh &mesh)
     {
-      for (const int group : data.curve_groups)
+      for (const int group : data.face_groups)
         mesh.sides[std::to_string(group)] = group;
-      for (const int group : data.curve_groups)
-        if (const auto name = data.curve_names.find(group);
-            name != data.curve_names.end())
+      for (const int group : data.face_groups)
+        if (const auto name = data.face_names.find(group);
+            name != data.face_names.end())
           {
             const auto [side, is_new] = mesh.sides.emplace(name->second, group);
             if (!is_new && side->second != dealii::types::boundary_id(group))
               throw InputError(what + ": '" + name->second +
-                               "' is the name of the physical curve " +
-                               std::to_string(group) +
+                               "' is the name of the physical " + face_word +
+                               " " + std::to_string(group) +
                                ", and the name or number of another one\n"
                                "  allowed: names that are unique\n"
                                "  remedy:  rename one of them in gmsh");
@@ -176,9 +258,9 @@ namespace geocone
     std::string
     name_of_curve(const MshData &data, const int group)
     {
-      const auto name = data.curve_names.find(group);
-      return name == data.curve_names.end() ? std::to_string(group)
-                                            : "'" + name->second + "'";
+      const auto name = data.face_names.find(group);
+      return name == data.face_names.end() ? std::to_string(group)
+                                           : "'" + name->second + "'";
     }
   } // namespace
 
@@ -188,11 +270,18 @@ namespace geocone
               const Regions     &regions)
   {
     if (data.cells.empty())
-      throw InputError(what + " holds no cells in two dimensions\n"
-                              "  allowed: triangles or quadrilaterals\n"
-                              "  remedy:  mesh a surface in the (x, y) plane "
-                              "and save it (if there are physical groups, "
-                              "the surface needs one)");
+      throw InputError(
+        what + (dim == 2
+                  ? " holds no cells in two dimensions\n"
+                    "  allowed: triangles or quadrilaterals\n"
+                    "  remedy:  mesh a surface in the (x, y) plane and save it "
+                    "(if there "
+                    "are physical groups, the surface needs one)"
+                  : " holds no cells in three dimensions\n"
+                    "  allowed: tetrahedra or hexahedra\n"
+                    "  remedy:  mesh a volume and save it (if there are "
+                    "physical groups, "
+                    "the volume needs one), or set Geometry/Dimension = 2"));
     if (data.nodes.size() >= std::numeric_limits<int>::max() ||
         data.cells.size() >= std::numeric_limits<int>::max())
       throw InputError(what + " has more than 2^31 nodes or cells\n"
@@ -239,7 +328,8 @@ namespace geocone
     constexpr unsigned int none    = -1;
     double                 largest = 0.;
     for (const MshData::Node &node : data.nodes)
-      largest = std::max({largest, std::abs(node.x[0]), std::abs(node.x[1])});
+      for (const double x : node.x)
+        largest = std::max(largest, std::abs(x));
     std::vector<unsigned int>              vertex(data.nodes.size(), none);
     std::vector<std::vector<unsigned int>> around;
     for (const unsigned int c : order)
@@ -252,7 +342,7 @@ namespace geocone
             if (vertex[n] == none)
               {
                 const auto &x = data.nodes[n].x;
-                if (!(std::abs(x[2]) <= 1e-9 * largest))
+                if (dim == 2 && !(std::abs(x[2]) <= 1e-9 * largest))
                   throw InputError(
                     what + ": the node " + std::to_string(data.nodes[n].tag) +
                     format(" is at (%g, %g, %g)", x[0], x[1], x[2]) +
@@ -260,7 +350,9 @@ namespace geocone
                     "move the mesh into the (x, y) plane (in gmsh: Rotate, "
                     "Translate)");
                 vertex[n] = mesh.points.size();
-                mesh.points.emplace_back(x[0], x[1]);
+                mesh.points.emplace_back();
+                for (unsigned int c = 0; c < dim; ++c)
+                  mesh.points.back()[c] = x[c];
               }
             vertices.push_back(vertex[n]);
           }
@@ -271,28 +363,32 @@ namespace geocone
     // A mesh may be oriented clockwise as a whole; single cells may not.
     double total = 0.;
     for (const auto &vertices : around)
-      total += signed_area(mesh.points, vertices);
+      total += dim == 2 ? signed_area(mesh.points, vertices)
+                        : worst_corner_of_solid(mesh.points, vertices);
     for (std::size_t c = 0; c < around.size(); ++c)
       {
         std::vector<unsigned int> &v = around[c];
         if (total < 0.)
-          std::reverse(v.begin(), v.end());
-        if (!(worst_corner(mesh.points, v) > 0.))
+          turn_round(v);
+        if (!((dim == 2 ? worst_corner(mesh.points, v)
+                        : worst_corner_of_solid(mesh.points, v)) > 0.))
           throw InputError(
             what + ": the cell " + std::to_string(data.cells[order[c]].tag) +
             " at " + place(mesh.points[v[0]]) +
             " is inverted or not convex\n  allowed: cells with positive area "
             "at every corner\n  remedy:  reorder its nodes, or mesh anew");
       }
-    check_overlap(mesh.points, around, what);
+    if (dim == 2)
+      check_overlap(mesh.points, around, what);
     for (std::size_t c = 0; c < around.size(); ++c)
       {
         const std::vector<unsigned int> &v = around[c];
         dealii::CellData<dim>            cell(v.size());
         cell.vertices = v;
-        if (v.size() == 4)
+        if (v.size() != dim + 1)
           // deal.II numbers lexicographically.
-          std::swap(cell.vertices[2], cell.vertices[3]);
+          for (unsigned int i = 2; i < v.size(); i += 4)
+            std::swap(cell.vertices[i], cell.vertices[i + 1]);
         mesh.cells.push_back(cell);
         // The last material that fills the cell, as everywhere.
         const Point<dim> centre = mesh.centre(cell);
@@ -302,43 +398,55 @@ namespace geocone
         mesh.cells.back().material_id = filled;
       }
 
-    // Edges with the physical curves they are on.
-    std::vector<std::pair<std::array<unsigned int, 2>, int>> edges_of_groups;
-    for (const MshData::Element &line : data.lines)
+    // Faces, by their sorted vertices, with the physical groups they are in.
+    using Face        = CoarseMesh::Face;
+    const auto sorted = [](Face face) {
+      std::sort(face.begin(), face.end());
+      return face;
+    };
+    std::vector<std::pair<Face, int>> groups_of_faces;
+    for (const MshData::Element &element : data.faces)
       {
-        const unsigned int a = vertex[node(line, 0)], b = vertex[node(line, 1)];
-        if (a != none && b != none)
-          for (const int group : data.group_lists[line.groups])
-            edges_of_groups.push_back(
-              {{{std::min(a, b), std::max(a, b)}}, group});
+        Face face;
+        face.fill(CoarseMesh::no_vertex);
+        bool is_known = true;
+        for (unsigned int i = 0; i < n_nodes_of_type(element.type); ++i)
+          {
+            face[i]  = vertex[node(element, i)];
+            is_known = is_known && face[i] != none;
+          }
+        if (is_known)
+          for (const int group : data.group_lists[element.groups])
+            groups_of_faces.emplace_back(sorted(face), group);
       }
-    std::sort(edges_of_groups.begin(), edges_of_groups.end());
-    edges_of_groups.erase(
-      std::unique(edges_of_groups.begin(), edges_of_groups.end()),
-      edges_of_groups.end());
+    std::sort(groups_of_faces.begin(), groups_of_faces.end());
+    groups_of_faces.erase(
+      std::unique(groups_of_faces.begin(), groups_of_faces.end()),
+      groups_of_faces.end());
     set_sides(data, what, mesh);
-    for (const auto &edge : mesh.outer_edges())
+    for (const Face &outer : mesh.outer_faces())
       {
-        const auto side = std::lower_bound(edges_of_groups.begin(),
-                                           edges_of_groups.end(),
-                                           std::make_pair(edge, 0));
-        if (side == edges_of_groups.end() || side->first != edge)
+        const Face face = sorted(outer);
+        const auto side = std::lower_bound(groups_of_faces.begin(),
+                                           groups_of_faces.end(),
+                                           std::make_pair(face, 0));
+        if (side == groups_of_faces.end() || side->first != face)
           continue;
-        if (side + 1 != edges_of_groups.end() && (side + 1)->first == edge)
+        if (side + 1 != groups_of_faces.end() && (side + 1)->first == face)
           throw InputError(
-            what + ": the edge from " + place(mesh.points[edge[0]]) + " to " +
-            place(mesh.points[edge[1]]) + " is on the physical curves " +
-            name_of_curve(data, side->second) + " and " +
+            what + ": the " + (dim == 2 ? "edge from " : "face with ") +
+            place(mesh.points[outer[0]]) + (dim == 2 ? " to " : " and ") +
+            place(mesh.points[outer[1]]) + " is on the physical " + face_word +
+            "s " + name_of_curve(data, side->second) + " and " +
             name_of_curve(data, (side + 1)->second) +
-            "\n  allowed: one physical curve for each edge\n  remedy:  make "
-            "groups that share no curve; a condition takes several sides");
-        dealii::CellData<1> line(2);
-        line.vertices    = {edge[0], edge[1]};
-        line.boundary_id = side->second;
-        mesh.boundary.boundary_lines.push_back(line);
+            "\n  allowed: one physical " + face_word +
+            (dim == 2 ? " for each edge" : " for each face") +
+            "\n  remedy:  make groups that share no " + face_word +
+            "; a condition takes several sides");
+        mesh.add_boundary(outer, side->second);
       }
     check_hanging_nodes(mesh, what);
-    if (!mesh.has_triangles())
+    if (!mesh.has_simplices())
       dealii::GridTools::consistently_order_cells(mesh.cells);
     return mesh;
   }

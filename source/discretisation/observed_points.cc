@@ -20,12 +20,6 @@ namespace geocone
   {
     const char *const parameter = "Observation/Points";
 
-    std::string
-    text(const Point<dim> &x)
-    {
-      return format("%g, %g", x[0], x[1]);
-    }
-
     /** Whether a is nearer to x than b; points that are equally near, up to
      *  rounding, are told apart by their places, the same on all ranks. */
     bool
@@ -35,7 +29,10 @@ namespace geocone
       const double rounding = 1e-9 * (to_a + to_b);
       if (std::abs(to_a - to_b) > rounding)
         return to_a < to_b;
-      return std::abs(a[0] - b[0]) > rounding ? a[0] < b[0] : a[1] < b[1];
+      for (unsigned int d = 0; d + 1 < dim; ++d)
+        if (std::abs(a[d] - b[d]) > rounding)
+          return a[d] < b[d];
+      return a[dim - 1] < b[dim - 1];
     }
   } // namespace
 
@@ -54,7 +51,7 @@ namespace geocone
         const auto place = cells.find(places[i]);
         if (!place)
           throw InputError(parameter,
-                           text(places[i]),
+                           text_of_place(places[i]),
                            "places in the body, here in a cell of the mesh",
                            "move the point into the body");
         if (!place->cell->is_locally_owned())
@@ -114,33 +111,38 @@ namespace geocone
     for (unsigned int i = 0; i < own.size(); ++i)
       {
         const Point<dim> &x = scene.observation.points[i];
-        // x, y, volume, id
+        // Its place, volume, id
         std::vector<double> mine;
         if (own[i])
-          mine = {own[i]->position[0],
-                  own[i]->position[1],
-                  own[i]->volume,
-                  double(own[i]->id)};
+          {
+            for (unsigned int d = 0; d < dim; ++d)
+              mine.push_back(own[i]->position[d]);
+            mine.push_back(own[i]->volume);
+            mine.push_back(own[i]->id);
+          }
         std::optional<Candidate> nearest;
         for (const auto &other : Utilities::MPI::all_gather(comm, mine))
-          if (const Candidate candidate =
-                other.empty() ? Candidate()
-                              : Candidate{{other[0], other[1]},
-                                          other[2],
-                                          static_cast<unsigned int>(other[3])};
-              !other.empty() &&
-              (!nearest || is_nearer(candidate.position, nearest->position, x)))
-            nearest = candidate;
+          if (!other.empty())
+            {
+              Candidate candidate;
+              for (unsigned int d = 0; d < dim; ++d)
+                candidate.position[d] = other[d];
+              candidate.volume = other[dim];
+              candidate.id     = other[dim + 1];
+              if (!nearest ||
+                  is_nearer(candidate.position, nearest->position, x))
+                nearest = candidate;
+            }
         // Points of a regular layout are within 0.71 of their size of any place
         // in the body, those at its border or in slender cells farther away.
-        const double size = nearest ? std::sqrt(nearest->volume) : 0.;
+        const double size = nearest ? std::pow(nearest->volume, 1. / dim) : 0.;
         if (!nearest || nearest->position.distance(x) > 1.5 * size)
           throw InputError(parameter,
-                           text(x),
+                           text_of_place(x),
                            "places in the body, near to a material point",
                            "move the point into the body" +
                              (nearest ? "; the nearest material point is at " +
-                                          text(nearest->position)
+                                          text_of_place(nearest->position)
                                       : std::string()));
         id.push_back(nearest->id);
       }
@@ -150,11 +152,11 @@ namespace geocone
   ObservedPoints::gather(std::vector<double> &sums) const
   {
     sum_over_ranks(sums, comm);
-    std::vector<Tensor<1, dim>> result(sums.size() / 3);
+    std::vector<Tensor<1, dim>> result(sums.size() / (dim + 1));
     for (unsigned int i = 0; i < result.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
-        result[i][d] = sums[3 * i + 2] > 0.
-                         ? sums[3 * i + d]
+        result[i][d] = sums[(dim + 1) * i + dim] > 0.
+                         ? sums[(dim + 1) * i + d]
                          : std::numeric_limits<double>::quiet_NaN();
     return result;
   }
@@ -165,7 +167,8 @@ namespace geocone
   {
     if (in_cell.empty() && id.empty())
       return {};
-    std::vector<double> sums(3 * std::max(in_cell.size(), id.size()), 0.);
+    std::vector<double> sums((dim + 1) * std::max(in_cell.size(), id.size()),
+                             0.);
     if (!in_cell.empty())
       {
         Vector displacement = nodal;
@@ -173,10 +176,10 @@ namespace geocone
         for (unsigned int i = 0; i < in_cell.size(); ++i)
           if (!in_cell[i].nodes.empty())
             {
-              sums[3 * i + 2] = 1.;
+              sums[(dim + 1) * i + dim] = 1.;
               for (unsigned int k = 0; k < in_cell[i].nodes.size(); ++k)
                 for (unsigned int d = 0; d < dim; ++d)
-                  sums[3 * i + d] +=
+                  sums[(dim + 1) * i + d] +=
                     in_cell[i].values[k] *
                     displacement.local_element(dim * in_cell[i].nodes[k] + d);
             }
@@ -186,9 +189,9 @@ namespace geocone
         for (unsigned int i = 0; i < id.size(); ++i)
           if (points.id[p] == id[i])
             {
-              sums[3 * i + 2] = 1.;
+              sums[(dim + 1) * i + dim] = 1.;
               for (unsigned int d = 0; d < dim; ++d)
-                sums[3 * i + d] = points.displacement[p][d];
+                sums[(dim + 1) * i + d] = points.displacement[p][d];
             }
     return gather(sums);
   }
@@ -199,15 +202,15 @@ namespace geocone
     if (id.empty())
       return {};
     using Field = PointArrays::Field;
-    std::vector<double> sums(3 * id.size(), 0.);
+    std::vector<double> sums((dim + 1) * id.size(), 0.);
     for (const PointArrays &group : groups)
       for (unsigned int p = 0; p < group.n_points(); ++p)
         for (unsigned int i = 0; i < id.size(); ++i)
           if (group.id[p] == id[i] && group[Field::mass][p] > 0.)
             {
-              sums[3 * i + 2] = 1.;
+              sums[(dim + 1) * i + dim] = 1.;
               for (unsigned int d = 0; d < dim; ++d)
-                sums[3 * i + d] =
+                sums[(dim + 1) * i + d] =
                   group[Field::x + d][p] - group[Field::x_start + d][p];
             }
     return gather(sums);

@@ -268,7 +268,7 @@ namespace geocone
         seeds[i].material    = static_cast<unsigned int>(row[material]);
         seeds[i].velocity[0] = row[vx];
         seeds[i].velocity[1] = row[vy];
-        seeds[i].stress      = Mandel(row[sxx], row[syy], sqrt2 * row[sxy]);
+        seeds[i].stress      = in_plane(row[sxx], row[syy], row[sxy]);
       }
     return seeds;
   }

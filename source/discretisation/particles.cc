@@ -35,7 +35,8 @@ namespace geocone
           {
             const auto       ends = geometry.side_ends(id);
             const Point<dim> foot = nearest_on_segment(x, ends[0], ends[1]);
-            if (foot.distance(x) < std::sqrt(volume) && condition.in_box(foot))
+            if (foot.distance(x) < std::sqrt(volume) &&
+                condition.holds_at(foot))
               return true;
           }
       return false;

@@ -21,16 +21,15 @@ namespace geocone
     const unsigned int p = space.degree();
     if (!mesh.is_simplicial())
       return QGauss<dim>(p + 1);
-    if (p < 3)
-      return QGaussSimplex<dim>(p);          // 1 and 3 points, degree 1 and 2
+    if (p < 3) // 1 point of degree 1; 3 or 4 of degree 2
+      return QGaussSimplex<dim>(p);
     return QWitherdenVincentSimplex<dim>(3); // 7 points, degree 5
   }
 
   struct CellValues::Geometry
   {
     Geometry(const BackgroundMesh &mesh, const Quadrature<dim> &quadrature)
-      : nothing(mesh.is_simplicial() ? ReferenceCells::Triangle
-                                     : ReferenceCells::Quadrilateral)
+      : nothing(mesh.triangulation().get_reference_cells().front())
       , fe_values(mesh.mapping(),
                   nothing,
                   quadrature,

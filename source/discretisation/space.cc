@@ -31,6 +31,20 @@ namespace geocone
       set.compress();
       return set;
     }
+
+    /** The places along each direction of the functions of a cell that is a product,
+     *  in lexicographic order. */
+    std::array<unsigned int, dim>
+    lexicographic(unsigned int i, const unsigned int per_direction)
+    {
+      std::array<unsigned int, dim> place;
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          place[c] = i % per_direction;
+          i /= per_direction;
+        }
+      return place;
+    }
   } // namespace
 
   Space::Space()
@@ -39,10 +53,16 @@ namespace geocone
     kind.declare(
       *this,
       "Element",
-      ". P1 to P3 on triangles, Q1 to Q3 on quadrilaterals, B-splines on "
-      "uniform and graded grids of them. Automatic: P3 or Q3 for FEM; for MPM "
-      "B-spline 3 on grids, P3 on triangles, Q1 on other meshes; for explicit "
-      "MPM B-spline 2, P1 or Q1.");
+      dim == 2
+        ? ". P1 to P3 on triangles, Q1 to Q3 on quadrilaterals, B-splines on "
+          "uniform and graded grids of them. Automatic: P3 or Q3 for FEM; for "
+          "MPM "
+          "B-spline 3 on grids, P3 on triangles, Q1 on other meshes; for "
+          "explicit "
+          "MPM B-spline 2, P1 or Q1."
+        : ". P1 and P2 on tetrahedra, Q1 to Q3 on hexahedra, B-splines on "
+          "grids of "
+          "them. Automatic: P2 or Q2.");
     basis.declare(*this,
                   "Basis",
                   ", of P2, P3, Q2 and Q3. Automatic: Lagrange's for FEM, "
@@ -59,17 +79,21 @@ namespace geocone
                         const Method &method)
   {
     if (kind == Element::automatic)
-      kind = simplicial ? method.is_explicit() ? Element::p1 : Element::p3
+      kind = dim == 3     ? simplicial ? Element::p2 : Element::q2
+             : simplicial ? method.is_explicit() ? Element::p1 : Element::p3
              : !method.is_mpm()     ? Element::q3
              : !has_grid            ? Element::q1
              : method.is_explicit() ? Element::spline_2
                                     : Element::spline_3;
-    const bool on_triangles = kind <= Element::p3;
-    if (on_triangles != simplicial || (kind >= Element::spline_2 && !has_grid))
+    const bool on_simplices = kind <= Element::p3;
+    if (on_simplices != simplicial || (dim == 3 && kind == Element::p3) ||
+        (kind >= Element::spline_2 && !has_grid))
       throw InputError("Discretisation/Element",
                        element(),
                        std::string("automatic | ") +
-                         (simplicial ? "P1 | P2 | P3" : "Q1 | Q2 | Q3") +
+                         (!simplicial ? "Q1 | Q2 | Q3"
+                          : dim == 2  ? "P1 | P2 | P3"
+                                      : "P1 | P2") +
                          (has_grid ? " | B-spline 2 | B-spline 3" : "") +
                          " on this mesh",
                        "choose one of them, or change the cells of the mesh");
@@ -105,6 +129,9 @@ namespace geocone
     choose_element(simplicial, !mesh->grid()[0].empty(), method);
 
     n_nodes_per_cell = simplicial ? (p + 1) * (p + 2) / 2 : (p + 1) * (p + 1);
+    if (dim == 3)
+      n_nodes_per_cell = simplicial ? n_nodes_per_cell * (p + 3) / 3
+                                    : n_nodes_per_cell * (p + 1);
     const IndexSet owned = kind >= Element::spline_2
                              ? prepare_splines(*mesh)
                              : prepare_finite_element(*mesh);
@@ -137,12 +164,15 @@ namespace geocone
                   for (unsigned int c = 0; c < dim; ++c)
                     x[c] = splines[c].greville(place[c] + lattice[i][c]);
                 else
-                  x = mesh->mapping().transform_unit_to_real_cell(
-                    cell,
-                    basis == Basis::bernstein
-                      ? Point<dim>(1. * lattice[i][0] / p,
-                                   1. * lattice[i][1] / p)
-                      : fe->unit_support_point(i));
+                  {
+                    Point<dim> unit;
+                    if (basis == Basis::bernstein)
+                      for (unsigned int c = 0; c < dim; ++c)
+                        unit[c] = 1. * lattice[i][c] / p;
+                    else
+                      unit = fe->unit_support_point(i);
+                    x = mesh->mapping().transform_unit_to_real_cell(cell, unit);
+                  }
               }
         }
   }
@@ -158,16 +188,19 @@ namespace geocone
           fe = std::make_unique<FE_Q<dim>>(p);
         for (const unsigned int i :
              FETools::hierarchic_to_lexicographic_numbering<dim>(p))
-          lattice.push_back({{i % (p + 1), i / (p + 1)}});
+          lattice.push_back(lexicographic(i, p + 1));
       }
     else if (p < 3)
       fe = std::make_unique<FE_SimplexP<dim>>(p);
-    else
+    else if constexpr (dim == 2)
       fe = make_cubic_simplex();
     if (mesh.is_simplicial())
       for (const Point<dim> &x : fe->get_unit_support_points())
-        lattice.push_back({{static_cast<unsigned int>(std::lround(p * x[0])),
-                            static_cast<unsigned int>(std::lround(p * x[1]))}});
+        {
+          lattice.emplace_back();
+          for (unsigned int c = 0; c < dim; ++c)
+            lattice.back()[c] = std::lround(p * x[c]);
+        }
     dofs = std::make_unique<DoFHandler<dim>>(mesh.triangulation());
     dofs->distribute_dofs(*fe);
     return dofs->locally_owned_dofs();
@@ -179,31 +212,49 @@ namespace geocone
     for (unsigned int c = 0; c < dim; ++c)
       splines.emplace_back(p, mesh.grid()[c]);
     for (unsigned int i = 0; i < n_nodes_per_cell; ++i)
-      lattice.push_back({{i % (p + 1), i / (p + 1)}});
+      lattice.push_back(lexicographic(i, p + 1));
 
     // A node belongs to the rank of a cell in the middle of its support. The
     // ranks of all cells are needed: supports reach beyond the ghost cells.
     const MPI_Comm     comm    = mesh.triangulation().get_communicator();
     const unsigned int rank    = Utilities::MPI::this_mpi_process(comm);
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
-    const unsigned int nx      = mesh.grid()[0].size() - 1,
-                       ny      = mesh.grid()[1].size() - 1;
-    std::vector<unsigned int> rank_of_cell(nx * ny);
-    for (const auto &cell : mesh.triangulation().active_cell_iterators())
+    std::array<unsigned int, dim> n_cells, n_functions;
+    unsigned int                  all_functions = 1;
+    for (unsigned int c = 0; c < dim; ++c)
       {
-        const auto place = mesh.place_in_grid(cell);
-        rank_of_cell[place[1] * nx + place[0]] =
-          mesh.owner_of_cell()[cell->active_cell_index()];
+        n_cells[c]     = mesh.grid()[c].size() - 1;
+        n_functions[c] = splines[c].n_functions();
+        all_functions *= n_functions[c];
       }
+    // The number in rows of x, of these rows those of y, and so on.
+    const auto number = [](const std::array<unsigned int, dim> &place,
+                           const std::array<unsigned int, dim> &n) {
+      unsigned int i = place[dim - 1];
+      for (unsigned int c = dim - 1; c-- > 0;)
+        i = i * n[c] + place[c];
+      return i;
+    };
+    std::vector<unsigned int> rank_of_cell(
+      mesh.triangulation().n_active_cells());
+    for (const auto &cell : mesh.triangulation().active_cell_iterators())
+      rank_of_cell[number(mesh.place_in_grid(cell), n_cells)] =
+        mesh.owner_of_cell()[cell->active_cell_index()];
 
     const auto home = [&](const unsigned int function, const unsigned int n) {
       return std::min(n - 1, function - std::min(function, p / 2));
     };
-    const unsigned int        mx = splines[0].n_functions();
     std::vector<unsigned int> rank_of_node;
-    for (unsigned int b = 0; b < splines[1].n_functions(); ++b)
-      for (unsigned int a = 0; a < mx; ++a)
-        rank_of_node.push_back(rank_of_cell[home(b, ny) * nx + home(a, nx)]);
+    for (unsigned int i = 0; i < all_functions; ++i)
+      {
+        std::array<unsigned int, dim> cell;
+        for (unsigned int c = 0, rest = i; c < dim; ++c)
+          {
+            cell[c] = home(rest % n_functions[c], n_cells[c]);
+            rest /= n_functions[c];
+          }
+        rank_of_node.push_back(rank_of_cell[number(cell, n_cells)]);
+      }
     std::vector<types::global_dof_index> next(n_ranks + 1, 0);
     for (const unsigned int r : rank_of_node)
       ++next[r + 1];
@@ -224,14 +275,18 @@ namespace geocone
       {
         const auto place = mesh->place_in_grid(cell);
         for (unsigned int i = 0; i < n_nodes_per_cell; ++i)
-          nodes[i] = spline_number[(place[1] + lattice[i][1]) *
-                                     splines[0].n_functions() +
-                                   place[0] + lattice[i][0]];
+          {
+            unsigned int function = 0;
+            for (unsigned int c = dim; c-- > 0;)
+              function =
+                function * splines[c].n_functions() + place[c] + lattice[i][c];
+            nodes[i] = spline_number[function];
+          }
         return;
       }
     const DoFHandler<dim>::active_cell_iterator dof_cell(
       &mesh->triangulation(), cell->level(), cell->index(), dofs.get());
-    if (fe->n_dofs_per_line() < 2 || cell->n_vertices() == 4)
+    if (fe->n_dofs_per_line() < 2 || !mesh->is_simplicial())
       {
         dof_cell->get_dof_indices(nodes);
         return;
@@ -270,7 +325,7 @@ namespace geocone
       }
     if (mesh->is_simplicial())
       {
-        bernstein_on_triangle(p, unit, lattice, N, gradient);
+        bernstein_on_simplex(p, unit, lattice, N, gradient);
         return;
       }
     double value[dim][max_degree + 1], slope[dim][max_degree + 1];
@@ -285,13 +340,16 @@ namespace geocone
         bernstein(p, unit[c], value[c], slope[c]);
     for (unsigned int i = 0; i < n_nodes_per_cell; ++i)
       {
-        const auto [a, b] = lattice[i];
-        N[i]              = value[0][a] * value[1][b];
+        N[i] = 1.;
+        for (unsigned int c = 0; c < dim; ++c)
+          N[i] *= value[c][lattice[i][c]];
         if (gradient != nullptr)
-          {
-            gradient[i][0] = slope[0][a] * value[1][b];
-            gradient[i][1] = value[0][a] * slope[1][b];
-          }
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              gradient[i][d] = 1.;
+              for (unsigned int c = 0; c < dim; ++c)
+                gradient[i][d] *= (c == d ? slope[c] : value[c])[lattice[i][c]];
+            }
       }
   }
 
@@ -305,9 +363,12 @@ namespace geocone
         cell_nodes(cell, nodes);
         const auto place = mesh->place_in_grid(cell);
         for (unsigned int i = 0; i < n_nodes_per_cell; ++i)
-          integral[local_node(nodes[i])] =
-            splines[0].integral(place[0] + lattice[i][0]) *
-            splines[1].integral(place[1] + lattice[i][1]);
+          {
+            double product = 1.;
+            for (unsigned int c = 0; c < dim; ++c)
+              product *= splines[c].integral(place[c] + lattice[i][c]);
+            integral[local_node(nodes[i])] = product;
+          }
       }
     return integral;
   }
@@ -316,9 +377,18 @@ namespace geocone
   Space::nodes_on_sides(const std::set<types::boundary_id> &ids) const
   {
     const auto on_face = [&](const unsigned int i, const unsigned int f) {
-      const auto &[a, b] = lattice[i];
       if (mesh->is_simplicial())
-        return (f == 0 ? b : f == 1 ? p - a - b : a) == 0;
+        {
+          // What is zero on a face: a coordinate, or the one of the first vertex.
+          unsigned int rest = p;
+          for (const unsigned int a : lattice[i])
+            rest -= a;
+          constexpr unsigned int first         = dim;
+          constexpr unsigned int of_face[2][4] = {{1, first, 0, 0},
+                                                  {2, 1, 0, first}};
+          const unsigned int     c             = of_face[dim - 2][f];
+          return (c == first ? rest : lattice[i][c]) == 0;
+        }
       return lattice[i][f / 2] == (f % 2 == 0 ? 0 : p);
     };
     // The ghost cells are looked at as well: of a node that this rank has, the

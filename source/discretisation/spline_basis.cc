@@ -80,17 +80,22 @@ namespace geocone
   }
 
   void
-  bernstein_on_triangle(
+  bernstein_on_simplex(
     const unsigned int                                p,
     const dealii::Point<dim>                         &x,
     const std::vector<std::array<unsigned int, dim>> &lattice,
     double                                           *N,
     dealii::Tensor<1, dim>                           *gradient)
   {
-    // l_j^k / k!
-    const double l[3] = {1. - x[0] - x[1], x[0], x[1]};
-    double       power[3][max_degree + 1], factorial = 1.;
-    for (unsigned int j = 0; j < 3; ++j)
+    // l_j^k / k!, the coordinate of the first vertex being the last of them.
+    double l[dim + 1], power[dim + 1][max_degree + 1], factorial = 1.;
+    l[dim] = 1.;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        l[d] = x[d];
+        l[dim] -= x[d];
+      }
+    for (unsigned int j = 0; j <= dim; ++j)
       {
         power[j][0] = 1.;
         for (unsigned int k = 1; k <= p; ++k)
@@ -100,20 +105,26 @@ namespace geocone
       factorial *= k;
     for (unsigned int i = 0; i < lattice.size(); ++i)
       {
-        const auto [a, b]    = lattice[i];
-        const unsigned int k = p - a - b;
-        const auto at        = [&](const unsigned int n, const unsigned int j) {
-          return n == 0 ? 0. : power[j][n - 1]; // the derivative
-        };
-        N[i] = factorial * power[0][k] * power[1][a] * power[2][b];
-        if (gradient != nullptr)
+        unsigned int exponent[dim + 1];
+        exponent[dim] = p;
+        for (unsigned int d = 0; d < dim; ++d)
           {
-            const double slope_0 = at(k, 0) * power[1][a] * power[2][b];
-            gradient[i][0] =
-              factorial * (power[0][k] * at(a, 1) * power[2][b] - slope_0);
-            gradient[i][1] =
-              factorial * (power[0][k] * power[1][a] * at(b, 2) - slope_0);
+            exponent[d] = lattice[i][d];
+            exponent[dim] -= exponent[d];
           }
+        // The product, of which one factor may be its derivative.
+        const auto product = [&](const unsigned int derived) {
+          double value = factorial;
+          for (unsigned int j = 0; j <= dim; ++j)
+            value *= j != derived       ? power[j][exponent[j]]
+                     : exponent[j] == 0 ? 0.
+                                        : power[j][exponent[j] - 1];
+          return value;
+        };
+        N[i] = product(dim + 1);
+        if (gradient != nullptr)
+          for (unsigned int d = 0; d < dim; ++d)
+            gradient[i][d] = product(d) - product(dim);
       }
   }
 } // namespace geocone

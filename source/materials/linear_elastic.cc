@@ -35,8 +35,8 @@ namespace geocone
     if (tangent != nullptr)
       {
         *tangent = elasticity().two_G * SpatialMandelMatrix::Identity();
-        const SpatialMandel one(1., 1., 0., 1.);
-        *tangent += elasticity().lambda * one * one.transpose();
+        const SpatialMandel I = unit_tensor<n_spatial>();
+        *tangent += elasticity().lambda * I * I.transpose();
       }
     return Mode::elastic;
   }

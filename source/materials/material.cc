@@ -41,7 +41,8 @@ namespace geocone
                        const double,
                        double *history) const
   {
-    history[0] = stress[2] - poisson_ratio * (stress[0] + stress[1]);
+    if (dim == 2)
+      history[0] = stress[2] - poisson_ratio * (stress[0] + stress[1]);
     return "";
   }
 
@@ -55,18 +56,17 @@ namespace geocone
   SpatialMandel
   Material::whole_stress(const Mandel &in_plane, const double *history) const
   {
-    SpatialMandel whole;
-    whole << in_plane,
-      stress_zz({{in_plane[0], in_plane[1], in_plane[2] / sqrt2}}, history);
-    return whole;
+    return extended(
+      in_plane,
+      dim == 2
+        ? stress_zz({{in_plane[0], in_plane[1], in_plane[2] / sqrt2}}, history)
+        : 0.);
   }
 
   SpatialMandel
   Material::elastic_strain(const SpatialMandel &stress) const
   {
-    SpatialMandel strain;
-    strain << elastic.strain(Mandel(stress.head<3>())), 0.;
-    return strain;
+    return extended(elastic.strain(Mandel(stress.head<n_mandel>())), 0.);
   }
 
   std::optional<double>
@@ -166,10 +166,9 @@ namespace geocone
           history_n[m * p + k] = block.history[k][p];
         double xx = block.s_xx[p], yy = block.s_yy[p], xy = block.s_xy[p];
         Spin(block.l_xy[p], block.l_yx[p]).turn(xx, yy, xy);
-        stress_n[p] = {xx, yy, sqrt2 * xy};
-        strain[p]   = {block.l_xx[p],
-                       block.l_yy[p],
-                       (block.l_xy[p] + block.l_yx[p]) / sqrt2};
+        stress_n[p] = in_plane(xx, yy, xy);
+        strain[p]   = in_plane(
+          block.l_xx[p], block.l_yy[p], (block.l_xy[p] + block.l_yx[p]) / 2.);
       }
     std::vector<double> history = history_n;
     Response            response;
@@ -191,7 +190,7 @@ namespace geocone
         block.plastic_strain[p] +=
           mode[p] == Mode::elastic
             ? 0.
-            : (SpatialMandel(strain[p][0], strain[p][1], strain[p][2], 0.) -
+            : (extended(strain[p], 0.) -
                elastic_strain(whole_stress(stress[p], &history[m * p]) -
                               whole_stress(stress_n[p], &history_n[m * p])))
                 .norm();

@@ -27,19 +27,36 @@ namespace geocone
       return std::make_unique<Law>(section);
     }
 
-    /** The list of all laws: a new one is a new line here. */
-    const std::vector<
+    using List = std::vector<
       std::pair<std::string,
-                std::unique_ptr<ConstitutiveLaw> (*)(const std::string &)>>
-      laws = {{"Mohr-Coulomb", &make<MohrCoulomb>},
-              {"Tresca", &make<Tresca>},
-              {"hardening Mohr-Coulomb", &make<HardeningMohrCoulomb>},
-              {"spatial Mohr-Coulomb", &make<SpatialMohrCoulomb>},
-              {"spatial Tresca", &make<SpatialTresca>},
-              {"Drucker-Prager", &make<DruckerPrager>},
-              {"von Mises", &make<VonMises>},
-              {"linear elastic", &make<LinearElastic>},
-              {"subloading", &make<Subloading>}};
+                std::unique_ptr<ConstitutiveLaw> (*)(const std::string &)>>;
+
+    /** The list of all laws: a new one is a new line here, those of the plane being
+     *  apart. In three dimensions Mohr-Coulomb's law is the spatial one. */
+    List
+    all_laws()
+    {
+      if constexpr (dim == 2)
+        return {{"Mohr-Coulomb", &make<MohrCoulomb>},
+                {"Tresca", &make<Tresca>},
+                {"hardening Mohr-Coulomb", &make<HardeningMohrCoulomb>},
+                {"spatial Mohr-Coulomb", &make<SpatialMohrCoulomb>},
+                {"spatial Tresca", &make<SpatialTresca>},
+                {"Drucker-Prager", &make<DruckerPrager>},
+                {"von Mises", &make<VonMises>},
+                {"linear elastic", &make<LinearElastic>},
+                {"subloading", &make<Subloading>}};
+      else
+        return {{"Mohr-Coulomb", &make<SpatialMohrCoulomb>},
+                {"Tresca", &make<SpatialTresca>},
+                {"spatial Mohr-Coulomb", &make<SpatialMohrCoulomb>},
+                {"spatial Tresca", &make<SpatialTresca>},
+                {"Drucker-Prager", &make<DruckerPrager>},
+                {"von Mises", &make<VonMises>},
+                {"linear elastic", &make<LinearElastic>}};
+    }
+
+    const List laws = all_laws();
   } // namespace
 
   std::vector<std::string>

@@ -17,9 +17,9 @@ namespace geocone
           increment.history_n + increment.n_history * p;
         const SpatialMandel stress_n =
           whole_stress(increment.stress_n[p], history_n);
-        SpatialMandel strain;
-        strain << increment.strain[p],
-          increment.strain_zz != nullptr ? increment.strain_zz[p] : 0.;
+        const SpatialMandel strain = extended(
+          increment.strain[p],
+          increment.strain_zz != nullptr ? increment.strain_zz[p] : 0.);
         SpatialMandel       stress;
         SpatialMandelMatrix C;
         response.mode[p] =
@@ -28,12 +28,12 @@ namespace geocone
                              increment.step,
                              stress,
                              linear ? &C : nullptr);
-        response.stress[p] = stress.head<3>();
+        response.stress[p] = stress.head<n_mandel>();
         if (linear)
-          response.tangent[p] = C.topLeftCorner<3, 3>();
+          response.tangent[p] = C.topLeftCorner<n_mandel, n_mandel>();
         if (linear && response.tangent_zz != nullptr)
-          response.tangent_zz[p] = {C.topRightCorner<3, 1>(),
-                                    C.bottomLeftCorner<1, 3>().transpose(),
+          response.tangent_zz[p] = {C.block<n_mandel, 1>(0, 3),
+                                    C.block<1, n_mandel>(3, 0).transpose(),
                                     C(3, 3)};
         if (response.stress_zz != nullptr)
           response.stress_zz[p] = stress[3];
@@ -41,7 +41,7 @@ namespace geocone
           {
             double *const history = response.history + increment.n_history * p;
             const Stress  whole =
-              plane_strain_stress(stress.head<3>(), stress[3]);
+              plane_strain_stress(response.stress[p], stress[3]);
             Material::initialise(whole, 0., history);
           }
       }

@@ -11,38 +11,78 @@ namespace geocone
 {
   namespace
   {
-    /** Principal stresses in order, and where they are: two in the plane, with the
-     *  directions (cos, sin) and (-sin, cos), and the one out of it. */
+    /** Principal values in falling order, and the Mandel vectors of their directions:
+     *  by columns first those n_i n_i, then sqrt(2) sym(n_i n_j) of each pair that can
+     *  turn into each other. */
+    template <int n>
     struct Spectrum
     {
-      Eigen::Vector3d value;
-      std::array<unsigned int, 3>
-             place; ///< of the plane's first, second, and of z
-      double cos = 1., sin = 0.;
+      Eigen::Vector3d                            value;
+      Eigen::Matrix<double, n, n>                directions;
+      std::array<std::array<unsigned int, 2>, 3> pair = {};
     };
 
-    Spectrum
-    spectrum(const SpatialMandel &s)
+    /** Of (xx, yy, sqrt2 xy, zz), where z is a principal direction. */
+    [[maybe_unused]] Spectrum<4>
+    spectrum(const Eigen::Vector4d &s)
     {
       const double mean = (s[0] + s[1]) / 2., half = (s[0] - s[1]) / 2.,
                    shear = s[2] / sqrt2, radius = std::hypot(half, shear);
       const double angle = radius > 0. ? std::atan2(shear, half) / 2. : 0.;
       const std::array<double, 3> values = {
         {mean + radius, mean - radius, s[3]}};
-      std::array<unsigned int, 3> order = {{0, 1, 2}};
+      std::array<unsigned int, 3> order = {{0, 1, 2}}, place;
       std::stable_sort(order.begin(),
                        order.end(),
                        [&](const unsigned int i, const unsigned int j) {
                          return values[i] > values[j];
                        });
-      Spectrum result;
+      Spectrum<4> result;
       for (unsigned int i = 0; i < 3; ++i)
         {
-          result.value[i]        = values[order[i]];
-          result.place[order[i]] = i;
+          result.value[i] = values[order[i]];
+          place[order[i]] = i;
         }
-      result.cos = std::cos(angle);
-      result.sin = std::sin(angle);
+      const double c = std::cos(angle), q = std::sin(angle);
+      result.directions.col(place[0]) << c * c, q * q, sqrt2 * c * q, 0.;
+      result.directions.col(place[1]) << q * q, c * c, -sqrt2 * c * q, 0.;
+      result.directions.col(place[2]) << 0., 0., 0., 1.;
+      result.directions.col(3) << -sqrt2 * c * q, sqrt2 * c * q, c * c - q * q,
+        0.;
+      result.pair[0] = {{place[0], place[1]}};
+      return result;
+    }
+
+    /** Of any tensor. */
+    [[maybe_unused]] Spectrum<6>
+    spectrum(const Eigen::Matrix<double, 6, 1> &s)
+    {
+      Eigen::Matrix3d t;
+      for (unsigned int d = 0; d < 3; ++d)
+        t(d, d) = s[place_of_normal[d]];
+      for (const auto &[place, a, b] : shears)
+        t(a, b) = t(b, a) = s[place] / sqrt2;
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(t);
+      Spectrum<6>                                          result;
+      result.value            = eigen.eigenvalues().reverse();
+      const Eigen::Matrix3d n = eigen.eigenvectors().rowwise().reverse();
+      const auto            column =
+        [&](const unsigned int to, const unsigned int i, const unsigned int j) {
+          const double factor = i == j ? 1. : sqrt2;
+          for (unsigned int d = 0; d < 3; ++d)
+            result.directions(place_of_normal[d], to) =
+              factor * n(d, i) * n(d, j);
+          for (const auto &[place, a, b] : shears)
+            result.directions(place, to) =
+              factor * (n(a, i) * n(b, j) + n(b, i) * n(a, j)) / sqrt2;
+        };
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          const unsigned int j = (i + 1) % 3;
+          column(i, i, i);
+          column(3 + i, i, j);
+          result.pair[i] = {{i, j}};
+        }
       return result;
     }
   } // namespace
@@ -151,43 +191,31 @@ namespace geocone
                                          SpatialMandel       &stress,
                                          SpatialMandelMatrix *tangent) const
   {
-    const Spectrum  at = spectrum(trial);
+    const auto      at = spectrum(trial);
     Principal       s;
     PrincipalMatrix C;
     const Mode      mode =
       return_principal(delayed(step.friction_lag, stress_n), at.value, s, C);
-    const auto [a, b, z] = at.place;
-    const double c = at.cos, q = at.sin;
-    // Mandel vectors of the directions in the plane, and of the shear between them.
-    const Mandel m_a(c * c, q * q, sqrt2 * c * q),
-      m_b(q * q, c * c, -sqrt2 * c * q),
-      m_ab(-sqrt2 * c * q, sqrt2 * c * q, c * c - q * q);
     // An elastic point keeps its trial stress to the last digit.
     if (mode == Mode::elastic)
       stress = trial;
     else
-      stress << s[a] * m_a + s[b] * m_b, s[z];
+      stress = at.directions.template leftCols<3>() * s;
     if (tangent == nullptr)
       return mode;
-    // Shear turns the directions: (s_a - s_b)/(e_a - e_b).
-    const double apart = at.value[a] - at.value[b];
-    const double shear =
-      apart > 1e-12 * (std::abs(at.value[a]) + std::abs(at.value[b]))
-        ? elasticity().two_G * (s[a] - s[b]) / apart
-        : C(a, a) - C(a, b);
-    SpatialMandelMatrix directions              = SpatialMandelMatrix::Zero();
-    directions.block<3, 1>(0, 0)                = m_a;
-    directions.block<3, 1>(0, 1)                = m_b;
-    directions.block<3, 1>(0, 2)                = m_ab;
-    directions(3, 3)                            = 1.;
-    SpatialMandelMatrix               along     = SpatialMandelMatrix::Zero();
-    const std::array<unsigned int, 3> principal = {{a, b, z}},
-                                      row       = {{0, 1, 3}};
-    for (unsigned int i = 0; i < 3; ++i)
-      for (unsigned int j = 0; j < 3; ++j)
-        along(row[i], row[j]) = C(principal[i], principal[j]);
-    along(2, 2) = shear;
-    *tangent    = directions * (along * directions.transpose());
+    SpatialMandelMatrix along   = SpatialMandelMatrix::Zero();
+    along.topLeftCorner<3, 3>() = C;
+    for (unsigned int k = 3; k < n_spatial; ++k)
+      {
+        // Shear turns the directions: (s_a - s_b)/(e_a - e_b).
+        const auto [a, b]  = at.pair[k - 3];
+        const double apart = at.value[a] - at.value[b];
+        along(k, k)        = std::abs(apart) > 1e-12 * (std::abs(at.value[a]) +
+                                                 std::abs(at.value[b]))
+                               ? elasticity().two_G * (s[a] - s[b]) / apart
+                               : C(a, a) - C(a, b);
+      }
+    *tangent = at.directions * (along * at.directions.transpose());
     return mode;
   }
 } // namespace geocone

@@ -66,7 +66,7 @@ namespace geocone
                   p.condition          = c;
                   for (unsigned int d = 0; d < dim; ++d)
                     p.place[d] = grid.axes[d].places[p.function[d]];
-                  if (!condition.in_box(p.place))
+                  if (!condition.holds_at(p.place))
                     continue;
                   ++n_found;
                   for (unsigned int d = 0; d < dim; ++d)

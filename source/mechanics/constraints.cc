@@ -59,9 +59,10 @@ namespace geocone
       {
         owned_nodes.emplace_back();
         n_nodes.push_back(0);
-        // Least x, y and largest, with its sign changed.
-        std::array<double, 4> bounds = {{1e300, 1e300, 1e300, 1e300}};
-        const auto            extend = [&](const Point<dim> &x) {
+        // The least coordinates, and the largest with their signs changed.
+        std::array<double, 2 * dim> bounds;
+        bounds.fill(1e300);
+        const auto extend = [&](const Point<dim> &x) {
           for (unsigned int d = 0; d < dim; ++d)
             {
               bounds[d]       = std::min(bounds[d], x[d]);
@@ -78,7 +79,7 @@ namespace geocone
           {
             for (const unsigned int node :
                  space.nodes_on_sides(mesh.side_ids(*list[c])))
-              if (list[c]->in_box(space.node_positions()[node]))
+              if (list[c]->holds_at(space.node_positions()[node]))
                 {
                   nodes[c].push_back(node);
                   extend(space.node_positions()[node]);
@@ -91,11 +92,12 @@ namespace geocone
             n_nodes[c] = Utilities::MPI::sum(owned_nodes[c].size(), comm);
             list[c]->check_selection(n_nodes[c]);
           }
-        Utilities::MPI::min(ArrayView<const double>(bounds.data(), 4),
+        Utilities::MPI::min(ArrayView<const double>(bounds.data(), 2 * dim),
                             comm,
-                            ArrayView<double>(bounds.data(), 4));
-        centres.emplace_back((bounds[0] - bounds[2]) / 2.,
-                             (bounds[1] - bounds[3]) / 2.);
+                            ArrayView<double>(bounds.data(), 2 * dim));
+        centres.emplace_back();
+        for (unsigned int d = 0; d < dim; ++d)
+          centres.back()[d] = (bounds[d] - bounds[dim + d]) / 2.;
         if (const auto given = scene.observation.moment_centre())
           centres.back() = *given;
       }
@@ -141,14 +143,13 @@ namespace geocone
         std::string corner;
         for (const unsigned int node : nodes[c])
           {
-            const Tensor<1, dim> n({normal.local_element(dim * node),
-                                    normal.local_element(dim * node + 1)});
+            Tensor<1, dim> n;
+            for (unsigned int d = 0; d < dim; ++d)
+              n[d] = normal.local_element(dim * node + d);
             if (n.norm() > least_mean_normal * size.local_element(dim * node))
               of_node[node].push_back({c, dim, n / n.norm()});
             else
-              corner = format("(%g, %g)",
-                              space.node_positions()[node][0],
-                              space.node_positions()[node][1]);
+              corner = "(" + text_of_place(space.node_positions()[node]) + ")";
           }
         corner = text_of_any_rank(comm, corner);
         if (!corner.empty())
@@ -236,7 +237,7 @@ namespace geocone
                 for (unsigned int c = 0; c < list.size(); ++c)
                   if (list[c]->components[d] &&
                       ids[c].count(cell->face(f)->boundary_id()) > 0 &&
-                      list[c]->in_box(point.position))
+                      list[c]->holds_at(point.position))
                     holder = c;
                 if (holder == list.size())
                   continue;
@@ -358,8 +359,9 @@ namespace geocone
       n_parts = std::max(n_parts, part + 1);
 
     // One representative part per node, and the centre and size of the parts.
-    std::vector<int>    part_of_node(space.n_local_nodes(), -1);
-    std::vector<double> sums(4 * n_parts, 0.);
+    constexpr unsigned int n_sums = dim + 2;
+    std::vector<int>       part_of_node(space.n_local_nodes(), -1);
+    std::vector<double>    sums(n_sums * n_parts, 0.);
     std::vector<types::global_dof_index> nodes;
     for (const auto &cell : mesh.own_cells())
       {
@@ -371,36 +373,52 @@ namespace geocone
     for (unsigned int i = 0; i < space.n_owned_nodes(); ++i)
       {
         const Point<dim> &x = space.node_positions()[i];
-        double           *s = &sums[4 * part_of_node[i]];
+        double           *s = &sums[n_sums * part_of_node[i]];
         s[0] += 1.;
-        s[1] += x[0];
-        s[2] += x[1];
-        s[3] += x.norm_square();
+        for (unsigned int d = 0; d < dim; ++d)
+          s[1 + d] += x[d];
+        s[1 + dim] += x.norm_square();
       }
     sum_over_ranks(sums, comm);
 
-    // Rigid velocities (1,0), (0,1) and (-(y - y_c), x - x_c)/size: a motion is
-    // free if it moves no prescribed dof.
-    std::vector<double> gram(9 * n_parts, 0.);
-    std::vector<double> xc(n_parts), yc(n_parts), size(n_parts);
+    // Rigid velocities along the axes, and rotations w x (x - x_c)/size about z or
+    // about x, y and z: a motion is free if it moves no prescribed dof.
+    constexpr unsigned int n_rotations = dim == 2 ? 1 : 3;
+    constexpr unsigned int n_rigid     = dim + n_rotations;
+    using Gram  = Eigen::Matrix<double, n_rigid, n_rigid>;
+    using Rigid = Eigen::Matrix<double, n_rigid, 1>;
+    // The plane in which a rotation moves points, from its first axis to its second.
+    constexpr unsigned int plane[3][2] = {{0, 1}, {1, 2}, {2, 0}};
+    std::vector<double>    gram(n_rigid * n_rigid * n_parts, 0.), size(n_parts);
+    std::vector<Point<dim>> centre(n_parts);
     for (unsigned int p = 0; p < n_parts; ++p)
       {
-        const double *s = &sums[4 * p];
-        xc[p]           = s[1] / s[0];
-        yc[p]           = s[2] / s[0];
-        size[p]         = std::sqrt(
-          std::max(1e-300, s[3] / s[0] - xc[p] * xc[p] - yc[p] * yc[p]));
+        const double *s      = &sums[n_sums * p];
+        double        square = s[1 + dim] / s[0];
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            centre[p][d] = s[1 + d] / s[0];
+            square -= centre[p][d] * centre[p][d];
+          }
+        size[p] = std::sqrt(std::max(1e-300, square));
       }
+    const auto of_part = [&](const unsigned int p) {
+      return Eigen::Map<Gram>(&gram[n_rigid * n_rigid * p]);
+    };
     const auto hold = [&](const unsigned int node, const Tensor<1, dim> &d) {
       if (node >= space.n_owned_nodes())
         return;
-      const int         p      = part_of_node[node];
-      const Point<dim> &x      = space.node_positions()[node];
-      const double      row[3] = {
-             d[0], d[1], (d[1] * (x[0] - xc[p]) - d[0] * (x[1] - yc[p])) / size[p]};
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = 0; j < 3; ++j)
-          gram[9 * p + 3 * i + j] += row[i] * row[j];
+      const int            p = part_of_node[node];
+      const Tensor<1, dim> r = space.node_positions()[node] - centre[p];
+      Rigid                row;
+      for (unsigned int c = 0; c < dim; ++c)
+        row[c] = d[c];
+      for (unsigned int k = 0; k < n_rotations; ++k)
+        {
+          const auto [a, b] = plane[k];
+          row[dim + k]      = (d[b] * r[a] - d[a] * r[b]) / size[p];
+        }
+      of_part(p) += row * row.transpose();
     };
     for (const Prescribed &dof : prescribed)
       hold(dof.node, axis(dof.component));
@@ -412,41 +430,57 @@ namespace geocone
     if (mesh.is_axisymmetric())
       for (unsigned int p = 0; p < n_parts; ++p)
         {
-          gram[9 * p] += 1.;
-          gram[9 * p + 8] += 1.;
+          of_part(p)(0, 0) += 1.;
+          of_part(p)(dim, dim) += 1.;
         }
     for (unsigned int p = 0; p < n_parts; ++p)
       {
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(
-          Eigen::Map<const Eigen::Matrix3d>(&gram[9 * p]));
+        const Eigen::SelfAdjointEigenSolver<Gram> eigen(of_part(p));
         if (eigen.eigenvalues()[0] > 1e-10)
           continue;
-        const Eigen::Vector3d m = eigen.eigenvectors().col(0);
-        const std::string     which =
+        const Rigid       m = eigen.eigenvectors().col(0);
+        const std::string which =
           n_parts == 1
-                ? std::string("the body")
-                : format("the part of the body around (%g, %g)", xc[p], yc[p]);
+            ? std::string("the body")
+            : "the part of the body around (" + text_of_place(centre[p]) + ")";
         std::string motion;
-        if (std::abs(m[2]) < 1e-6)
-          motion = format("translate along (%.3g, %.3g)", m[0], m[1]) +
-                   (std::abs(m[1]) < 1e-6
-                      ? ": no node of it has its velocity x prescribed"
-                    : std::abs(m[0]) < 1e-6
-                      ? ": no node of it has its velocity y prescribed"
-                      : "");
+        if (m.template tail<n_rotations>().norm() < 1e-6)
+          {
+            Point<dim>  along;
+            std::string only;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                along[d] = m[d];
+                if (std::abs(std::abs(m[d]) - 1.) < 1e-6)
+                  only = std::string(": no node of it has its velocity ") +
+                         coordinate[d] + " prescribed";
+              }
+            motion = "translate along (" + text_of_place(along) + ")" + only;
+          }
         else
           {
+            // About the point that does not move, in the plane of the fastest
+            // rotation.
+            unsigned int k = 0;
+            for (unsigned int i = 1; i < n_rotations; ++i)
+              if (std::abs(m[dim + i]) > std::abs(m[dim + k]))
+                k = i;
+            const auto [a, b]  = plane[k];
             const auto rounded = [&](const double x) {
               return std::abs(x) < 1e-9 * size[p] ? 0. : x;
             };
-            motion = format("rotate about (%.3g, %.3g)",
-                            rounded(xc[p] - m[1] / m[2] * size[p]),
-                            rounded(yc[p] + m[0] / m[2] * size[p])) +
+            const double w = m[dim + k] / size[p];
+            motion         = format("rotate about (%.3g, %.3g)",
+                            rounded(centre[p][a] - m[b] / w),
+                            rounded(centre[p][b] + m[a] / w)) +
+                     (dim == 3 ? std::string(" in the plane of ") +
+                                   coordinate[a] + " and " + coordinate[b]
+                               : std::string()) +
                      ": too few nodes are prescribed to stop it";
           }
         throw InputError("singular system (rigid body motion): " + which +
                          " can " + motion +
-                         format(" (%.0f nodes)", sums[4 * p]) +
+                         format(" (%.0f nodes)", sums[n_sums * p]) +
                          "\n  remedy:  add a boundary condition that holds it, "
                          "or switch the inertia on "
                          "('Time stepping/Inertia')");
@@ -542,26 +576,35 @@ namespace geocone
             for (unsigned int i = first_part[cell]; i < first_part[cell + 1];
                  ++i)
               {
-                const Part  &part  = parts[i];
-                const double shear = mean[2] / sqrt2;
-                exerted[part.place] +=
-                  part.component == 0
-                    ? mean[0] * part.weight[0] + shear * part.weight[1]
-                    : shear * part.weight[0] + mean[1] * part.weight[1];
+                const Part &part = parts[i];
+                exerted[part.place] += mean[place_of_normal[part.component]] *
+                                       part.weight[part.component];
+                for (int k = 0; k < n_shears; ++k)
+                  {
+                    const auto [place, a, b] = shears[k];
+                    const double shear       = mean[place] / sqrt2;
+                    if (static_cast<int>(part.component) == a)
+                      exerted[part.place] += shear * part.weight[b];
+                    else if (static_cast<int>(part.component) == b)
+                      exerted[part.place] += shear * part.weight[a];
+                  }
               }
           }
         sum_over_ranks(exerted, comm);
       }
 
-    const unsigned int  n = scene.dirichlet.list.size();
-    std::vector<double> sums(3 * n, 0.);
-    const auto          add = [&](const unsigned int c,
+    const unsigned int     n    = scene.dirichlet.list.size();
+    constexpr unsigned int size = dim + 1; // force and moment
+    std::vector<double>    sums(size * n, 0.);
+    const auto             add = [&](const unsigned int c,
                          const unsigned int node,
                          const unsigned int component,
                          const double       f) {
       const Tensor<1, dim> r = space.node_positions()[node] - centres[c];
-      sums[3 * c + component] += f;
-      sums[3 * c + 2] += component == 0 ? -r[1] * f : r[0] * f;
+      sums[size * c + component] += f;
+      sums[size * c + dim] += component == 0   ? -r[1] * f
+                                          : component == 1 ? r[0] * f
+                                                           : 0.;
     };
     for (const Prescribed &p : prescribed)
       {
@@ -615,10 +658,12 @@ namespace geocone
         if (k.size() == 2)
           {
             // f = along_0 d_0 + along_1 d_1
-            const Tensor<1, dim> force({f[0], f[1]});
-            const double         det = cross(k[0].d, k[1].d);
-            along[0]                 = cross(force, k[1].d) / det;
-            along[1]                 = cross(k[0].d, force) / det;
+            Tensor<1, dim> force;
+            force[0]         = f[0];
+            force[1]         = f[1];
+            const double det = cross(k[0].d, k[1].d);
+            along[0]         = cross(force, k[1].d) / det;
+            along[1]         = cross(k[0].d, force) / det;
           }
         for (unsigned int i = 0; i < k.size(); ++i)
           for (unsigned int d = 0; d < dim; ++d)
@@ -628,8 +673,9 @@ namespace geocone
     std::vector<Reaction> result(n);
     for (unsigned int c = 0; c < n; ++c)
       {
-        result[c].force  = Tensor<1, dim>({sums[3 * c], sums[3 * c + 1]});
-        result[c].moment = sums[3 * c + 2];
+        for (unsigned int d = 0; d < dim; ++d)
+          result[c].force[d] = sums[size * c + d];
+        result[c].moment = sums[size * c + dim];
       }
     return result;
   }

@@ -7,11 +7,80 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 
-#include <array>
+#include <algorithm>
+#include <cmath>
 
 namespace geocone
 {
   using namespace dealii;
+
+  namespace
+  {
+    /** On the reference face, exact for degree 2p + 3. */
+    template <int face_dim>
+    Quadrature<face_dim>
+    rule_of_face(const bool simplicial, const unsigned int p)
+    {
+      if constexpr (face_dim == 2)
+        if (simplicial)
+          return QWitherdenVincentSimplex<face_dim>(p + 2);
+      return QGauss<face_dim>(p + 2);
+    }
+
+    /** A face of the reference cell: its first vertex, the edges from there, and the
+     *  outward normal times dA over what the rule integrates. */
+    struct UnitFace
+    {
+      UnitFace(const bool simplicial, const unsigned int face)
+      {
+        if (!simplicial)
+          {
+            const unsigned int d = face / 2;
+            start[d]             = face % 2;
+            area[d]              = face % 2 == 0 ? -1. : 1.;
+            for (unsigned int c = 0, k = 0; c < dim; ++c)
+              if (c != d)
+                edge[k++][c] = 1.;
+            return;
+          }
+        // Vertices in the numbering of the reference cells, of which the first is the
+        // origin.
+        static constexpr unsigned int vertices[2][4][3] = {
+          {{0, 1, 0}, {1, 2, 0}, {2, 0, 0}, {0, 0, 0}},
+          {{0, 1, 2}, {1, 0, 3}, {0, 2, 3}, {2, 1, 3}}};
+        const auto &v      = vertices[dim - 2][face];
+        const auto  vertex = [](const unsigned int i) {
+          Point<dim> x;
+          if (i > 0)
+            x[i - 1] = 1.;
+          return x;
+        };
+        start = vertex(v[0]);
+        Point<dim> sum;
+        for (unsigned int k = 0; k + 1 < dim; ++k)
+          edge[k] = vertex(v[k + 1]) - start;
+        for (unsigned int k = 0; k < dim; ++k)
+          sum += vertex(v[k]);
+        // On a face of the origin one coordinate is zero.
+        const bool is_oblique =
+          std::all_of(v, v + dim, [](const unsigned int i) { return i > 0; });
+        for (unsigned int d = 0; d < dim; ++d)
+          area[d] = is_oblique ? 1. : sum[d] == 0. ? -1. : 0.;
+      }
+
+      Point<dim>
+      place(const Point<dim - 1> &s) const
+      {
+        Point<dim> x = start;
+        for (unsigned int k = 0; k + 1 < dim; ++k)
+          x += s[k] * edge[k];
+        return x;
+      }
+
+      Point<dim>     start;
+      Tensor<1, dim> edge[dim - 1], area;
+    };
+  } // namespace
 
   std::vector<FacePoint>
   points_on_face(const BackgroundMesh       &mesh,
@@ -19,36 +88,25 @@ namespace geocone
                  const BackgroundMesh::Cell &cell,
                  const unsigned int          face)
   {
-    // Unit vertices of the faces, in the numbering of the reference cells.
-    using Ends                   = std::array<Point<dim>, 2>;
-    static const Ends triangle[] = {
-      {{{0., 0.}, {1., 0.}}}, {{{1., 0.}, {0., 1.}}}, {{{0., 1.}, {0., 0.}}}};
-    static const Ends square[] = {{{{0., 0.}, {0., 1.}}},
-                                  {{{1., 0.}, {1., 1.}}},
-                                  {{{0., 0.}, {1., 0.}}},
-                                  {{{0., 1.}, {1., 1.}}}};
-    const Ends  &ends   = mesh.is_simplicial() ? triangle[face] : square[face];
-    const auto   side   = cell->face(face);
-    const double length = side->measure();
-
-    const Tensor<1, dim> along = side->vertex(1) - side->vertex(0);
-    Tensor<1, dim>       normal({along[1], -along[0]});
-    normal /= normal.norm();
-    if (normal * (side->center() - cell->center()) < 0.)
-      normal *= -1.;
+    const Quadrature<dim - 1> rule =
+      rule_of_face<dim - 1>(mesh.is_simplicial(), space.degree());
+    const UnitFace unit_face(mesh.is_simplicial(), face);
 
     std::vector<types::global_dof_index> nodes;
     space.cell_nodes(cell, nodes);
-    const QGauss<1>        rule(space.degree() + 2);
     std::vector<FacePoint> points(rule.size());
-    for (unsigned int q = 0; q < rule.size(); ++q)
+    for (unsigned int q = 0; q < points.size(); ++q)
       {
         FacePoint       &point = points[q];
-        const Point<dim> unit =
-          ends[0] + rule.point(q)[0] * (ends[1] - ends[0]);
+        const Point<dim> unit  = unit_face.place(rule.point(q));
         point.position = mesh.mapping().transform_unit_to_real_cell(cell, unit);
-        point.normal   = normal;
-        point.weight   = rule.weight(q) * length * mesh.measure(point.position);
+        // Nanson's formula, n dA = det(J) J^-T N dA_0.
+        const Tensor<2, dim> inverse = mesh.inverse_jacobian(cell, unit);
+        const Tensor<1, dim> area =
+          transpose(inverse) * unit_face.area / std::abs(determinant(inverse));
+        point.normal = area / area.norm();
+        point.weight =
+          rule.weight(q) * area.norm() * mesh.measure(point.position);
         point.values.resize(nodes.size());
         space.evaluate(cell, unit, point.values.data(), nullptr);
         for (const types::global_dof_index node : nodes)

@@ -67,7 +67,8 @@ namespace geocone
         constexpr int n = n_constant;
         for (unsigned int c = 0; c < points.n_cells(); ++c)
           {
-            double K[4 * n * n] = {};
+            constexpr int m_dofs             = dim * n;
+            double        K[m_dofs * m_dofs] = {};
             for (unsigned int p = points.first_point[c];
                  p < points.first_point[c + 1];
                  ++p)
@@ -76,8 +77,9 @@ namespace geocone
                 const double  m = consistent * points.mass[p] / h;
                 for (int i = 0; i < n; ++i)
                   for (int j = 0; j < n; ++j)
-                    for (int d = 0; d < 2; ++d)
-                      K[2 * n * (2 * i + d) + 2 * j + d] += m * N[i] * N[j];
+                    for (unsigned int d = 0; d < dim; ++d)
+                      K[m_dofs * (dim * i + d) + dim * j + d] +=
+                        m * N[i] * N[j];
               }
             pattern.add_cell<n>(c, K, matrix);
           }
@@ -114,25 +116,21 @@ namespace geocone
           constexpr int n = n_constant;
           for (unsigned int c = 0; c < points.n_cells(); ++c)
             {
-              double cell_x[2 * n], cell_f[2 * n] = {};
+              double cell_x[dim * n], cell_f[dim * n] = {};
               gather<n>(x.begin(), &points.nodes[c * n], cell_x);
               for (unsigned int p = points.first_point[c];
                    p < points.first_point[c + 1];
                    ++p)
                 {
-                  const double *N  = &points.values[n * p];
-                  double        ax = 0., ay = 0.;
+                  const double *N      = &points.values[n * p];
+                  double        x[dim] = {};
                   for (int i = 0; i < n; ++i)
-                    {
-                      ax += N[i] * cell_x[2 * i];
-                      ay += N[i] * cell_x[2 * i + 1];
-                    }
+                    for (unsigned int d = 0; d < dim; ++d)
+                      x[d] += N[i] * cell_x[dim * i + d];
                   const double m = consistent * points.mass[p];
                   for (int i = 0; i < n; ++i)
-                    {
-                      cell_f[2 * i] += m * N[i] * ax;
-                      cell_f[2 * i + 1] += m * N[i] * ay;
-                    }
+                    for (unsigned int d = 0; d < dim; ++d)
+                      cell_f[dim * i + d] += m * N[i] * x[d];
                 }
               scatter_add<n>(cell_f, &points.nodes[c * n], dst.begin());
             }

@@ -32,7 +32,7 @@ namespace geocone
         runs.push_back({p, p + 1, points.material[p]});
       else
         ++runs.back().end;
-    if (materials.are_spatial())
+    if (dim == 2 && materials.are_spatial())
       stress_zz.resize(points.n_points());
     if (is_axisymmetric())
       {
@@ -61,7 +61,7 @@ namespace geocone
                        end   = points.first_point[c + 1];
     for (unsigned int p = begin; p < end; ++p)
       result[p] =
-        factor * kernels::strain<n>(&points.gradients[2 * n * p], cell_v);
+        factor * kernels::strain<n>(&points.gradients[dim * n * p], cell_v);
     if (is_axisymmetric())
       for (unsigned int p = begin; p < end; ++p)
         {
@@ -72,11 +72,10 @@ namespace geocone
         }
     if (points.mean_gradients.empty())
       return;
-    const Mandel mean =
-      factor * kernels::strain<n>(&points.mean_gradients[2 * n * c], cell_v);
+    const double mean = trace<n_mandel>(
+      factor * kernels::strain<n>(&points.mean_gradients[dim * n * c], cell_v));
     for (unsigned int p = begin; p < end; ++p)
-      result[p].head<2>().array() +=
-        (mean[0] + mean[1] - result[p][0] - result[p][1]) / 2.;
+      result[p] += ((mean - trace(result[p])) / dim) * unit_tensor<n_mandel>();
   }
 
   template <int n, typename WeightedStress, typename WeightedHoopStress>
@@ -100,20 +99,20 @@ namespace geocone
       {
         for (unsigned int p = begin; p < end; ++p)
           add_force<n>(
-            &points.gradients[2 * n * p], weighted_stress(p), cell_f);
+            &points.gradients[dim * n * p], weighted_stress(p), cell_f);
         return;
       }
     double volumetric = 0.;
     for (unsigned int p = begin; p < end; ++p)
       {
         Mandel       s    = weighted_stress(p);
-        const double mean = (s[0] + s[1]) / 2.;
-        s.head<2>().array() -= mean;
+        const double mean = trace(s) / dim;
+        s -= mean * unit_tensor<n_mandel>();
         volumetric += mean;
-        add_force<n>(&points.gradients[2 * n * p], s, cell_f);
+        add_force<n>(&points.gradients[dim * n * p], s, cell_f);
       }
-    add_force<n>(&points.mean_gradients[2 * n * c],
-                 Mandel(volumetric, volumetric, 0.),
+    add_force<n>(&points.mean_gradients[dim * n * c],
+                 volumetric * unit_tensor<n_mandel>(),
                  cell_f);
   }
 
@@ -123,7 +122,7 @@ namespace geocone
                                      const double       blend,
                                      double            *K) const
   {
-    constexpr int     m       = 2 * n;
+    constexpr int     m       = dim * n;
     const double      factor  = h * points.weight[p];
     OutOfPlaneTangent C       = tangent_zz[p];
     const Elasticity &elastic = materials[points.material[p]].elasticity();
@@ -215,7 +214,7 @@ namespace geocone
       constexpr int n = n_constant;
       for (unsigned int c = 0; c < points.n_cells(); ++c)
         {
-          double cell_v[2 * n];
+          double cell_v[dim * n];
           gather<n>(v.begin(), &points.nodes[c * n], cell_v);
           turned.velocities_to_xy(c, cell_v);
           strains_of_cell<n>(c, cell_v, h, strain, strain_zz);
@@ -238,7 +237,7 @@ namespace geocone
       constexpr int n = n_constant;
       for (unsigned int c = 0; c < points.n_cells(); ++c)
         {
-          double cell_f[2 * n] = {};
+          double cell_f[dim * n] = {};
           add_forces_of_cell<n>(
             c,
             [&](const unsigned int p) -> Mandel {
@@ -292,23 +291,25 @@ namespace geocone
           const double      factor = h * points.weight[p];
           for (unsigned int i = 0; i < n; ++i)
             {
-              double g[dim] = {points.gradients[2 * n * p + i],
-                               points.gradients[2 * n * p + n + i]};
+              double g[dim], square = 0.;
+              for (unsigned int d = 0; d < dim; ++d)
+                g[d] = points.gradients[n * (dim * p + d) + i];
               if (const TurnedDofs::Turn *turn = turned.turn_of(c, i))
                 {
                   const double gx = g[0], gy = g[1];
                   g[0] = turn->n_x * gx + turn->n_y * gy;
                   g[1] = turn->n_x * gy - turn->n_y * gx;
                 }
+              for (unsigned int d = 0; d < dim; ++d)
+                square += g[d] * g[d];
               const unsigned int dof = dim * points.nodes[c * n + i];
               if (is_axisymmetric())
                 part.local_element(dof) +=
                   factor * points.hoop[n * p + i] *
                   (direct * points.hoop[n * p + i] + 2. * e.lambda * g[0]);
-              part.local_element(dof) +=
-                factor * (direct * g[0] * g[0] + shear * g[1] * g[1]);
-              part.local_element(dof + 1) +=
-                factor * (direct * g[1] * g[1] + shear * g[0] * g[0]);
+              for (unsigned int d = 0; d < dim; ++d)
+                part.local_element(dof + d) +=
+                  factor * ((direct - shear) * g[d] * g[d] + shear * square);
             }
         }
     part.compress(VectorOperation::add);
@@ -325,19 +326,23 @@ namespace geocone
       {
         for (unsigned int i = 0; i < n; ++i)
           {
-            const unsigned int dof = dim * points.nodes[c * n + i];
-            speed[i] =
-              std::hypot(v.local_element(dof), v.local_element(dof + 1));
+            const unsigned int dof    = dim * points.nodes[c * n + i];
+            double             square = 0.;
+            for (unsigned int d = 0; d < dim; ++d)
+              square += std::pow(v.local_element(dof + d), 2);
+            speed[i] = std::sqrt(square);
           }
         for (unsigned int p = points.first_point[c];
              p < points.first_point[c + 1];
              ++p)
           {
-            const double *gx = &points.gradients[2 * n * p], *gy = gx + n;
-            double        terms = 0., squares = 0.;
+            const double *const g     = &points.gradients[dim * n * p];
+            double              terms = 0., squares = 0.;
             for (unsigned int i = 0; i < n; ++i)
               {
-                const double square = gx[i] * gx[i] + gy[i] * gy[i];
+                double square = 0.;
+                for (unsigned int d = 0; d < dim; ++d)
+                  square += g[n * d + i] * g[n * d + i];
                 squares += square;
                 terms += std::sqrt(square) * speed[i];
               }
@@ -362,13 +367,13 @@ namespace geocone
       constexpr int             n = n_constant;
       std::vector<MandelMatrix> C;
       std::vector<double>       scratch;
-      double                    K[4 * n * n];
+      double                    K[dim * dim * n * n];
       for (unsigned int c = 0; c < points.n_cells(); ++c)
         {
           const unsigned int first = points.first_point[c];
           const unsigned int n_q   = points.first_point[c + 1] - first;
           C.resize(n_q);
-          scratch.resize(n_q * 6 * n);
+          scratch.resize(n_q * n_mandel * dim * n);
           for (unsigned int q = 0; q < n_q; ++q)
             {
               const unsigned int p = first + q;
@@ -378,10 +383,10 @@ namespace geocone
                        (blend * h * points.weight[p]) *
                          materials[points.material[p]].elasticity().stiffness();
             }
-          const double *g = &points.gradients[2 * n * first];
+          const double *g = &points.gradients[dim * n * first];
           if (!points.mean_gradients.empty())
             stiffness_b_bar<n>(
-              g, &points.mean_gradients[2 * n * c], C.data(), n_q, K);
+              g, &points.mean_gradients[dim * n * c], C.data(), n_q, K);
           else if (one_triangle)
             stiffness<n, true>(g, C.data(), n_q, scratch.data(), K);
           else
@@ -389,7 +394,7 @@ namespace geocone
           if (is_axisymmetric())
             for (unsigned int q = 0; q < n_q; ++q)
               add_hoop_stiffness<n>(first + q, blend, K);
-          turned.matrix_to_dofs(c, 2 * n, one_triangle, K);
+          turned.matrix_to_dofs(c, dim * n, one_triangle, K);
           pattern.add_cell<n>(c, K, matrix);
         }
     });
@@ -407,7 +412,7 @@ namespace geocone
       constexpr int n = n_constant;
       for (unsigned int c = 0; c < points.n_cells(); ++c)
         {
-          double cell_v[2 * n], cell_f[2 * n] = {};
+          double cell_v[dim * n], cell_f[dim * n] = {};
           gather<n>(dv.begin(), &points.nodes[c * n], cell_v);
           turned.velocities_to_xy(c, cell_v);
           strains_of_cell<n>(c, cell_v, h, rate, rate_zz);
@@ -442,10 +447,10 @@ namespace geocone
     with_n_nodes(points.n_nodes, [&](const auto n_constant) {
       constexpr int n = n_constant;
       for (unsigned int c = 0; c < points.n_cells(); ++c)
-        for (int j = 0; j < 2 * n; ++j)
+        for (int j = 0; j < static_cast<int>(dim) * n; ++j)
           {
-            double cell_v[2 * n] = {};
-            cell_v[j]            = 1.;
+            double cell_v[dim * n] = {};
+            cell_v[j]              = 1.;
             turned.velocities_to_xy(c, cell_v);
             strains_of_cell<n>(c, cell_v, 1., column, column_zz);
             for (unsigned int p = points.first_point[c];
@@ -468,9 +473,7 @@ namespace geocone
   SpatialMandel
   InternalForces::whole_stress(const unsigned int p) const
   {
-    SpatialMandel whole;
-    whole << stress[p], stress_zz.empty() ? 0. : stress_zz[p];
-    return whole;
+    return extended(stress[p], stress_zz.empty() ? 0. : stress_zz[p]);
   }
 
   SpatialMandel
@@ -483,9 +486,7 @@ namespace geocone
   SpatialMandel
   InternalForces::whole_strain(const unsigned int p) const
   {
-    SpatialMandel whole;
-    whole << strain[p], is_axisymmetric() ? strain_zz[p] : 0.;
-    return whole;
+    return extended(strain[p], is_axisymmetric() ? strain_zz[p] : 0.);
   }
 
   InternalForces::Work

@@ -22,10 +22,9 @@ namespace geocone
     for (unsigned int p = 0; p < points.n_points() && where.empty(); ++p)
       if (!strain[p].allFinite() || !stress[p].allFinite() ||
           (!stress_zz.empty() && !std::isfinite(stress_zz[p])))
-        where = format(" at the point %u (%g, %g)",
-                       points.id.empty() ? p : points.id[p],
-                       points.position[p][0],
-                       points.position[p][1]);
+        where =
+          format(" at the point %u (", points.id.empty() ? p : points.id[p]) +
+          text_of_place(points.position[p]) + ")";
     return text_of_any_rank(comm, where);
   }
 
@@ -39,8 +38,8 @@ namespace geocone
         for (unsigned int p = run.begin; p < run.end; ++p)
           if (mode[p] != Mode::elastic)
             {
-              const Mandel z =
-                to_cone_axes(Mandel(plastic_strain_increment(p).head<3>()));
+              const Mandel z = to_cone_axes(
+                Mandel(plastic_strain_increment(p).head<n_mandel>()));
               const Mandel s    = to_cone_axes(stress[p]);
               const double slip = FlowCone::tangential_norm(z);
               const auto   exact =

@@ -93,9 +93,9 @@ namespace geocone
             if (mode[p] != Mode::elastic)
               {
                 const double compliance = 1. / elasticity.two_G;
-                const Mandel S(
-                  1. / elasticity.normal_stiffness(), compliance, compliance);
-                MandelMatrix B = rho_p * J * cone.psi_slope(z);
+                Mandel       S          = Mandel::Constant(compliance);
+                S[0]                    = 1. / elasticity.normal_stiffness();
+                MandelMatrix B          = rho_p * J * cone.psi_slope(z);
                 if (materials[material].hardens())
                   B -= slope_by_slip(
                          cone_of, project_on, slip, compliance * x.norm()) *

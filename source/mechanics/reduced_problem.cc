@@ -36,7 +36,7 @@ namespace geocone
   MandelMatrix
   ReducedProblem::diagonal_block(const unsigned int p) const
   {
-    return MatrixXd(W.block(3 * p, 3 * p, 3, 3));
+    return MatrixXd(W.block(n_mandel * p, n_mandel * p, n_mandel, n_mandel));
   }
 
   VectorXd
@@ -77,11 +77,11 @@ namespace geocone
     double         error = 0., size = 0., cohesion = 0.;
     for (unsigned int p = 0; p < n_cones(); ++p)
       {
-        const Mandel sp = s.segment<3>(3 * p);
+        const Mandel sp = s.segment<n_mandel>(n_mandel * p);
         error           = std::max(error,
                          natural_map_norm(cones[p],
                                           sp,
-                                          zs.segment<3>(3 * p),
+                                          zs.segment<n_mandel>(n_mandel * p),
                                           natural_scale(diagonal_block(p))));
         size            = std::max(size, sp.norm());
         cohesion        = std::max(cohesion, cones[p].k);
@@ -339,7 +339,7 @@ namespace geocone
     const double n = in.next("the number of cones");
     if (!(n >= 1. && n <= most_cones && n == std::floor(n)))
       in.fail("has " + Numbers::shown(n) + " cones");
-    const unsigned int size = 3 * static_cast<unsigned int>(n);
+    const unsigned int size = n_mandel * static_cast<unsigned int>(n);
 
     // Old files begin with the storage, new ones with the model; the number of
     // rows, which comes next in the former, is more than any storage.

@@ -24,6 +24,9 @@ namespace geocone
                             const std::string &remedy) {
       throw InputError(parameter, value, allowed, remedy);
     };
+    if (dim == 3)
+      refuse("another one where Geometry/Dimension = 3",
+             "it solves for the stresses of plane cones: take automatic");
     if (dealii::Utilities::MPI::n_mpi_processes(comm) > 1)
       refuse("another one on several ranks",
              "run it on one rank, or take automatic");
@@ -92,30 +95,31 @@ namespace geocone
 
     // V B in cone axes, S the diagonal V S, and V B v*.
     std::vector<Eigen::Triplet<double>> entries;
-    VectorXd                            strain_rate = VectorXd::Zero(3 * n);
-    problem.internal.for_each_strain_column(
-      [&](const unsigned int p, const unsigned int dof, const Mandel &column) {
-        const Mandel x = points.weight[p] * to_cone_axes(column);
-        strain_rate.segment<3>(3 * p) += velocity.local_element(dof) * x;
-        if (unknowns.is_free(dof))
-          for (int i = 0; i < 3; ++i)
-            entries.emplace_back(3 * p + i, unknowns.free_row[dof], x[i]);
-      });
-    VB.resize(3 * n, unknowns.n_rows);
+    VectorXd strain_rate = VectorXd::Zero(n_mandel * n);
+    problem.internal.for_each_strain_column([&](const unsigned int p,
+                                                const unsigned int dof,
+                                                const Mandel      &column) {
+      const Mandel x = points.weight[p] * to_cone_axes(column);
+      strain_rate.segment<n_mandel>(n_mandel * p) +=
+        velocity.local_element(dof) * x;
+      if (unknowns.is_free(dof))
+        for (int i = 0; i < n_mandel; ++i)
+          entries.emplace_back(n_mandel * p + i, unknowns.free_row[dof], x[i]);
+    });
+    VB.resize(n_mandel * n, unknowns.n_rows);
     VB.setFromTriplets(entries.begin(), entries.end());
-    reduced.S.resize(3 * n);
+    reduced.S.resize(n_mandel * n);
     for (unsigned int p = 0; p < n; ++p)
       {
         const Elasticity &e = materials[points.material[p]].elasticity();
-        reduced.S.segment<3>(3 * p) =
-          Mandel(points.weight[p] / e.normal_stiffness(),
-                 points.weight[p] / e.two_G,
-                 points.weight[p] / e.two_G);
+        reduced.S.segment<n_mandel>(n_mandel * p) =
+          Mandel::Constant(points.weight[p] / e.two_G);
+        reduced.S[n_mandel * p] = points.weight[p] / e.normal_stiffness();
       }
     ReducedProblem::Matrix transposed = VB.transpose();
     transposed = VectorXd(h * mobility).asDiagonal() * transposed;
     reduced.W  = VB * transposed;
-    for (unsigned int i = 0; i < 3 * n; ++i)
+    for (unsigned int i = 0; i < n_mandel * n; ++i)
       reduced.W.coeffRef(i, i) += reduced.S[i];
     reduced.q = -reduced.S.cwiseProduct(stress_at_start()) - h * strain_rate;
 
@@ -134,9 +138,9 @@ namespace geocone
   Reduction::stress_at_start() const
   {
     const std::vector<Mandel> &stress = incremental.points.stress;
-    VectorXd                   s(3 * stress.size());
+    VectorXd                   s(n_mandel * stress.size());
     for (unsigned int p = 0; p < stress.size(); ++p)
-      s.segment<3>(3 * p) = to_cone_axes(stress[p]);
+      s.segment<n_mandel>(n_mandel * p) = to_cone_axes(stress[p]);
     return s;
   }
 

@@ -16,24 +16,36 @@ namespace geocone
 {
   namespace
   {
-    const std::array<const char *, 5> names = {{"Displacement x",
-                                                "Displacement y",
-                                                "Stress xx",
-                                                "Stress yy",
-                                                "Stress xy"}};
+    const std::vector<const char *> names =
+      dim == 2 ? std::vector<const char *>{"Displacement x",
+                                           "Displacement y",
+                                           "Stress xx",
+                                           "Stress yy",
+                                           "Stress xy"}
+               : std::vector<const char *>{"Displacement x",
+                                           "Displacement y",
+                                           "Displacement z",
+                                           "Stress xx",
+                                           "Stress yy",
+                                           "Stress xy",
+                                           "Stress zz",
+                                           "Stress yz",
+                                           "Stress zx"};
   }
 
   ExactSolution::ExactSolution()
     : dealii::ParameterAcceptor("/Exact solution")
   {
+    texts.fill("none");
     for (unsigned int i = 0; i < names.size(); ++i)
       add_parameter(
         names[i],
         texts[i],
-        std::string("Formula in x, y (m) and t (s) for the exact ") +
+        (std::string("Formula in ") + coordinates +
+         " (m) and t (s) for the exact ") +
           (i < dim ? "displacement (m)" : "stress (Pa)") +
           " at the end of the run, or none. x, y is the place of a particle "
-          "before it moved. All five or none are given; the relative L2 errors "
+          "before it moved. All or none are given; the relative L2 errors "
           "go to summary.json.");
   }
 
@@ -42,10 +54,10 @@ namespace geocone
   {
     const auto n_none = std::count(texts.begin(), texts.end(), "none");
     given             = n_none == 0;
-    if (n_none != 0 && n_none != 5)
+    if (n_none != 0 && n_none != long(texts.size()))
       throw InputError("Exact solution/Displacement x",
                        texts[0],
-                       "formulas for all five fields, or none for all",
+                       "formulas for all fields, or none for all",
                        "complete the section");
     if (given)
       for (unsigned int i = 0; i < names.size(); ++i)
@@ -107,9 +119,11 @@ namespace geocone
             x -= points.displacement[p];
             add_displacement(points.displacement[p], x, points.weight[p]);
           }
-        const Mandel exact(fields[2].value(x, t),
-                           fields[3].value(x, t),
-                           sqrt2 * fields[4].value(x, t));
+        Mandel exact;
+        for (int i = 0; i < n_mandel; ++i)
+          exact[i] = fields[dim + i].value(x, t);
+        for (int k = 0; k < n_shears; ++k)
+          exact[shears[k].place] *= sqrt2;
         sums[2] += points.weight[p] * (points.stress[p] - exact).squaredNorm();
         sums[3] += points.weight[p] * exact.squaredNorm();
       }

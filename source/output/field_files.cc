@@ -188,21 +188,17 @@ namespace geocone
                        as_vtk(table.values(table.positions, dim), dim));
       out << "</Points>\n<Cells>\n";
       {
-        // VTK's quadrilaterals go round.
-        std::vector<std::int32_t> nodes(table.n_nodes);
-        for (std::size_t i = 0; i < nodes.size(); ++i)
-          nodes[i] = n == 4 && i % n >= 2 ? i / n * n + 5 - i % n : i;
+        std::vector<std::int32_t> nodes =
+          table.connectivity<std::int32_t>(table.n_nodes);
         write_data_array(out, "type=\"Int32\" Name=\"connectivity\"", nodes);
         nodes.resize(n_cells);
         for (std::size_t c = 0; c < n_cells; ++c)
           nodes[c] = (c + 1) * n;
         write_data_array(out, "type=\"Int32\" Name=\"offsets\"", nodes);
-        write_data_array(out,
-                         "type=\"UInt8\" Name=\"types\"",
-                         std::vector<std::uint8_t>(n_cells,
-                                                   n == 1   ? 1
-                                                   : n == 3 ? 5
-                                                            : 9));
+        write_data_array(
+          out,
+          "type=\"UInt8\" Name=\"types\"",
+          std::vector<std::uint8_t>(n_cells, table.kind().vtk_type));
       }
       out << "</Cells>\n<PointData>\n";
       for (const FieldTable::Column &column : table.columns)
@@ -263,6 +259,18 @@ namespace geocone
              escaped(file + ":/" + name) + "\n</DataItem>\n";
     }
   } // namespace
+
+  const FieldTable::Kind &
+  FieldTable::kind() const
+  {
+    static const std::map<Cell, Kind> kinds = {
+      {Cell::point, {1, 1, "Polyvertex", {{0}}}},
+      {Cell::triangle, {3, 5, "Triangle", {{0, 1, 2}}}},
+      {Cell::quadrilateral, {4, 9, "Quadrilateral", {{0, 1, 3, 2}}}},
+      {Cell::tetrahedron, {4, 10, "Tetrahedron", {{0, 1, 2, 3}}}},
+      {Cell::hexahedron, {8, 12, "Hexahedron", {{0, 1, 3, 2, 4, 5, 7, 6}}}}};
+    return kinds.at(cell);
+  }
 
   FieldFiles::FieldFiles(const std::string &base, const FieldsFormat format)
     : base(base)
@@ -358,10 +366,7 @@ namespace geocone
       attempt(problem, [&]() {
         out = std::make_unique<Hdf5File>(folder + "/" + file,
                                          Hdf5File::Access::create);
-        std::vector<unsigned int> nodes(n_nodes);
-        for (std::size_t i = 0; i < n_nodes; ++i)
-          nodes[i] = n == 4 && i % n >= 2 ? i / n * n + 5 - i % n : i;
-        out->write_table("cells", nodes, n);
+        out->write_table("cells", table.connectivity<unsigned int>(n_nodes), n);
       });
     const auto write_array = [&](const std::string      &name,
                                  const FieldTable::Fill &fill,
@@ -408,14 +413,13 @@ namespace geocone
     std::string entry =
       geocone::format("<Grid Name=\"mesh\" GridType=\"Uniform\">\n"
                       "<Time Value=\"%.12g\"/>\n"
-                      "<Geometry GeometryType=\"XY\">\n",
-                      time) +
+                      "<Geometry GeometryType=\"%s\">\n",
+                      time,
+                      dim == 2 ? "XY" : "XYZ") +
       data_item(file, "nodes", n_nodes, dim) +
       geocone::format("</Geometry>\n<Topology TopologyType=\"%s\" "
                       "NumberOfElements=\"%zu\"%s>\n",
-                      n == 1   ? "Polyvertex"
-                      : n == 3 ? "Triangle"
-                               : "Quadrilateral",
+                      table.kind().xdmf_type,
                       n_cells,
                       n == 1 ? " NodesPerElement=\"1\"" : "") +
       data_item(file, "cells", n_cells, n) + "</Topology>\n";

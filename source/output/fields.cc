@@ -17,12 +17,46 @@ namespace geocone
     sub_cells(const unsigned int p, const bool simplicial)
     {
       std::vector<std::vector<Point<dim>>> cells;
-      const double                         d = 1. / p;
-      const auto                           x = [&](const int i, const int j) {
-        return Point<dim>(i * d, j * d);
+      const auto                           x = [&](const unsigned int i,
+                         const unsigned int j,
+                         const unsigned int k = 0) {
+        Point<dim> place;
+        place[dim - 1] = double(k) / p;
+        place[0]       = double(i) / p;
+        place[1]       = double(j) / p;
+        return place;
       };
-      for (int j = 0; j < static_cast<int>(p); ++j)
-        for (int i = 0; i < static_cast<int>(p); ++i)
+      if constexpr (dim == 3)
+        {
+          if (simplicial)
+            {
+              // Of degree 2 four at the corners, and the octahedron between them in
+              // four around its diagonal from the middle of 01 to that of 23.
+              if (p == 1)
+                return {{x(0, 0, 0), x(1, 0, 0), x(0, 1, 0), x(0, 0, 1)}};
+              const Point<dim> o = x(1, 0, 0), q = x(0, 1, 1);
+              return {{x(0, 0, 0), x(1, 0, 0), x(0, 1, 0), x(0, 0, 1)},
+                      {x(1, 0, 0), x(2, 0, 0), x(1, 1, 0), x(1, 0, 1)},
+                      {x(0, 1, 0), x(1, 1, 0), x(0, 2, 0), x(0, 1, 1)},
+                      {x(0, 0, 1), x(1, 0, 1), x(0, 1, 1), x(0, 0, 2)},
+                      {o, x(1, 1, 0), x(0, 1, 0), q},
+                      {o, x(0, 1, 0), x(0, 0, 1), q},
+                      {o, x(0, 0, 1), x(1, 0, 1), q},
+                      {o, x(1, 0, 1), x(1, 1, 0), q}};
+            }
+          for (unsigned int k = 0; k < p; ++k)
+            for (unsigned int j = 0; j < p; ++j)
+              for (unsigned int i = 0; i < p; ++i)
+                {
+                  cells.emplace_back();
+                  for (unsigned int v = 0; v < 8; ++v)
+                    cells.back().push_back(
+                      x(i + v % 2, j + v / 2 % 2, k + v / 4));
+                }
+          return cells;
+        }
+      for (unsigned int j = 0; j < p; ++j)
+        for (unsigned int i = 0; i < p; ++i)
           if (!simplicial)
             cells.push_back(
               {x(i, j), x(i + 1, j), x(i, j + 1), x(i + 1, j + 1)});
@@ -37,15 +71,28 @@ namespace geocone
       return cells;
     }
 
+    /** Names of Mandel's components; s_zz of the plane is the law's to know. */
+    constexpr const char *of_tensor[] = {
+      "_xx", "_yy", "_xy", "_zz", "_yz", "_zx"};
+
+    /** A component of the tensor of a Mandel vector. */
+    double
+    component(const Mandel &t, const int i)
+    {
+      return i == 2 || i > 3 ? t[i] / sqrt2 : t[i];
+    }
+
     /** What is written of each cell: the material, and means. */
-    constexpr std::array<const char *, 7> names = {
-      {"material",
-       "stress_xx",
-       "stress_yy",
-       "stress_xy",
-       "stress_zz",
-       "plastic_strain_rate",
-       "cumulative_plastic_strain"}};
+    std::vector<std::string>
+    names_of_means()
+    {
+      std::vector<std::string> names = {"material"};
+      for (int i = 0; i < n_spatial; ++i)
+        names.push_back(std::string("stress") + of_tensor[i]);
+      names.push_back("plastic_strain_rate");
+      names.push_back("cumulative_plastic_strain");
+      return names;
+    }
 
     /** Stress components xx, yy, xy of a point (Pa). */
     std::array<double, 3>
@@ -91,26 +138,27 @@ namespace geocone
     std::vector<double> N(points.n_nodes);
 
     // At the nodes of the parts: places, the fields on nodes; means of the cells.
-    std::vector<double>                           places;
-    std::vector<std::vector<double>>              vectors(on_nodes.size());
-    std::array<std::vector<double>, names.size()> means;
+    std::vector<double>              places;
+    std::vector<std::vector<double>> vectors(on_nodes.size());
+    const std::vector<std::string>   names = names_of_means();
+    std::vector<std::vector<double>> means(names.size());
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       {
-        const auto                      &cell  = points.cells[c];
-        const unsigned int               first = points.first_point[c];
-        double                           area  = 0.;
-        std::array<double, names.size()> mean  = {};
+        const auto         &cell  = points.cells[c];
+        const unsigned int  first = points.first_point[c];
+        double              area  = 0.;
+        std::vector<double> mean(names.size(), 0.);
         for (unsigned int p = first; p < points.first_point[c + 1]; ++p)
           {
             const double V = points.weight[p];
             area += V;
-            mean[1] += V * points.stress[p][0];
-            mean[2] += V * points.stress[p][1];
-            mean[3] += V * points.stress[p][2] / sqrt2;
-            mean[4] += V * materials[points.material[p]].stress_zz(
-                             in_plane(points, p), points.history_of(p));
-            mean[5] += V * points.plastic_strain_rate[p];
-            mean[6] += V * points.cumulative_plastic_strain[p];
+            for (int i = 0; i < n_mandel; ++i)
+              mean[1 + i] += V * component(points.stress[p], i);
+            if (dim == 2)
+              mean[4] += V * materials[points.material[p]].stress_zz(
+                               in_plane(points, p), points.history_of(p));
+            mean[1 + n_spatial] += V * points.plastic_strain_rate[p];
+            mean[2 + n_spatial] += V * points.cumulative_plastic_strain[p];
           }
         for (double &value : mean)
           value /= area;
@@ -142,8 +190,11 @@ namespace geocone
       return [&from](std::vector<double> &to) { to = from; };
     };
     FieldTable on_cells;
-    on_cells.cell      = mesh.is_simplicial() ? FieldTable::Cell::triangle
-                                              : FieldTable::Cell::quadrilateral;
+    using Kind         = FieldTable::Cell;
+    on_cells.cell      = mesh.is_simplicial()
+                           ? dim == 2 ? Kind::triangle : Kind::tetrahedron
+                         : dim == 2 ? Kind::quadrilateral
+                                    : Kind::hexahedron;
     on_cells.n_nodes   = places.size() / dim;
     on_cells.positions = copy_of(places);
     for (unsigned int f = 0; f < on_nodes.size(); ++f)
@@ -177,10 +228,10 @@ namespace geocone
       });
     const auto add_tensor = [&](const std::string         &name,
                                 const std::vector<Mandel> &values) {
-      add(name + "_xx", [&](const std::size_t p) { return values[p][0]; });
-      add(name + "_yy", [&](const std::size_t p) { return values[p][1]; });
-      add(name + "_xy",
-          [&](const std::size_t p) { return values[p][2] / sqrt2; });
+      for (int i = 0; i < n_mandel; ++i)
+        add(name + of_tensor[i], [&values, i](const std::size_t p) {
+          return component(values[p], i);
+        });
     };
     add_tensor("stress", points.stress);
     for (const std::string &name : materials.shown_names())

@@ -15,8 +15,9 @@ namespace geocone
       for (unsigned int d = 0; d < dim; ++d)
         {
           const double u = displacements[i][d];
-          summary["points"][format("displacement_%u_%c_m", i + 1, "xy"[d])] =
-            std::isfinite(u) ? Json(u) : Json();
+          summary["points"]
+                 [format("displacement_%u_%c_m", i + 1, coordinate[d])] =
+                   std::isfinite(u) ? Json(u) : Json();
         }
   }
 } // namespace geocone

@@ -47,7 +47,7 @@ namespace geocone
     const auto         supports    = scene->supports();
     for (unsigned int i = 0; i < dim * observation.conditions.size(); ++i)
       table.add("reaction " + supports[observation.conditions[i / dim]] +
-                  (i % dim == 0 ? " x" : " y") + unit(" (N/m)"),
+                  std::string(" ") + coordinate[i % dim] + unit(" (N/m)"),
                 [i](const Record &r) { return r.reactions[i]; });
     if (scene->loading.reduces_strength())
       add("strength factor (-)", [this](const Record &r) {

@@ -180,10 +180,11 @@ namespace geocone
         scene.obstacles.refuse("frozen problems", remedy);
         scene.absorbing.refuse("frozen problems", remedy);
         scene.geometry.refuse_axis("frozen problems", remedy);
-        if (scene.materials.are_spatial())
+        if (dim == 3 || scene.materials.are_spatial())
           throw InputError("Output/Freeze steps",
                            "not empty",
-                           "nothing with laws that are spatial",
+                           "nothing with laws that are spatial, or in three "
+                           "dimensions",
                            remedy);
       }
     freezer.check(scene.loading);

@@ -101,26 +101,32 @@ namespace geocone
       element[0] == 'B' ||
       (element == "automatic" && method.is_mpm() && expected.is_grid);
     const unsigned int p = element != "automatic" ? element.back() - '0'
+                           : dim == 3             ? 2
                            : !method.is_mpm()     ? 3
                            : expected.is_simplicial
                              ? (method.is_explicit() ? 1 : 3)
                            : !expected.is_grid    ? 1
                            : method.is_explicit() ? 2
                                                   : 3;
-    const double       nodes_per_cell = expected.is_simplicial ? (p == 1   ? 0.5
-                                                                  : p == 2 ? 2.
-                                                                           : 4.5)
-                                        : spline               ? 1.
-                                                               : p * p;
-    const double       functions =
-      expected.is_simplicial ? (p + 1) * (p + 2) / 2. : (p + 1) * (p + 1.);
+    // Of a triangle and a tetrahedron, by Euler's formula and what is usual.
+    const double of_simplex     = dim == 2 ? (p == 1   ? 0.5
+                                              : p == 2 ? 2.
+                                                       : 4.5)
+                                           : (p == 1 ? 0.2 : 1.4);
+    const double nodes_per_cell = expected.is_simplicial ? of_simplex
+                                  : spline               ? 1.
+                                                         : std::pow(p, dim);
+    double       functions =
+      expected.is_simplicial ? (p + 1) * (p + 2) / 2. : std::pow(p + 1., dim);
+    if (dim == 3 && expected.is_simplicial)
+      functions *= (p + 3) / 3.;
     const double nodes = e.cells * nodes_per_cell;
     e.unknowns         = dim * nodes;
     e.points           = seeding != nullptr
                            ? seeding->expected_number(scene, expected)
-                           : e.cells * (!expected.is_simplicial ? (p + 1.) * (p + 1.)
+                           : e.cells * (!expected.is_simplicial ? std::pow(p + 1., dim)
                                         : p == 1                ? 1.
-                                        : p == 2                ? 3.
+                                        : p == 2                ? dim + 1.
                                                                 : 7.);
     double outputs     = seeding != nullptr ? 1. : 0.;
     for (const auto &stage : scene.loading.stages)
@@ -142,10 +148,13 @@ namespace geocone
       {
         // Columns per row: the functions that overlap a function's support.
         const double row =
-          dim * (spline ? (2. * p + 1.) * (2. * p + 1.) : 3.5 * functions);
+          dim * (spline ? std::pow(2. * p + 1., dim) : 3.5 * functions);
         of_points = e.points * (1000. + 100. * functions);
         of_nodes  = e.unknowns * (1500. + 60. * row);
-        e.memory  = 160e6;
+        // In three dimensions factors fill in as n^(4/3).
+        if (dim == 3)
+          of_nodes += 60. * std::pow(e.unknowns, 4. / 3.);
+        e.memory = 160e6;
       }
     e.memory += of_points + of_nodes;
     if (seeding != nullptr && of_points > of_nodes &&
@@ -159,7 +168,8 @@ namespace geocone
           (60. * e.points +
            (method.is_explicit()
               ? 0.
-              : 60. * e.cells * p * p * (expected.is_simplicial ? 3. : 4.)));
+              : 60. * e.cells * std::pow(p, dim) *
+                  (expected.is_simplicial ? dim + 1. : std::pow(2., dim))));
       }
     return e;
   }

@@ -27,29 +27,36 @@ namespace geocone
     add_parameter("Box",
                   box,
                   "Restricts the condition to the part of the sides inside the "
-                  "box from x, y to x, y (m): 'x, y; x, y'. Empty: the whole "
-                  "sides.");
+                  "box with these two corners (m): lowest coordinates; highest "
+                  "ones. Empty: the whole sides.");
+    add_parameter("Where",
+                  where_text,
+                  std::string("Formula in ") + coordinates +
+                    " (m): restricts the condition to where it is > 0, e.g. "
+                    "0.25 - x^2 within half a metre of x = 0. Empty: "
+                    "everywhere. Nodes and faces on its border should not be "
+                    "left to rounding.");
     const std::string documentation =
-      unit +
-      " as a formula in x, y (m) and t (s), or 'record FILE.csv' with the "
+      unit + " as a formula in " + coordinates +
+      " (m) and t (s), or 'record FILE.csv' with the "
       "columns t (s) and v, or t and a, whose integral it is; '" +
       unset + "': none.";
-    add_parameter(quantity + " x", texts[0], documentation);
-    add_parameter(quantity + " y", texts[1], documentation);
-    if (quantity == "Velocity" || quantity == "Traction")
+    for (unsigned int c = 0; c < dim; ++c)
+      add_parameter(quantity + " " + coordinate[c], texts[c], documentation);
+    if ((quantity == "Velocity" && dim == 2) || quantity == "Traction")
       add_parameter(
         quantity + " normal",
-        texts[2],
+        texts[dim],
         quantity == "Velocity"
           ? "FEM: velocity (m/s) along the outward normal of the "
             "sides, instead of x and y; the tangential one is free."
           : "Traction (Pa) along the outward normal of the sides, -p "
             "for a pressure p; with tangential instead of x and y. "
             "MPM: it follows the side as it turns and stretches.");
-    if (quantity == "Traction")
+    if (quantity == "Traction" && dim == 2)
       add_parameter(
         quantity + " tangential",
-        texts[3],
+        texts[dim + 1],
         "Traction (Pa) along the sides, with the body to the left.");
     if (quantity == "Velocity")
       {
@@ -102,8 +109,12 @@ namespace geocone
                        "one or more sides of the domain, or all",
                        "of a box: bottom, right, top, left; of a polygon: 0, "
                        "1, ...; of a file: its physical curves");
-    if (!box.empty() &&
-        (box.size() != 2 || box[0][0] > box[1][0] || box[0][1] > box[1][1]))
+    bool is_box = box.empty() || box.size() == 2;
+    for (unsigned int c = 0; c < dim && box.size() == 2; ++c)
+      is_box = is_box && box[0][c] <= box[1][c];
+    if (!where_text.empty())
+      where.emplace().prepare(where_text, parameter("Where"));
+    if (!is_box)
       throw InputError(parameter("Box"),
                        dealii::Patterns::Tools::to_string(box),
                        "empty, or lower left; upper right corner",
@@ -118,23 +129,26 @@ namespace geocone
         {
           components[c].emplace();
           components[c]->prepare(
-            texts[c], parameter(quantity + (c == 0 ? " x" : " y")), &folder);
+            texts[c], parameter(quantity + " " + coordinate[c]), &folder);
         }
-    if (texts[2] != unset)
-      normal.emplace().prepare(texts[2], parameter(quantity + " normal"));
-    if (texts[3] != unset)
-      tangential.emplace().prepare(texts[3],
+    if (texts[dim] != unset)
+      normal.emplace().prepare(texts[dim], parameter(quantity + " normal"));
+    if (texts[dim + 1] != unset)
+      tangential.emplace().prepare(texts[dim + 1],
                                    parameter(quantity + " tangential"));
-    if ((normal || tangential) && (components[0] || components[1]))
+    const bool has_components =
+      std::any_of(components.begin(), components.end(), [](const auto &c) {
+        return c.has_value();
+      });
+    if ((normal || tangential) && has_components)
       throw InputError(
         parameter(quantity + (normal ? " normal" : " tangential")),
-        texts[normal ? 2 : 3],
+        texts[normal ? dim : dim + 1],
         "'" + unset + "' beside " + quantity + " x or y",
         "give one of the two pairs of components, or two "
         "conditions");
     const bool may_be_zero = unset == "0";
-    if (!may_be_zero && !components[0] && !components[1] && !normal &&
-        !tangential)
+    if (!may_be_zero && !has_components && !normal && !tangential)
       throw InputError(parameter(quantity + " x"),
                        unset,
                        "a formula for at least one component",
@@ -150,8 +164,12 @@ namespace geocone
     dealii::Tensor<1, dim> result;
     if (normal)
       result += normal->value(x, t) * n;
-    if (tangential)
-      result += tangential->value(x, t) * dealii::Tensor<1, dim>({-n[1], n[0]});
+    if (tangential) // of the plane
+      {
+        const double along = tangential->value(x, t);
+        result[0] -= along * n[1];
+        result[1] += along * n[0];
+      }
     return result;
   }
 
@@ -161,14 +179,15 @@ namespace geocone
   {
     if (normal)
       throw InputError(
-        parameter(quantity + " normal"), texts[2], allowed, remedy);
+        parameter(quantity + " normal"), texts[dim], allowed, remedy);
   }
 
   std::string
   BoundaryCondition::part() const
   {
     return "Sides = " + dealii::Patterns::Tools::to_string(sides) + ", Box = " +
-           (box.empty() ? "" : dealii::Patterns::Tools::to_string(box));
+           (box.empty() ? "" : dealii::Patterns::Tools::to_string(box)) +
+           (where_text.empty() ? "" : ", Where = " + where_text);
   }
 
   bool
@@ -180,8 +199,10 @@ namespace geocone
   }
 
   bool
-  BoundaryCondition::in_box(const dealii::Point<dim> &x) const
+  BoundaryCondition::holds_at(const dealii::Point<dim> &x) const
   {
+    if (where && !(where->value(x, 0.) > 0.))
+      return false;
     if (box.empty())
       return true;
     const double tolerance =
@@ -195,6 +216,11 @@ namespace geocone
   std::optional<std::array<dealii::Point<dim>, 2>>
   BoundaryCondition::box_corners() const
   {
+    if (where)
+      throw InputError(parameter("Where"),
+                       where_text,
+                       "empty, but for FEM and nodes of the background mesh",
+                       "give a Box, whose corners are known");
     if (box.empty())
       return std::nullopt;
     return {{{box[0], box[1]}}};

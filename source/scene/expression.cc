@@ -27,15 +27,16 @@ namespace geocone
     try
       {
         function = std::make_unique<dealii::FunctionParser<dim>>(1);
-        function->initialize("x,y,t", text, {{"pi", pi}}, true);
-        function->value(dealii::Point<dim>(0., 0.)); // parses now
+        function->initialize(
+          dim == 2 ? "x,y,t" : "x,y,z,t", text, {{"pi", pi}}, true);
+        function->value(dealii::Point<dim>()); // parses now
       }
     catch (const std::exception &)
       {
         throw InputError(parameter,
                          text,
-                         "a formula in x, y (m), t (s) and pi, e.g. "
-                         "-0.02*min(1,t/0.1)",
+                         std::string("a formula in ") + coordinates +
+                           " (m), t (s) and pi, e.g. -0.02*min(1,t/0.1)",
                          "check the parentheses and the names");
       }
   }

@@ -5,6 +5,8 @@
 #include <geocone/base/log.h>
 #include <geocone/scene/geometry.h>
 
+#include <deal.II/base/bounding_box.h>
+
 #include <filesystem>
 
 namespace geocone
@@ -50,14 +52,64 @@ namespace geocone
     {
       std::string all;
       for (const Point<dim> &x : polygon)
-        all += format("%s%g, %g", all.empty() ? "" : "; ", x[0], x[1]);
+        all += (all.empty() ? "" : "; ") + text_of_place(x);
       return all;
     }
+
+    /** Whether these are the lowest and the highest corner of a box. */
+    bool
+    is_box(const std::vector<Point<dim>> &corners)
+    {
+      bool ok = corners.size() == 2;
+      for (unsigned int c = 0; c < dim && ok; ++c)
+        ok = corners[0][c] < corners[1][c];
+      return ok;
+    }
   } // namespace
+
+  std::string
+  text_of_place(const Point<dim> &x)
+  {
+    std::string text;
+    for (unsigned int c = 0; c < dim; ++c)
+      text += format(c == 0 ? "%g" : ", %g", x[c]);
+    return text;
+  }
+
+  Polygon
+  outline_of_box(const Point<dim> &lower, const Point<dim> &upper)
+  {
+    if (dim == 3)
+      return {lower, upper};
+    Point<dim> right = lower, left = upper;
+    right[0] = upper[0];
+    left[0]  = lower[0];
+    return {lower, right, upper, left};
+  }
+
+  std::map<std::string, dealii::types::boundary_id>
+  sides_of_box()
+  {
+    std::map<std::string, dealii::types::boundary_id> sides = {
+      {"bottom", 0}, {"right", 1}, {"top", 2}, {"left", 3}};
+    if (dim == 3)
+      {
+        sides["back"]  = 4;
+        sides["front"] = 5;
+      }
+    return sides;
+  }
 
   bool
   contains(const Polygon &polygon, const Point<dim> &x)
   {
+    if (dim == 3)
+      {
+        for (unsigned int c = 0; c < dim; ++c)
+          if (x[c] < polygon[0][c] || x[c] > polygon[1][c])
+            return false;
+        return true;
+      }
     bool inside = false;
     for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++)
       {
@@ -93,7 +145,8 @@ namespace geocone
   {
     double largest = 0.;
     for (const Point<dim> &x : points)
-      largest = std::max({largest, std::abs(x[0]), std::abs(x[1])});
+      for (unsigned int c = 0; c < dim; ++c)
+        largest = std::max(largest, std::abs(x[c]));
     return std::max(smallest_size, smallest_relative_size * largest);
   }
 
@@ -118,9 +171,9 @@ namespace geocone
           throw InputError(
             parameter,
             text(points),
-            format("an extent of %g m or more along x and y, at these "
-                   "coordinates",
-                   resolved_length(points)),
+            format("an extent of %g m or more along ",
+                   resolved_length(points)) +
+              coordinates + ", at these coordinates",
             "put the origin near the body: numbers of 16 digits hold no small "
             "body far away");
       }
@@ -129,6 +182,16 @@ namespace geocone
   void
   check_polygon(const Polygon &polygon, const std::string &parameter)
   {
+    if (dim == 3)
+      {
+        if (!is_box(polygon))
+          throw InputError(parameter,
+                           text(polygon),
+                           "the lowest and the highest corner x, y, z; x, y, z "
+                           "of a box in three dimensions",
+                           "e.g. 0, -2, 0; 3, -1, 3");
+        return check_coordinates(polygon, parameter);
+      }
     const std::size_t n = polygon.size();
     const std::string allowed =
       "three or more vertices x, y; x, y; ... of a polygon whose sides do not "
@@ -190,6 +253,16 @@ namespace geocone
     : dealii::ParameterAcceptor("/Geometry")
     , folder_of_parameters(parameter_file.folder())
   {
+    dealii::Point<dim> lower, upper, corner;
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        lower[c] = c == 1 ? -2. : -1.;
+        upper[c] = c == 1 ? 0. : 1.;
+      }
+    box               = {lower, upper};
+    corner[0]         = 1.;
+    polygon           = {dealii::Point<dim>(), corner, corner};
+    polygon.back()[1] = 1.;
     shape.declare(*this, "Shape", ". Discs are for MPM only.");
     symmetry.declare(*this,
                      "Symmetry",
@@ -197,10 +270,21 @@ namespace geocone
                      "body, x >= 0 the radius and y its axis; forces are those "
                      "of the whole body (N). FEM and MPM, with laws that are "
                      "spatial.");
-    add_parameter("Box",
-                  box,
-                  "Lower left and upper right corner x, y; x, y (m). Its sides "
-                  "are called bottom, right, top, left.");
+    add_parameter("Dimension",
+                  dimension,
+                  "2, or 3: then points have coordinates x, y, z (y upwards), "
+                  "polygons of regions are boxes given by two corners, and "
+                  "forces are in N. Three dimensions are for FEM.",
+                  prm,
+                  dealii::Patterns::Integer(2, 3));
+    add_parameter(
+      "Box",
+      box,
+      dim == 2 ? "Lower left and upper right corner x, y; x, y (m). Its "
+                 "sides are called bottom, right, top, left."
+               : "Lowest and highest corner x, y, z; x, y, z (m). Its sides "
+                 "are called left and right (least and largest x), bottom "
+                 "and top (y), back and front (z).");
     add_parameter("Polygon",
                   polygon,
                   "Vertices x, y; x, y; ... (m) in order. Side i runs from "
@@ -230,21 +314,31 @@ namespace geocone
   void
   Geometry::prepare()
   {
+    if (dim == 3 && is_axisymmetric())
+      throw InputError("Geometry/Symmetry",
+                       symmetry.word(),
+                       "plane strain, which says nothing in three dimensions",
+                       "leave it out, or set Dimension = 2");
     outline.clear();
     sides.clear();
     if (shape == Shape::box)
       {
-        if (box.size() != 2 || !(box[0][0] < box[1][0]) ||
-            !(box[0][1] < box[1][1]))
+        if (!is_box(box))
           throw InputError("Geometry/Box",
                            text(box),
-                           "lower left; upper right corner",
-                           "for a box of 2 m x 2 m: -1, -2; 1, 0");
+                           dim == 2 ? "lower left; upper right corner"
+                                    : "lowest; highest corner",
+                           dim == 2 ? "for a box of 2 m x 2 m: -1, -2; 1, 0"
+                                    : "for a cube of 2 m: 0, -2, 0; 2, 0, 2");
         check_coordinates(box, "Geometry/Box");
-        outline = {
-          box[0], {box[1][0], box[0][1]}, box[1], {box[0][0], box[1][1]}};
-        sides = {{"bottom", 0}, {"right", 1}, {"top", 2}, {"left", 3}};
+        outline = outline_of_box(box[0], box[1]);
+        sides   = sides_of_box();
       }
+    else if (dim == 3 && shape != Shape::file)
+      throw InputError("Geometry/Shape",
+                       shape.word(),
+                       "box | file in three dimensions",
+                       "mesh other bodies with gmsh");
     else if (shape == Shape::polygon)
       {
         outline = polygon;
@@ -265,7 +359,7 @@ namespace geocone
   Geometry::unit(const std::string &in_plane_strain) const
   {
     std::string text = in_plane_strain;
-    if (is_axisymmetric())
+    if (is_axisymmetric() || dim == 3)
       for (const std::string per : {"_per_m", "/m"})
         if (const std::size_t place = text.rfind(per);
             place != std::string::npos)
@@ -365,7 +459,12 @@ namespace geocone
     if (shape == Shape::discs)
       for (std::size_t i = 0; i < centres.size(); ++i)
         for (const double r : {-radii[i], radii[i]})
-          corners.push_back(centres[i] + Point<dim>(r, r));
+          {
+            Point<dim> corner = centres[i];
+            for (unsigned int c = 0; c < dim; ++c)
+              corner[c] += r;
+            corners.push_back(corner);
+          }
     std::pair<Point<dim>, Point<dim>> box = {corners[0], corners[0]};
     for (const Point<dim> &x : corners)
       for (unsigned int c = 0; c < dim; ++c)
@@ -380,6 +479,8 @@ namespace geocone
   Geometry::area() const
   {
     Assert(shape != Shape::file, dealii::ExcNotImplemented());
+    if (dim == 3)
+      return dealii::BoundingBox<dim>(outline).volume();
     if (shape != Shape::discs)
       return std::abs(signed_area(outline));
     double area = 0.;

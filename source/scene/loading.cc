@@ -14,7 +14,15 @@ namespace geocone
   namespace
   {
     constexpr double most_steps = 1e8; ///< of a stage
-  }
+
+    /** Of the components of a given initial stress, in the order of Mandel's. */
+    const char *const names_of_stress[] = {"Stress xx",
+                                           "Stress yy",
+                                           "Stress xy",
+                                           "Stress zz",
+                                           "Stress yz",
+                                           "Stress zx"};
+  } // namespace
 
   Stage::Stage(const std::string &name)
     : dealii::ParameterAcceptor("/Loading/" + name)
@@ -295,18 +303,21 @@ namespace geocone
   InitialVelocity::InitialVelocity()
     : dealii::ParameterAcceptor("/Initial velocity")
   {
-    add_parameter("Velocity x",
-                  texts[0],
-                  "Formula in x, y (m) for the velocity (m/s) at t = 0, which "
-                  "only a body with inertia can have.");
-    add_parameter("Velocity y", texts[1], "As Velocity x.");
+    texts.fill("0");
+    for (unsigned int c = 0; c < dim; ++c)
+      add_parameter(std::string("Velocity ") + coordinate[c],
+                    texts[c],
+                    std::string("Formula in ") + coordinates +
+                      " (m) for the velocity (m/s) at t = 0, which only a body "
+                      "with inertia can have.");
   }
 
   void
   InitialVelocity::prepare()
   {
-    components[0].prepare(texts[0], "Initial velocity/Velocity x");
-    components[1].prepare(texts[1], "Initial velocity/Velocity y");
+    for (unsigned int c = 0; c < dim; ++c)
+      components[c].prepare(
+        texts[c], std::string("Initial velocity/Velocity ") + coordinate[c]);
   }
 
   dealii::Tensor<1, dim>
@@ -338,20 +349,24 @@ namespace geocone
   bool
   InitialVelocity::is_given() const
   {
-    return texts[0] != "0" || texts[1] != "0";
+    return std::any_of(
+      texts.begin(), texts.end(), [](const auto &text) { return text != "0"; });
   }
 
   InitialStress::InitialStress()
     : dealii::ParameterAcceptor("/Initial stress")
   {
     type.declare(*this, "Type", ": the stress before the first step.");
-    add_parameter("Stress xx",
-                  texts[0],
-                  "For 'given': formula in x, y (Pa, tension positive).");
-    add_parameter("Stress yy", texts[1], "As Stress xx.");
-    add_parameter("Stress xy", texts[2], "As Stress xx.");
-    add_parameter(
-      "Stress zz", text_zz, "For 'given': as Stress xx; empty: equal to it.");
+    texts.fill("0");
+    for (unsigned int i = 0; i < texts.size(); ++i)
+      add_parameter(names_of_stress[i],
+                    texts[i],
+                    i == 0 ? std::string("For 'given': formula in ") +
+                               coordinates + " (Pa, tension positive)."
+                           : std::string("As Stress xx."));
+    if (dim == 2)
+      add_parameter(
+        "Stress zz", text_zz, "For 'given': as Stress xx; empty: equal to it.");
     add_parameter("K0",
                   k0_text,
                   "For 'geostatic': horizontal over vertical stress (-), > 0, "
@@ -379,10 +394,9 @@ namespace geocone
                        "give effective stresses by formulas");
     if (type == Type::given)
       {
-        const char *names[] = {"Stress xx", "Stress yy", "Stress xy"};
-        for (unsigned int i = 0; i < 3; ++i)
-          components[i].prepare(texts[i],
-                                std::string("Initial stress/") + names[i]);
+        for (unsigned int i = 0; i < texts.size(); ++i)
+          components[i].prepare(
+            texts[i], std::string("Initial stress/") + names_of_stress[i]);
         if (!text_zz.empty())
           component_zz.prepare(text_zz, "Initial stress/Stress zz");
       }
@@ -390,7 +404,7 @@ namespace geocone
       {
         // The final value: a geostatic state is one under full gravity.
         const dealii::Tensor<1, dim> full = gravity.at(1e300);
-        if (full[0] != 0. || full[1] > 0.)
+        if (full[0] != 0. || full[1] > 0. || (dim == 3 && full[dim - 1] != 0.))
           throw InputError("Gravity/Acceleration",
                            dealii::Patterns::Tools::to_string(full),
                            "g_x = 0 and g_y <= 0 with a geostatic initial "
@@ -470,9 +484,14 @@ namespace geocone
                     const Regions            &regions) const
   {
     if (type == Type::given)
-      return {components[0].value(x, 0.),
-              components[1].value(x, 0.),
-              sqrt2 * components[2].value(x, 0.)};
+      {
+        Mandel stress;
+        for (unsigned int i = 0; i < n_mandel; ++i)
+          stress[i] = components[i].value(x, 0.);
+        for (int k = 0; k < n_shears; ++k)
+          stress[shears[k].place] *= sqrt2;
+        return stress;
+      }
     if (type == Type::zero)
       return Mandel::Zero();
 
@@ -483,14 +502,17 @@ namespace geocone
     double             mass  = 0.;
     for (unsigned int i = 0; i < n; ++i)
       {
-        const dealii::Point<dim> above(x[0], x[1] + depth * (i + 0.5) / n);
+        dealii::Point<dim> above = x;
+        above[1] += depth * (i + 0.5) / n;
         mass +=
           materials.law(regions.material_at(above, -1)).density() * depth / n;
       }
     const double vertical = -(surcharge + g * mass);
     const double ratio =
       k0 ? *k0 : materials.law(material).earth_pressure_at_rest();
-    return {ratio * vertical, vertical, 0.};
+    Mandel stress = ratio * vertical * unit_tensor<n_mandel>();
+    stress[1]     = vertical;
+    return stress;
   }
 
   double

@@ -60,14 +60,15 @@ namespace geocone
     add_parameter(
       "Points",
       points,
-      "Places x, y; x, y; ... (m) in the body at the start whose "
+      "Places (m) in the body at the start whose "
       "displacements are reported. FEM: that of the field there; "
       "MPM: that of the nearest material point, which is followed.");
-    add_parameter("Moment centre",
-                  centre,
-                  "Point x, y (m) that the moments of the reactions are about, "
-                  "counterclockwise positive. Empty: for each condition the "
-                  "centre of the bounding box of what it holds at the start.");
+    add_parameter(
+      "Moment centre",
+      centre,
+      "Point (m) that the moments of the reactions are about, around "
+      "z, counterclockwise positive. Empty: for each condition the "
+      "centre of the bounding box of what it holds at the start.");
     add_parameter("Plateau tolerance",
                   plateau_tolerance,
                   "The limit load is the mean over the last part of the curve "
@@ -91,7 +92,7 @@ namespace geocone
                            "check the spelling");
         conditions.push_back(found - supports.begin());
       }
-    component = observed == Component::x ? 0 : 1;
+    component = observed == Component::x ? 0 : observed == Component::y ? 1 : 2;
     if (!std::isfinite(factor) || factor == 0. || std::abs(factor) > 1e6)
       throw InputError("Observation/Factor",
                        factor,
@@ -101,7 +102,7 @@ namespace geocone
     if (centre.size() > 1)
       throw InputError("Observation/Moment centre",
                        dealii::Patterns::Tools::to_string(centre),
-                       "one point x, y, or nothing",
+                       std::string("one point ") + coordinates + ", or nothing",
                        "all observed conditions share one; leave it empty for "
                        "the centre of each");
     for (const auto &[entry, list] :
@@ -113,7 +114,7 @@ namespace geocone
           throw InputError(std::string("Observation/") + entry,
                            dealii::Patterns::Tools::to_string(*list),
                            "finite numbers (m)",
-                           "give coordinates x, y");
+                           std::string("give coordinates ") + coordinates);
     if (!(plateau_tolerance > 0.))
       throw InputError("Observation/Plateau tolerance",
                        plateau_tolerance,
@@ -129,6 +130,12 @@ namespace geocone
                        value,
                        "none, where no condition is observed",
                        "name the loaded part in 'Observation/Conditions'");
+    if (value == "Prandtl" && dim == 3)
+      throw InputError("Observation/Reference",
+                       value,
+                       "none or a number (N) in three dimensions",
+                       "Prandtl's load is that of a strip: give the load of "
+                       "this footing");
     if (value == "Prandtl")
       {
         take_prandtl(materials, gravity);

@@ -73,6 +73,17 @@ namespace geocone
                            "other names than those of 'Boundary "
                            "conditions/Names'",
                            "both can be observed by name: rename one of them");
+    if (dim == 3)
+      {
+        const std::string where = "Geometry/Dimension = 3",
+                          remedy =
+                            "it is for plane scenes so far: leave it out";
+        obstacles.refuse(where, remedy);
+        absorbing.refuse(where, remedy);
+        if (water.acts())
+          throw InputError(
+            "Water/Table", "given", "empty with " + where, remedy);
+      }
     observation.prepare(supports(), materials, gravity);
     if (observation.reference_name == "Prandtl")
       geometry.refuse_axis("'Observation/Reference' = Prandtl",
@@ -122,6 +133,8 @@ namespace geocone
       {
         const BoundaryCondition &condition = *dirichlet.list[c];
         auto [low, high]                   = body.get_boundary_points();
+        if (condition.has_formula())
+          continue; // whose length is not known
         if (const auto box = condition.box_corners())
           for (unsigned int d = 0; d < dim; ++d)
             {

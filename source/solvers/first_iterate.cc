@@ -40,7 +40,8 @@ namespace geocone
     reduction.recover_velocity(s, work.v);
     std::vector<Mandel> stress;
     for (unsigned int p = 0; p < reduction.problem().n_cones(); ++p)
-      stress.push_back(from_cone_axes(Mandel(s.segment<3>(3 * p))));
+      stress.push_back(
+        from_cone_axes(Mandel(s.segment<n_mandel>(n_mandel * p))));
     return stress;
   }
 } // namespace geocone

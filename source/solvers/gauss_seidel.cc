@@ -35,18 +35,20 @@ namespace geocone
           {
             const FlowCone     &cone = problem.cones[p];
             const MandelMatrix &W    = blocks[p];
-            const Mandel        old  = s.segment<3>(3 * p);
-            Mandel              z    = problem.q.segment<3>(3 * p);
-            for (int i = 0; i < 3; ++i)
-              z[i] += problem.W.row(3 * p + i).dot(s);
+            const Mandel        old  = s.segment<n_mandel>(n_mandel * p);
+            Mandel              z = problem.q.segment<n_mandel>(n_mandel * p);
+            for (int i = 0; i < n_mandel; ++i)
+              z[i] += problem.W.row(n_mandel * p + i).dot(s);
             if (constrained)
-              z -= problem.C.middleRows<3>(3 * p) * lambda;
+              z -= problem.C.middleRows<n_mandel>(n_mandel * p) * lambda;
             error =
               std::max(error, natural_map_norm(cone, old, z, natural_scale(W)));
 
-            const Mandel s_p    = solve_one_cone(cone, W, z - W * old, old);
-            s.segment<3>(3 * p) = s_p;
-            size                = std::max(size, s_p.norm() + cone.k);
+            Mandel s_p = old;
+            if constexpr (dim == 2) // ReducedProblem's cones are of the plane
+              s_p = solve_one_cone(cone, W, z - W * old, old);
+            s.segment<n_mandel>(n_mandel * p) = s_p;
+            size = std::max(size, s_p.norm() + cone.k);
           }
         if (constrained)
           lambda = factors.solve(problem.C.transpose() * s - problem.d);

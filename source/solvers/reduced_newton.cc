@@ -77,7 +77,7 @@ namespace geocone
           return;
         for (unsigned int p = 0; p < D.size(); ++p)
           if (elastic)
-            D[p] = problem.S.segment<3>(3 * p).cwiseInverse();
+            D[p] = problem.S.segment<n_mandel>(n_mandel * p).cwiseInverse();
           else
             D[p].setConstant(10. * natural_scale(problem.diagonal_block(p)));
       }
@@ -106,7 +106,7 @@ namespace geocone
       {
         double sum = 0.;
         for (unsigned int p = 0; p < points.size(); ++p)
-          sum += points[p].F.dot(x.segment<3>(3 * p));
+          sum += points[p].F.dot(x.segment<n_mandel>(n_mandel * p));
         return sum;
       }
 
@@ -121,8 +121,8 @@ namespace geocone
             points[p] = point_map(map,
                                   problem.cones[p],
                                   D[p],
-                                  s.segment<3>(3 * p),
-                                  z.segment<3>(3 * p));
+                                  s.segment<n_mandel>(n_mandel * p),
+                                  z.segment<n_mandel>(n_mandel * p));
             sum += points[p].F.squaredNorm();
           }
         return sum;
@@ -135,7 +135,7 @@ namespace geocone
         const unsigned int size = n_stresses + problem.n_multipliers();
         VectorXd           rhs  = VectorXd::Zero(size);
         for (unsigned int p = 0; p < points.size(); ++p)
-          rhs.segment<3>(3 * p) = -points[p].F;
+          rhs.segment<n_mandel>(n_mandel * p) = -points[p].F;
         if (dense)
           {
             MatrixXd J = MatrixXd::Zero(size, size);
@@ -162,19 +162,19 @@ namespace geocone
       assemble(const Add &add) const
       {
         for (unsigned int p = 0; p < points.size(); ++p)
-          for (int i = 0; i < 3; ++i)
+          for (int i = 0; i < n_mandel; ++i)
             for (int k = 0; k < 3; ++k)
               {
-                add(3 * p + i, 3 * p + k, points[p].A(i, k));
+                add(n_mandel * p + i, n_mandel * p + k, points[p].A(i, k));
                 const double b   = points[p].B(i, k);
-                const int    row = 3 * p + k;
+                const int    row = n_mandel * p + k;
                 if (b == 0.)
                   continue;
                 for (ReducedProblem::Matrix::InnerIterator w(problem.W, row); w;
                      ++w)
-                  add(3 * p + i, w.col(), b * w.value());
+                  add(n_mandel * p + i, w.col(), b * w.value());
                 for (unsigned int c = 0; c < problem.n_multipliers(); ++c)
-                  add(3 * p + i, n_stresses + c, -b * problem.C(row, c));
+                  add(n_mandel * p + i, n_stresses + c, -b * problem.C(row, c));
               }
         for (unsigned int r = 0; r < problem.n_multipliers(); ++r)
           {

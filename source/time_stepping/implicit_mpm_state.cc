@@ -27,7 +27,7 @@ namespace geocone
       const double mean = (t[0] + t[1]) / 2., half = (t[0] - t[1]) / 2.,
                    shear = t[2] / sqrt2;
       const double h     = c * half - s * shear;
-      return {mean + h, mean - h, sqrt2 * (s * half + c * shear)};
+      return in_plane(mean + h, mean - h, s * half + c * shear);
     }
   } // namespace
 

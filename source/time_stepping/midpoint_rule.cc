@@ -16,7 +16,7 @@ namespace geocone
   {
     const Mandel        stress  = solved.trial_stress()[point];
     const SpatialMandel whole   = solved.plastic_strain_increment(point);
-    const Mandel        plastic = whole.head<3>();
+    const Mandel        plastic = whole.head<n_mandel>();
     if (integration == Integration::backward_euler)
       return {
         stress, plastic, whole.norm(), solved.whole_stress(point).dot(whole)};

@@ -9,10 +9,21 @@
 #include <cmath>
 
 /**
+ * The space dimension of a scene, which the build gives: all that depends on it is
+ * compiled once for each, with the namespace geocone renamed to geocone_3d in the
+ * second (CMakeLists.txt), so that both are in one program and neither pays for the
+ * other. CONTRIBUTING.md tells how this is written.
+ */
+#ifndef GEOCONE_DIMENSION
+#define GEOCONE_DIMENSION 2
+#endif
+
+/**
  * Conventions of the whole code, stated once:
  *  - plane strain in the (x, y) plane, unit thickness: forces are N/m, energies
  *    J/m; or axisymmetric, x the radius, y the axis, z around it: forces are N,
- *    energies J, of the whole body;
+ *    energies J, of the whole body; or three dimensions, forces are N, energies J;
+ *    where weight needs a vertical, it is y in all of them;
  *  - SI units, angles in parameter files in degrees;
  *  - tension is positive, in stress and strain alike;
  *  - symmetric tensors are Mandel vectors, so that the scalar product of two
@@ -20,26 +31,88 @@
  */
 namespace geocone
 {
-  /** Space dimension of all scenes. */
-  constexpr unsigned int dim = 2;
+  constexpr double pi    = 3.14159265358979323846;
+  constexpr double sqrt2 = 1.41421356237309504880;
 
-  /** Number of Mandel components in plane strain. */
-  constexpr int n_mandel = 3;
+  constexpr unsigned int dim = GEOCONE_DIMENSION;
+  static_assert(dim == 2 || dim == 3);
 
-  /** Mandel vector (t11, t22, sqrt(2) t12) of a symmetric in-plane tensor. */
+  /** Number of Mandel components of the strain of a motion. */
+  constexpr int n_mandel = dim == 2 ? 3 : 6;
+
+  /** Mandel vector of a symmetric tensor: (t11, t22, sqrt(2) t12) in the plane,
+   *  (t11, t22, sqrt(2) t12, t33, sqrt(2) t23, sqrt(2) t31) in three dimensions. */
   using Mandel = Eigen::Matrix<double, n_mandel, 1>;
 
   /** Linear map between Mandel vectors, e.g. a tangent stiffness (Pa). */
   using MandelMatrix =
     Eigen::Matrix<double, n_mandel, n_mandel, Eigen::RowMajor>;
 
-  /** The same with the direction out of the plane: (t11, t22, sqrt(2) t12, t33), 33
-   *  being along z, or around the axis of an axisymmetric scene. */
-  using SpatialMandel       = Eigen::Matrix<double, 4, 1>;
-  using SpatialMandelMatrix = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+  /** All of a stress that can be other than zero. In the plane it has a direction
+   *  besides: (t11, t22, sqrt(2) t12, t33), 33 being along z, or around the axis of
+   *  an axisymmetric scene. In three dimensions it is the Mandel vector. */
+  constexpr int n_spatial = dim == 2 ? 4 : 6;
+  using SpatialMandel     = Eigen::Matrix<double, n_spatial, 1>;
+  using SpatialMandelMatrix =
+    Eigen::Matrix<double, n_spatial, n_spatial, Eigen::RowMajor>;
 
-  constexpr double pi    = 3.14159265358979323846;
-  constexpr double sqrt2 = 1.41421356237309504880;
+  /** Places in Mandel vectors of the normal components, and those of the shear ones
+   *  with the two directions that they are between. */
+  constexpr int place_of_normal[3] = {0, 1, 3};
+  struct ShearPlace
+  {
+    int place, first, second;
+  };
+  constexpr ShearPlace shears[3] = {{2, 0, 1}, {4, 1, 2}, {5, 2, 0}};
+  constexpr int        n_shears  = dim == 2 ? 1 : 3;
+
+  /** The sum of the normal components of a Mandel vector, of the plane or spatial. */
+  template <int n>
+  double
+  trace(const Eigen::Matrix<double, n, 1> &t)
+  {
+    if constexpr (n == 3)
+      return t[0] + t[1];
+    else
+      return t[0] + t[1] + t[3];
+  }
+
+  /** The unit tensor as a Mandel vector, of the plane or spatial. */
+  template <int n>
+  Eigen::Matrix<double, n, 1>
+  unit_tensor()
+  {
+    Eigen::Matrix<double, n, 1> I = Eigen::Matrix<double, n, 1>::Zero();
+    I[0] = I[1] = 1.;
+    if constexpr (n > 3)
+      I[3] = 1.;
+    return I;
+  }
+
+  /** Names of the coordinates, one by one and in texts. */
+  constexpr char        coordinate[3] = {'x', 'y', 'z'};
+  constexpr const char *coordinates   = dim == 2 ? "x, y" : "x, y, z";
+
+  /** The Mandel vector of a tensor in the plane. */
+  inline Mandel
+  in_plane(const double xx, const double yy, const double xy)
+  {
+    Mandel t = Mandel::Zero();
+    t[0]     = xx;
+    t[1]     = yy;
+    t[2]     = sqrt2 * xy;
+    return t;
+  }
+
+  /** A Mandel vector and what it leaves out; in three dimensions that is nothing. */
+  inline SpatialMandel
+  extended(const Mandel &t, const double zz)
+  {
+    SpatialMandel whole    = SpatialMandel::Zero();
+    whole[3]               = zz;
+    whole.head<n_mandel>() = t;
+    return whole;
+  }
 
   inline double
   radians(const double degrees)

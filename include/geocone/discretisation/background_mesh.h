@@ -28,8 +28,8 @@ namespace geocone
    * The triangulation, distributed over the ranks, with its mapping, material
    * ids (indices into Scene::materials) and side ids.
    *
-   * Quadrilaterals live on parallel::distributed::Triangulation (p4est);
-   * triangles, which p4est does not know, on parallel::shared::Triangulation,
+   * Quadrilaterals and hexahedra live on parallel::distributed::Triangulation (p4est);
+   * simplices, which p4est does not know, on parallel::shared::Triangulation,
    * where every rank stores the whole mesh and owns a part of it.
    */
   class BackgroundMesh : public dealii::ParameterAcceptor
@@ -74,13 +74,15 @@ namespace geocone
 
     using Cell = dealii::Triangulation<dim>::active_cell_iterator;
 
-    /** The side of a square, or of the half of one, with a cell's area (m). */
+    /** The side of a square, or of the half of one, with a cell's area, or of a cube or
+     *  a sixth of one with its volume (m). */
     static double
     size_of(const Cell &cell)
     {
-      return std::sqrt(
-        cell->measure() *
-        (cell->reference_cell() == dealii::ReferenceCells::Triangle ? 2. : 1.));
+      const bool   is_simplex = cell->n_vertices() == dim + 1;
+      const double parts      = !is_simplex ? 1. : dim == 2 ? 2. : 6.;
+      const double whole      = cell->measure() * parts;
+      return dim == 2 ? std::sqrt(whole) : std::cbrt(whole);
     }
 
     /** The cells of this rank, one after another. */

@@ -19,9 +19,14 @@
 
 namespace geocone
 {
-  /** Vertices, cells with material ids, and boundary edges with side ids. */
+  /** Vertices, cells with material ids, and boundary faces with side ids. */
   struct CoarseMesh
   {
+    /** The vertices of a face: of an edge in the plane, where they rise; of a triangle,
+     *  after which comes no_vertex, or a quadrilateral, in the order of its cell. */
+    using Face = std::array<unsigned int, dim == 2 ? 2 : 4>;
+    static constexpr unsigned int no_vertex = -1;
+
     std::vector<dealii::Point<dim>>                   points;
     std::vector<dealii::CellData<dim>>                cells;
     dealii::SubCellData                               boundary;
@@ -30,16 +35,25 @@ namespace geocone
     /** Coordinates of the grid lines, if it is a tensor grid; or empty. */
     std::array<std::vector<double>, dim> grid;
 
+    /** Whether there are triangles or tetrahedra. */
     bool
-    has_triangles() const;
+    has_simplices() const;
 
     /** Mean of the vertices of a cell. */
     dealii::Point<dim>
     centre(const dealii::CellData<dim> &cell) const;
 
-    /** The edges that belong to one cell only, as pairs of vertices. */
-    std::vector<std::array<unsigned int, 2>>
-    outer_edges() const;
+    /** The faces that belong to one cell only. */
+    std::vector<Face>
+    outer_faces() const;
+
+    /** Mean of the vertices of a face. */
+    dealii::Point<dim>
+    centre(const Face &face) const;
+
+    /** Gives a boundary face the number of a side. */
+    void
+    add_boundary(const Face &face, const dealii::types::boundary_id side);
   };
 
   /**
@@ -97,9 +111,10 @@ namespace geocone
       triangles,
       quadrilaterals
     };
-    Choice<Cells> cells = {{{"automatic", Cells::automatic},
-                            {"triangles", Cells::triangles},
-                            {"quadrilaterals", Cells::quadrilaterals}}};
+    Choice<Cells> cells = {
+      {{"automatic", Cells::automatic},
+       {dim == 2 ? "triangles" : "tetrahedra", Cells::triangles},
+       {dim == 2 ? "quadrilaterals" : "hexahedra", Cells::quadrilaterals}}};
 
     enum class Diagonals
     {

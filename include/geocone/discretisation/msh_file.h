@@ -21,17 +21,20 @@ namespace geocone
 {
   /**
    * Nodes, elements and physical groups in gmsh's terms, as they are in a .msh
-   * file or in a model of the gmsh library. Only the linear elements of the
-   * plane: lines, triangles and quadrilaterals.
+   * file or in a model of the gmsh library. Only linear elements: lines, triangles and
+   * quadrilaterals, and in three dimensions tetrahedra and hexahedra, too. Cells are
+   * those of the dimension of the scene, faces those of one less.
    */
   struct MshData
   {
-    /** gmsh's numbers of the types of elements that a plane mesh consists of. */
+    /** gmsh's numbers of the types of elements that a mesh consists of. */
     enum Type
     {
       line          = 1,
       triangle      = 2,
       quadrilateral = 3,
+      tetrahedron   = 4,
+      hexahedron    = 5,
       point         = 15
     };
 
@@ -52,12 +55,12 @@ namespace geocone
     {
       std::uint64_t tag;
       int           type;
-      /** The curve or surface that the element belongs to. */
+      /** The curve, surface or volume that the element belongs to. */
       int entity;
       /** Index into #group_lists. */
       unsigned int groups;
       /** Tags of the nodes, zero after the last one. */
-      std::array<std::uint64_t, 4> nodes;
+      std::array<std::uint64_t, 8> nodes;
 
       template <class Archive>
       void
@@ -75,22 +78,22 @@ namespace geocone
     index_of_groups(const std::vector<int> &groups);
 
     std::vector<Node>    nodes;
-    std::vector<Element> cells, lines;
+    std::vector<Element> cells, faces;
 
     /** Numbers (> 0) of the physical groups that an element is in. */
     std::vector<std::vector<int>> group_lists = {{}};
 
-    /** The physical curves. */
-    std::set<int> curve_groups;
+    /** The physical groups of faces: curves, or surfaces. */
+    std::set<int> face_groups;
 
-    /** The names of physical curves by their numbers. */
-    std::map<int, std::string> curve_names;
+    /** Their names by their numbers. */
+    std::map<int, std::string> face_names;
 
     template <class Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &nodes &cells &lines &group_lists &curve_groups &curve_names
+      archive &nodes &cells &faces &group_lists &face_groups &face_names
         &place_of_list;
     }
 
@@ -102,9 +105,12 @@ namespace geocone
   inline const std::string msh_remedy =
     "write it anew, e.g.: gmsh OLD.msh -save -format msh41 -o NEW.msh";
 
-  /** The number of nodes of an element of one of MshData's types. */
+  /** The number of nodes of an element of one of MshData's types, and its
+   *  dimension. */
   unsigned int
   n_nodes_of_type(const int type);
+  int
+  dimension_of_type(const int type);
 
   /**
    * @throws InputError if elements of gmsh's @p type cannot be in a mesh; @p
@@ -138,7 +144,7 @@ namespace geocone
    * @param what what errors call it
    * @throws InputError with the line (of a binary file: the byte) if the text is
    * of another version, damaged, or inconsistent, or holds other elements than
-   * points, lines, triangles and quadrilaterals of first order
+   * MshData's types
    */
   MshData
   parse_msh(const std::string &text, const std::string &what);

@@ -79,7 +79,7 @@ namespace geocone
    * @param[out] gradient with respect to (x, y); may be null
    */
   void
-  bernstein_on_triangle(
+  bernstein_on_simplex(
     const unsigned int                                p,
     const dealii::Point<dim>                         &x,
     const std::vector<std::array<unsigned int, dim>> &lattice,

@@ -44,6 +44,13 @@ namespace geocone
       return cone.a > 0. ? (cone.a - cone.b) / cone.a : 0.;
     }
 
+    /** In three dimensions it is a cone like any other. */
+    std::optional<FlowCone>
+    flow_cone(const double * /*history*/) const override
+    {
+      return dim == 3 ? std::optional(cone) : std::nullopt;
+    }
+
     std::optional<FlowCone>
     spatial_cone(const SpatialMandel &stress_n,
                  const StepLaw       &step) const override;

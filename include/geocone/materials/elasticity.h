@@ -9,10 +9,10 @@
 namespace geocone
 {
   /**
-   * Isotropic linear elasticity in plane strain (zero strain along z):
-   *   s = lambda tr(e) I + 2G e.
-   * In cone axes the stiffness is diagonal: D = diag(K, 2G, 2G),
-   * K = 2(lambda + G) acting on the normal part.
+   * Isotropic linear elasticity,
+   *   s = lambda tr(e) I + 2G e,
+   * in plane strain (zero strain along z) or in three dimensions. In cone axes the
+   * stiffness is diagonal: D = diag(K, 2G, ..., 2G), K = normal_stiffness().
    */
   class Elasticity
   {
@@ -36,63 +36,46 @@ namespace geocone
       return two_G * (3. * lambda + two_G) / (2. * lambda + two_G);
     }
 
-    /** In-plane bulk stiffness K = 2(lambda + G) of the cone's axis (Pa). */
+    /** dim times the bulk modulus of motions of the space, dim lambda + 2G: the
+     *  stiffness along the cone's axis (Pa). */
     double
     normal_stiffness() const
     {
-      return 2. * lambda + two_G;
+      return dim * lambda + two_G;
     }
 
-    Mandel
-    stress(const Mandel &strain) const
-    {
-      const double volumetric = lambda * (strain[0] + strain[1]);
-      return {volumetric + two_G * strain[0],
-              volumetric + two_G * strain[1],
-              two_G * strain[2]};
-    }
-
-    /** S s: the elastic strain of a stress. */
-    Mandel
-    strain(const Mandel &stress) const
-    {
-      const double volumetric =
-        lambda / normal_stiffness() * (stress[0] + stress[1]);
-      return {(stress[0] - volumetric) / two_G,
-              (stress[1] - volumetric) / two_G,
-              stress[2] / two_G};
-    }
-
-    /** @name The same with strain out of the plane */
-    /** @{ */
-    SpatialMandel
-    stress(const SpatialMandel &strain) const
-    {
-      const double volumetric = lambda * (strain[0] + strain[1] + strain[3]);
-      return two_G * strain + volumetric * SpatialMandel(1., 1., 0., 1.);
-    }
-
-    SpatialMandel
-    strain(const SpatialMandel &stress) const
-    {
-      const double volumetric = lambda / spatial_normal_stiffness() *
-                                (stress[0] + stress[1] + stress[3]);
-      return (stress - volumetric * SpatialMandel(1., 1., 0., 1.)) / two_G;
-    }
-
-    /** Three times the bulk modulus, 3 lambda + 2G (Pa). */
+    /** The same of all three directions, 3 lambda + 2G (Pa). */
     double
     spatial_normal_stiffness() const
     {
       return 3. * lambda + two_G;
     }
-    /** @} */
+
+    /** lambda tr(e) I + 2G e. @param strain of the plane, or spatial */
+    template <int n>
+    Eigen::Matrix<double, n, 1>
+    stress(const Eigen::Matrix<double, n, 1> &strain) const
+    {
+      return two_G * strain + (lambda * trace(strain)) * unit_tensor<n>();
+    }
+
+    /** S s: the elastic strain of a stress, of the plane or spatial. */
+    template <int n>
+    Eigen::Matrix<double, n, 1>
+    strain(const Eigen::Matrix<double, n, 1> &stress) const
+    {
+      const double bulk =
+        n == 3 ? 2. * lambda + two_G : spatial_normal_stiffness();
+      return (stress - (lambda / bulk * trace(stress)) * unit_tensor<n>()) /
+             two_G;
+    }
 
     MandelMatrix
     stiffness() const
     {
       MandelMatrix D = two_G * MandelMatrix::Identity();
-      D.topLeftCorner<2, 2>().array() += lambda;
+      const Mandel I = unit_tensor<n_mandel>();
+      D += lambda * I * I.transpose();
       return D;
     }
 

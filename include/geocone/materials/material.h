@@ -72,7 +72,7 @@ namespace geocone
   /**
    * A constitutive law in closed form, which all methods can use: a pure function
    * of a batch of strain increments and states at t_n, with isotropic linear
-   * elasticity. The out-of-plane stress is
+   * elasticity. In plane scenes the out-of-plane stress is
    *   s_zz = nu (s_xx + s_yy) + d,
    * d (Pa) the first history variable, to which laws that harden add theirs. It is
    * constant where plastic flow is in the plane; laws that are spatial change it.
@@ -112,7 +112,7 @@ namespace geocone
     unsigned int
     n_history() const override
     {
-      return 1;
+      return dim == 2 ? 1 : 0;
     }
 
     std::string
@@ -127,6 +127,8 @@ namespace geocone
     std::vector<Shown>
     shown() const override
     {
+      if (dim == 3)
+        return {};
       return {{"stress_zz", "stress zz (Pa)"}};
     }
 
@@ -135,14 +137,15 @@ namespace geocone
          const double                *history,
          double                      *values) const override
     {
-      values[0] = stress_zz(in_plane, history);
+      if (dim == 2)
+        values[0] = stress_zz(in_plane, history);
     }
 
     /** Whether steps change the history. */
     bool
     has_history() const
     {
-      return is_spatial() || n_history() > Material::n_history();
+      return (dim == 2 && is_spatial()) || n_history() > Material::n_history();
     }
 
     /** Whether strength and flow are those of all stresses, s_zz with them. */

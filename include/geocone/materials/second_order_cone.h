@@ -15,36 +15,53 @@ namespace geocone
    * Coordinates in which the yield surface is a circular cone: a vector x is
    * split into x[0] = x.n along the axis n, which points to compression, and the
    * tangential part x_t = x[1..]. In plane strain, for a Mandel vector,
-   *   n = -(1, 1, 0)/sqrt2, t1 = (1, -1, 0)/sqrt2, t2 = (0, 0, 1).
+   *   n = -(1, 1, 0)/sqrt2, t1 = (1, -1, 0)/sqrt2, t2 = (0, 0, 1);
+   * in three dimensions they are the spatial ones.
    * The map is orthogonal: scalar products do not change.
    */
   inline Mandel
-  to_cone_axes(const Mandel &s)
-  {
-    return {-(s[0] + s[1]) / sqrt2, (s[0] - s[1]) / sqrt2, s[2]};
-  }
+  to_cone_axes(const Mandel &s);
 
   inline Mandel
-  from_cone_axes(const Mandel &x)
-  {
-    return {(-x[0] + x[1]) / sqrt2, (-x[0] - x[1]) / sqrt2, x[2]};
-  }
+  from_cone_axes(const Mandel &x);
 
-  /** Cone axes of four components by rows: n = -(1, 1, 0, 1)/sqrt3, then (1, -1, 0,
-   *  0)/sqrt2, (0, 0, 1, 0) and (1, 1, 0, -2)/sqrt6. */
+  /** Cone axes of spatial vectors by rows: n = -(1, 1, 0, 1)/sqrt3, then (1, -1, 0,
+   *  0)/sqrt2, (0, 0, 1, 0) and (1, 1, 0, -2)/sqrt6; further shears as they are. */
   inline const SpatialMandelMatrix &
   spatial_axes()
   {
     static const SpatialMandelMatrix axes = [] {
       const double r2 = 1. / sqrt2, r3 = 1. / std::sqrt(3.), r6 = r2 * r3;
-      SpatialMandelMatrix rows;
-      rows << -r3, -r3, 0., -r3, //
-        r2, -r2, 0., 0.,         //
-        0., 0., 1., 0.,          //
+      SpatialMandelMatrix rows = SpatialMandelMatrix::Identity();
+      rows.topLeftCorner<4, 4>() << -r3, -r3, 0., -r3, //
+        r2, -r2, 0., 0.,                               //
+        0., 0., 1., 0.,                                //
         r6, r6, 0., -2. * r6;
       return rows;
     }();
     return axes;
+  }
+
+  inline Mandel
+  to_cone_axes(const Mandel &s)
+  {
+    if constexpr (dim == 3)
+      return spatial_axes() * extended(s, 0.);
+    Mandel x = s;
+    x[0]     = -(s[0] + s[1]) / sqrt2;
+    x[1]     = (s[0] - s[1]) / sqrt2;
+    return x;
+  }
+
+  inline Mandel
+  from_cone_axes(const Mandel &x)
+  {
+    if constexpr (dim == 3)
+      return spatial_axes().transpose() * extended(x, 0.);
+    Mandel s = x;
+    s[0]     = (-x[0] + x[1]) / sqrt2;
+    s[1]     = (-x[0] - x[1]) / sqrt2;
+    return s;
   }
 
   /** A linear map given in cone axes, written in Mandel components. */
@@ -124,7 +141,8 @@ namespace geocone
     {
       MandelMatrix slope = MandelMatrix::Identity();
       if (const double T = tangential_norm(z); T > 0.)
-        slope.block<1, 2>(0, 1) = ((a - b) / T) * z.tail<2>().transpose();
+        slope.block<1, n_mandel - 1>(0, 1) =
+          ((a - b) / T) * z.tail<n_mandel - 1>().transpose();
       return slope;
     }
 
@@ -318,7 +336,10 @@ namespace geocone
   tangential_direction(const Mandel &x)
   {
     const double T = FlowCone::tangential_norm(x);
-    return T > 0. ? Mandel(0., x[1] / T, x[2] / T) : Mandel(Mandel::Zero());
+    Mandel       u = Mandel::Zero();
+    if (T > 0.)
+      u.tail<n_mandel - 1>() = x.tail<n_mandel - 1>() / T;
+    return u;
   }
 
   /**

@@ -12,8 +12,8 @@
 namespace geocone
 {
   /**
-   * A perfectly plastic law of the whole stress (s_xx, s_yy, s_xy, s_zz), for plane
-   * strain and for axisymmetric scenes: laws give a return map of four components.
+   * A perfectly plastic law of the whole stress, for plane strain, axisymmetric scenes
+   * and three dimensions: laws give a return map of four or six components.
    * In plane strain flow along z is balanced by elastic strain, so that s_zz moves to
    * where the flow rule wants it; the result then depends on it.
    */

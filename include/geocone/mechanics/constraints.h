@@ -17,8 +17,8 @@ namespace geocone
   /** Of the nodal forces of a support on the body. */
   struct Reaction
   {
-    dealii::Tensor<1, dim> force;       ///< sum f_i (N/m)
-    double                 moment = 0.; ///< sum (x_i - c) x f_i (N m/m)
+    dealii::Tensor<1, dim> force; ///< sum f_i (N/m)
+    double moment = 0.;           ///< about z, sum (x_i - c) x f_i (N m/m)
 
     void
     state(StateRow &row)

@@ -22,7 +22,7 @@ namespace geocone
     std::vector<double>       values; ///< N at the point, per node
   };
 
-  /** Gauss points of a face, exact for degree 2p + 3. Faces are straight. */
+  /** Gauss points of a face, exact for degree 2p + 3. */
   std::vector<FacePoint>
   points_on_face(const BackgroundMesh       &mesh,
                  const Space                &space,
@@ -47,7 +47,7 @@ namespace geocone
       for (const unsigned int face : cell->face_indices())
         if (cell->face(face)->at_boundary() &&
             ids.count(cell->face(face)->boundary_id()) > 0 &&
-            condition.in_box(cell->face(face)->center()))
+            condition.holds_at(cell->face(face)->center()))
           {
             ++n_faces;
             for (const FacePoint &point :

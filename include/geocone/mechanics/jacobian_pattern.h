@@ -43,16 +43,17 @@ namespace geocone
       return one_triangle;
     }
 
-    /** matrix += K of a cell, row-major (2n)^2, rows interleaved as v_x, v_y. */
+    /** matrix += K of a cell, row-major (dim n)^2, rows interleaved as v_x, v_y, ... */
     template <int n>
     void
     add_cell(const unsigned int c, const double *K, SparseMatrix &matrix) const
     {
-      const int *place = &places[c * places_of_cell];
-      for (int i = 0; i < 2 * n; ++i)
-        for (int j = one_triangle ? i : 0; j < 2 * n; ++j, ++place)
+      constexpr int m     = dim * n;
+      const int    *place = &places[c * places_of_cell];
+      for (int i = 0; i < m; ++i)
+        for (int j = one_triangle ? i : 0; j < m; ++j, ++place)
           if (*place >= 0)
-            matrix.value[*place] += K[2 * n * i + j];
+            matrix.value[*place] += K[m * i + j];
     }
 
     /** matrix += a value where two free rows meet; of the entries of a symmetric

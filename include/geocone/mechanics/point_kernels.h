@@ -14,11 +14,37 @@
 
 /**
  * What is done at each point, for a number n of nodes that the compiler knows:
- * g holds grad N as n values d/dx and n values d/dy; cell vectors are
- * interleaved (v_x, v_y per node).
+ * g holds grad N as n values d/dx, n values d/dy and so on; cell vectors are
+ * interleaved (v_x, v_y, ... per node).
  */
 namespace geocone::kernels
 {
+  /** n to the power of the dimension. */
+  template <int n>
+  constexpr int power = dim == 2 ? n *n : n *n *n;
+
+  /** Those of simplices with the degree p. */
+  template <int p>
+  constexpr int simplex = dim == 2 ? (p + 1) * (p + 2) / 2
+                                   : (p + 1) * (p + 2) * (p + 3) / 6;
+
+  template <typename F>
+  void
+  with_n_nodes_of_simplex(const unsigned int n, const F &f)
+  {
+    switch (n)
+      {
+        case simplex<1>:
+          return f(std::integral_constant<int, simplex<1>>());
+        case simplex<2>:
+          return f(std::integral_constant<int, simplex<2>>());
+        case simplex<3>:
+          return f(std::integral_constant<int, simplex<3>>());
+        default:
+          AssertThrow(false, dealii::ExcInternalError());
+      }
+  }
+
   /** Calls f with the number of nodes as a compile-time constant. */
   template <typename F>
   void
@@ -26,20 +52,14 @@ namespace geocone::kernels
   {
     switch (n)
       {
-        case 3: // P1
-          return f(std::integral_constant<int, 3>());
-        case 4: // Q1
-          return f(std::integral_constant<int, 4>());
-        case 6: // P2
-          return f(std::integral_constant<int, 6>());
-        case 9: // Q2, B-spline 2
-          return f(std::integral_constant<int, 9>());
-        case 10: // P3
-          return f(std::integral_constant<int, 10>());
-        case 16: // Q3, B-spline 3
-          return f(std::integral_constant<int, 16>());
+        case power<2>: // Q1
+          return f(std::integral_constant<int, power<2>>());
+        case power<3>: // Q2, B-spline 2
+          return f(std::integral_constant<int, power<3>>());
+        case power<4>: // Q3, B-spline 3
+          return f(std::integral_constant<int, power<4>>());
         default:
-          AssertThrow(false, dealii::ExcInternalError());
+          return with_n_nodes_of_simplex(n, f);
       }
   }
 
@@ -48,14 +68,24 @@ namespace geocone::kernels
   inline Mandel
   strain(const double *g, const double *v)
   {
-    double xx = 0., yy = 0., xy = 0.;
+    double normal[dim] = {}, shear[n_shears] = {};
     for (int i = 0; i < n; ++i)
       {
-        xx += g[i] * v[2 * i];
-        yy += g[n + i] * v[2 * i + 1];
-        xy += g[n + i] * v[2 * i] + g[i] * v[2 * i + 1];
+        for (unsigned int d = 0; d < dim; ++d)
+          normal[d] += g[n * d + i] * v[dim * i + d];
+        for (int k = 0; k < n_shears; ++k)
+          {
+            const auto [place, a, b] = shears[k];
+            shear[k] +=
+              g[n * b + i] * v[dim * i + a] + g[n * a + i] * v[dim * i + b];
+          }
       }
-    return {xx, yy, xy / sqrt2};
+    Mandel e;
+    for (unsigned int d = 0; d < dim; ++d)
+      e[place_of_normal[d]] = normal[d];
+    for (int k = 0; k < n_shears; ++k)
+      e[shears[k].place] = shear[k] / sqrt2;
+    return e;
   }
 
   /** f += B' s. */
@@ -63,29 +93,34 @@ namespace geocone::kernels
   inline void
   add_force(const double *g, const Mandel &s, double *f)
   {
-    const double xy = s[2] / sqrt2;
+    // The stress tensor; its rows along the gradient are the forces.
+    double t[dim][dim];
+    for (unsigned int d = 0; d < dim; ++d)
+      t[d][d] = s[place_of_normal[d]];
+    for (int k = 0; k < n_shears; ++k)
+      t[shears[k].first][shears[k].second] =
+        t[shears[k].second][shears[k].first] = s[shears[k].place] / sqrt2;
     for (int i = 0; i < n; ++i)
-      {
-        f[2 * i] += g[i] * s[0] + g[n + i] * xy;
-        f[2 * i + 1] += g[n + i] * s[1] + g[i] * xy;
-      }
+      for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int c = 0; c < dim; ++c)
+          f[dim * i + d] += g[n * ((d + c) % dim) + i] * t[d][(d + c) % dim];
   }
 
   /**
-   * K = sum_q B_q' C_q B_q of a cell, row-major (2n)^2. K is computed in small
-   * blocks of nodes whose sums over the points stay in registers.
+   * K = sum_q B_q' C_q B_q of a cell, row-major (dim n)^2. In the plane K is computed
+   * in small blocks of nodes whose sums over the points stay in registers.
    * @tparam upper whether only the blocks of nodes i <= j are needed
-   * @param g gradients of the points one after another, 2n each
+   * @param g gradients of the points one after another, dim n each
    * @param C tangents times weights
-   * @param scratch at least n_points x 3 x 2n values
+   * @param scratch at least n_points x n_mandel x dim n values
    */
   template <int n, bool upper>
   [[gnu::always_inline]] inline void
-  stiffness_body(const double       *g,
-                 const MandelMatrix *C,
-                 const unsigned int  n_points,
-                 double             *scratch,
-                 double             *K)
+  stiffness_of_plane(const double       *g,
+                     const MandelMatrix *C,
+                     const unsigned int  n_points,
+                     double             *scratch,
+                     double             *K)
   {
     constexpr int m = 2 * n;
     for (unsigned int q = 0; q < n_points; ++q)
@@ -127,6 +162,81 @@ namespace geocone::kernels
         }
   }
 
+  /** The same in three dimensions. */
+  template <int n, bool upper>
+  [[gnu::always_inline]] inline void
+  stiffness_of_space(const double       *g,
+                     const MandelMatrix *C,
+                     const unsigned int  n_points,
+                     double             *scratch,
+                     double             *K)
+  {
+    constexpr int m = dim * n;
+    std::memset(K, 0, sizeof(double) * m * m);
+    for (unsigned int q = 0; q < n_points; ++q, g += m)
+      {
+        // C B by rows, those of shears over sqrt2, for B' picks them so.
+        for (int r = 0; r < n_mandel; ++r)
+          {
+            double *const row = scratch + r * m;
+            const double  s   = r == 2 || r > 3 ? 1. / sqrt2 : 1.;
+            // As a stress tensor, so that a column is its row along the gradient.
+            double t[dim][dim] = {};
+            for (unsigned int d = 0; d < dim; ++d)
+              t[d][d] = s * C[q](r, place_of_normal[d]);
+            for (int k = 0; k < n_shears; ++k)
+              t[shears[k].first][shears[k].second] =
+                t[shears[k].second][shears[k].first] =
+                  s * C[q](r, shears[k].place) / sqrt2;
+            for (int j = 0; j < n; ++j)
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  double sum = 0.;
+                  for (unsigned int c = 0; c < dim; ++c)
+                    sum += t[d][c] * g[n * c + j];
+                  row[dim * j + d] = sum;
+                }
+          }
+        for (int i = 0; i < n; ++i)
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              // Of the rows of C B those in which this function has a strain.
+              const double *of[dim];
+              of[d] = scratch + place_of_normal[d] * m;
+              for (int k = 0; k < n_shears; ++k)
+                if (static_cast<int>(d) == shears[k].first)
+                  of[shears[k].second] = scratch + shears[k].place * m;
+                else if (static_cast<int>(d) == shears[k].second)
+                  of[shears[k].first] = scratch + shears[k].place * m;
+              double *const row = K + (dim * i + d) * m;
+              double        slope[dim];
+              for (unsigned int c = 0; c < dim; ++c)
+                slope[c] = g[n * c + i];
+              for (int j = upper ? dim * i : 0; j < m; ++j)
+                {
+                  double sum = row[j];
+                  for (unsigned int c = 0; c < dim; ++c)
+                    sum += slope[c] * of[c][j];
+                  row[j] = sum;
+                }
+            }
+      }
+  }
+
+  template <int n, bool upper>
+  [[gnu::always_inline]] inline void
+  stiffness_body(const double       *g,
+                 const MandelMatrix *C,
+                 const unsigned int  n_points,
+                 double             *scratch,
+                 double             *K)
+  {
+    if constexpr (dim == 2)
+      stiffness_of_plane<n, upper>(g, C, n_points, scratch, K);
+    else
+      stiffness_of_space<n, upper>(g, C, n_points, scratch, K);
+  }
+
 #if defined(__x86_64__)
   /** The same for processors with AVX2 and fused multiply-add. */
   template <int n, bool upper>
@@ -162,7 +272,7 @@ namespace geocone::kernels
   /**
    * K = sum_q B_q' C_q B_q with the volumetric part of B from the mean gradients
    * of the cell (B-bar); as stiffness(), all entries.
-   * @param mean mean gradients, 2n values
+   * @param mean mean gradients, dim n values
    */
   template <int n>
   void
@@ -172,18 +282,29 @@ namespace geocone::kernels
                   const unsigned int  n_points,
                   double             *K)
   {
-    Eigen::Map<Eigen::Matrix<double, 2 * n, 2 * n, Eigen::RowMajor>> stiffness(
-      K);
-    Eigen::Matrix<double, 3, 2 * n> B;
+    constexpr int                                            m = dim * n;
+    Eigen::Map<Eigen::Matrix<double, m, m, Eigen::RowMajor>> stiffness(K);
+    Eigen::Matrix<double, n_mandel, m>                       B;
     stiffness.setZero();
-    for (unsigned int q = 0; q < n_points; ++q, g += 2 * n)
+    for (unsigned int q = 0; q < n_points; ++q, g += m)
       {
+        B.setZero();
         for (int i = 0; i < n; ++i)
           {
-            const double gx = g[i], gy = g[n + i];
-            const double dx = (mean[i] - gx) / 2., dy = (mean[n + i] - gy) / 2.;
-            B.col(2 * i) << gx + dx, dx, gy / sqrt2;
-            B.col(2 * i + 1) << dy, gy + dy, gx / sqrt2;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                const double own = g[n * d + i];
+                for (unsigned int c = 0; c < dim; ++c)
+                  B(place_of_normal[c], dim * i + d) =
+                    (mean[n * d + i] - own) / dim;
+                B(place_of_normal[d], dim * i + d) += own;
+              }
+            for (int k = 0; k < n_shears; ++k)
+              {
+                const auto [place, a, b] = shears[k];
+                B(place, dim * i + a)    = g[n * b + i] / sqrt2;
+                B(place, dim * i + b)    = g[n * a + i] / sqrt2;
+              }
           }
         stiffness.noalias() += B.transpose() * (C[q] * B);
       }
@@ -195,10 +316,8 @@ namespace geocone::kernels
   gather(const double *vector, const unsigned int *nodes, double *cell)
   {
     for (int i = 0; i < n; ++i)
-      {
-        cell[2 * i]     = vector[2 * nodes[i]];
-        cell[2 * i + 1] = vector[2 * nodes[i] + 1];
-      }
+      for (unsigned int d = 0; d < dim; ++d)
+        cell[dim * i + d] = vector[dim * nodes[i] + d];
   }
 
   template <int n>
@@ -206,10 +325,8 @@ namespace geocone::kernels
   scatter_add(const double *cell, const unsigned int *nodes, double *vector)
   {
     for (int i = 0; i < n; ++i)
-      {
-        vector[2 * nodes[i]] += cell[2 * i];
-        vector[2 * nodes[i] + 1] += cell[2 * i + 1];
-      }
+      for (unsigned int d = 0; d < dim; ++d)
+        vector[dim * nodes[i] + d] += cell[dim * i + d];
   }
 } // namespace geocone::kernels
 

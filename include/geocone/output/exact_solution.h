@@ -51,10 +51,9 @@ namespace geocone
            const double          t) const;
 
   private:
-    std::array<std::string, 5> texts = {
-      {"none", "none", "none", "none", "none"}};
-    std::array<Expression, 5> fields;
-    bool                      given = false;
+    std::array<std::string, dim + n_mandel> texts;
+    std::array<Expression, dim + n_mandel>  fields;
+    bool                                    given = false;
   };
 } // namespace geocone
 

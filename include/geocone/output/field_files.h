@@ -23,14 +23,26 @@ namespace geocone
    */
   struct FieldTable
   {
-    /** What each cell is; its nodes stand one after another, those of a
-     *  quadrilateral in lexicographic order. */
+    /** What each cell is; its nodes stand one after another, those of quadrilaterals
+     *  and hexahedra in lexicographic order. */
     enum class Cell
     {
       point,
       triangle,
-      quadrilateral
+      quadrilateral,
+      tetrahedron,
+      hexahedron
     };
+
+    /** What a kind of cells is in VTK's and XDMF's terms. */
+    struct Kind
+    {
+      unsigned int                n_nodes, vtk_type;
+      const char                 *xdmf_type;
+      std::array<unsigned int, 8> order; ///< of the nodes
+    };
+    const Kind &
+    kind() const;
 
     /** Fills an array with the values of each node one after another. */
     using Fill = std::function<void(std::vector<double> &)>;
@@ -50,7 +62,19 @@ namespace geocone
     unsigned int
     nodes_per_cell() const
     {
-      return cell == Cell::point ? 1 : cell == Cell::triangle ? 3 : 4;
+      return kind().n_nodes;
+    }
+
+    /** The numbers of the nodes of all cells in VTK's order, @p n_nodes in all. */
+    template <typename Number>
+    std::vector<Number>
+    connectivity(const std::size_t n_nodes) const
+    {
+      const auto &[n, type, name, order] = kind();
+      std::vector<Number> nodes(n_nodes);
+      for (std::size_t i = 0; i < n_nodes; ++i)
+        nodes[i] = i / n * n + order[i % n];
+      return nodes;
     }
 
     std::size_t

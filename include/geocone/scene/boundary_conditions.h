@@ -21,8 +21,8 @@ namespace geocone
 {
   /**
    * A condition on a part of the boundary: some of its sides, and of them, if
-   * a box is given, what lies inside that box. Base of the prescribed
-   * velocities and the tractions.
+   * a box or a formula is given, what lies inside that box, or where the formula is
+   * positive. Base of the prescribed velocities and the tractions.
    */
   class BoundaryCondition : public dealii::ParameterAcceptor
   {
@@ -48,11 +48,19 @@ namespace geocone
     bool
     is_on_side(const std::string &side) const;
 
+    /** Whether a formula tells the part. */
+    bool
+    has_formula() const
+    {
+      return where.has_value();
+    }
+
     /** Whether a point of one of the sides belongs to the part. */
     bool
-    in_box(const dealii::Point<dim> &x) const;
+    holds_at(const dealii::Point<dim> &x) const;
 
-    /** Lower left and upper right corner of the box, if there is one. */
+    /** Lower left and upper right corner of the box, if there is one.
+     *  @throws InputError if a formula tells the part */
     std::optional<std::array<dealii::Point<dim>, 2>>
     box_corners() const;
 
@@ -60,7 +68,8 @@ namespace geocone
     void
     check_selection(const unsigned int n_nodes) const;
 
-    /** The formula of x, y, normal or tangential (0 to 3), for messages. */
+    /** The formula of a component, the normal (dim) or the tangential one, for
+     *  messages. */
     const std::string &
     formula(const unsigned int component) const
     {
@@ -103,7 +112,7 @@ namespace geocone
       return holds() != Imposition::On::nodes;
     }
 
-    /** Per component: the value as a function of (x, y, t), or nothing. */
+    /** Per component: the value as a function of place and time, or nothing. */
     std::array<std::optional<Expression>, dim> components;
 
     /** The same along the outward normal n of the side and, for tractions, along
@@ -123,11 +132,13 @@ namespace geocone
     refuse_normal(const std::string &allowed, const std::string &remedy) const;
 
   private:
-    const std::string               quantity;
-    const std::string               unset;
-    const std::string               folder;
-    std::array<std::string, 4>      texts;
-    std::vector<dealii::Point<dim>> box;
+    const std::string                quantity;
+    const std::string                unset;
+    const std::string                folder;
+    std::array<std::string, dim + 2> texts;
+    std::vector<dealii::Point<dim>>  box;
+    std::string                      where_text;
+    std::optional<Expression>        where;
   };
 
   /**

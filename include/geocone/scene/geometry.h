@@ -21,7 +21,22 @@
 
 namespace geocone
 {
+  /** The vertices of a polygon in order; in three dimensions, which know no other
+   *  bodies by themselves, the lowest and the highest corner of a box. */
   using Polygon = std::vector<dealii::Point<dim>>;
+
+  Polygon
+  outline_of_box(const dealii::Point<dim> &lower,
+                 const dealii::Point<dim> &upper);
+
+  /** The number of each side: those at the least and largest x are called left and
+   *  right, y bottom and top, z back and front. */
+  std::map<std::string, dealii::types::boundary_id>
+  sides_of_box();
+
+  /** The coordinates, e.g. "0.5, -2". */
+  std::string
+  text_of_place(const dealii::Point<dim> &x);
 
   /**
    * What double precision resolves with room for a solution: coordinates up to
@@ -174,9 +189,10 @@ namespace geocone
     check_discs();
 
     const std::string               folder_of_parameters;
-    std::vector<dealii::Point<dim>> box     = {{-1., -2.}, {1., 0.}};
-    std::vector<dealii::Point<dim>> polygon = {{0., 0.}, {1., 0.}, {1., 1.}};
-    std::vector<dealii::Point<dim>> centres = {{0., 0.}};
+    unsigned int                    dimension = dim;
+    std::vector<dealii::Point<dim>> box;
+    std::vector<dealii::Point<dim>> polygon;
+    std::vector<dealii::Point<dim>> centres = {dealii::Point<dim>()};
     std::vector<double>             radii   = {1.};
   };
 

@@ -156,7 +156,7 @@ namespace geocone
     is_given() const;
 
   private:
-    std::array<std::string, dim> texts = {{"0", "0"}};
+    std::array<std::string, dim> texts;
     std::array<Expression, dim>  components;
   };
 
@@ -208,15 +208,15 @@ namespace geocone
                           {"given", Type::given},
                           {"geostatic", Type::geostatic}}};
 
-    std::array<std::string, 3> texts = {{"0", "0", "0"}};
-    std::array<Expression, 3>  components;
-    std::string                text_zz;
-    Expression                 component_zz;
-    std::string                k0_text = "0.5";
-    std::optional<double>      k0; ///< or nothing: that of each material
-    double                     surface   = 0.;
-    double                     surcharge = 0.;
-    double                     g         = 0.;
+    std::array<std::string, n_mandel> texts;
+    std::array<Expression, n_mandel>  components;
+    std::string                       text_zz; ///< of plane scenes
+    Expression                        component_zz;
+    std::string                       k0_text = "0.5";
+    std::optional<double>             k0; ///< or nothing: that of each material
+    double                            surface   = 0.;
+    double                            surcharge = 0.;
+    double                            g         = 0.;
   };
 } // namespace geocone
 

@@ -47,7 +47,7 @@ namespace geocone
     /** Indices of the observed conditions and obstacles in Scene::supports(). */
     std::vector<unsigned int> conditions;
 
-    /** 0 for x, 1 for y. */
+    /** 0 for x, 1 for y, 2 for z. */
     unsigned int component = 1;
 
     /** Load = factor x reaction, e.g. -2 for a downward load on a half. */
@@ -83,9 +83,14 @@ namespace geocone
     enum class Component
     {
       x,
-      y
+      y,
+      z
     };
-    Choice<Component> observed = {{{"y", Component::y}, {"x", Component::x}}};
+    Choice<Component> observed =
+      dim == 2
+        ? Choice<Component>({{"y", Component::y}, {"x", Component::x}})
+        : Choice<Component>(
+            {{"y", Component::y}, {"x", Component::x}, {"z", Component::z}});
 
     std::string value = "none";
     std::string material;

@@ -1,0 +1,33 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_methods_h
+#define geocone_methods_h
+
+#include <geocone/base/log.h>
+#include <geocone/base/parameter_file.h>
+#include <geocone/run/simulation.h>
+
+#include <memory>
+
+namespace geocone
+{
+  /** The runs of all methods that there are in this dimension, so that a file may hold
+   *  the parameters of all. */
+  class Methods
+  {
+  public:
+    Methods(const ParameterFile &file, Log &log);
+    ~Methods();
+
+    /** That of the parameter file, which has been parsed. @throws InputError */
+    Simulation &
+    chosen();
+
+  private:
+    struct Runs;
+    std::unique_ptr<Runs> runs;
+  };
+} // namespace geocone
+
+#endif
