@@ -6,6 +6,10 @@
 #include <geocone/methods.h>
 #include <geocone/run/implicit_simulation.h>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 namespace geocone
 {
   struct Methods::Runs
@@ -19,24 +23,30 @@ namespace geocone
 
   namespace
   {
+    /** Refuses what only plane scenes have. @param allowed the first one is the
+     *  default */
     void
-    refuse(const ParameterFile &file,
-           const std::string   &parameter,
-           const std::string   &allowed)
+    check(const ParameterFile            &file,
+          const std::string              &parameter,
+          const std::vector<std::string> &allowed)
     {
-      if (const std::string value = file.peek(parameter, allowed);
-          value != allowed)
-        throw InputError(parameter,
-                         value,
-                         allowed + " where Geometry/Dimension = 3",
-                         "the others are for plane and axisymmetric scenes");
+      const std::string value = file.peek(parameter, allowed[0]);
+      if (std::find(allowed.begin(), allowed.end(), value) != allowed.end())
+        return;
+      std::string words = allowed[0];
+      for (std::size_t i = 1; i < allowed.size(); ++i)
+        words += " | " + allowed[i];
+      throw InputError(parameter,
+                       value,
+                       words + " where Geometry/Dimension = 3",
+                       "the others are for plane and axisymmetric scenes");
     }
   } // namespace
 
   Methods::Methods(const ParameterFile &file, Log &log)
   {
-    refuse(file, "Discretisation/Method", "FEM");
-    refuse(file, "Analysis/Kind", "steps");
+    check(file, "Discretisation/Method", {"FEM", "MPM"});
+    check(file, "Analysis/Kind", {"steps"});
     runs = std::make_unique<Runs>(file, log);
   }
 

@@ -18,10 +18,11 @@ import numpy as np
 
 from geocone.parameter_file import parameters_of
 
-# The corners of a cell, by their number, as meshio calls it.
-CELL_TYPES = {1: "vertex", 2: "line", 3: "triangle", 4: "quad"}
+# What meshio calls a cell, by the dimension of the scene and the number of corners.
+CELL_TYPES = {2: {1: "vertex", 2: "line", 3: "triangle", 4: "quad"},
+              3: {1: "vertex", 4: "tetra", 8: "hexahedron"}}
 
-# points (n, 2) in m; cells (m, k) of indices; data {name: (n, components)}; time in s.
+# points (n, dim) in m; cells (m, k) of indices; data {name: (n, components)}; time in s.
 Field = namedtuple("Field", "points cells data time", defaults=[None])
 
 
@@ -123,16 +124,16 @@ class Run:
         @param series "points" (material points) or "cells" (the mesh; each cell has
           points of its own, whose values are the cell's where they jump)
         @param time in s, the nearest one that was written; None: the last one
-        @return a meshio.Mesh: points (n, 2), point_data {name: (n,) or (n, 3)},
+        @return a meshio.Mesh: points (n, dim), point_data {name: (n,) or (n, 3)},
           info {"time": s}
         @throw Missing if there are none, ReadError if they are damaged"""
         import meshio  # takes as long as all other imports together
         i = -1 if time is None else nearest(self.times(series), [time])[0]
         state, = self._states(series, (int(i),))
-        kind = CELL_TYPES.get(state.cells.shape[1])
+        kind = CELL_TYPES[state.points.shape[1]].get(state.cells.shape[1])
         if kind is None:
             raise ReadError(f"the cells of '{self._record(series)}' are neither points "
-                            "nor triangles nor quadrilaterals")
+                            "nor of a kind that geocone has")
         return meshio.Mesh(
             state.points, [(kind, state.cells)], info={"time": state.time},
             point_data={name: values[:, 0] if values.shape[1] == 1 else values
@@ -227,7 +228,7 @@ def read_vtu(path):
     for piece in root.iter("Piece"):
         if int(piece.get("NumberOfPoints")) == 0:  # a rank without cells
             continue
-        points = decode(piece.find("Points/DataArray")).reshape(-1, 3)[:, :2]
+        points = decode(piece.find("Points/DataArray")).reshape(-1, 3)
         cells = {array.get("Name"): decode(array) for array in piece.find("Cells")}
         fields.append(Field(
             points.astype(float),
@@ -240,8 +241,9 @@ def read_vtu(path):
 def joined(pieces, time):
     """The pieces of a state as one."""
     first = np.cumsum([0] + [len(piece.points) for piece in pieces])
+    points = np.concatenate([piece.points for piece in pieces])
     return Field(
-        np.concatenate([piece.points for piece in pieces]),
+        points if np.any(points[:, 2]) else points[:, :2],  # of a scene in the plane
         np.concatenate([piece.cells + n for piece, n in zip(pieces, first)]),
         {name: np.concatenate([piece.data[name] for piece in pieces])
          for name in pieces[0].data}, time)

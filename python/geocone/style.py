@@ -47,6 +47,12 @@ class Skipped(Exception):
     """Why a picture is not drawn."""
 
 
+def in_plane(field):
+    """@throw Skipped if the points of a field are in three dimensions"""
+    if field.points.shape[1] == 3:
+        raise Skipped("points are drawn in the plane only")
+
+
 def plain(text, longest=100):
     """A text from outside as a picture may show it: none of it is typeset as
     mathematics, nor hidden from a legend, as matplotlib does with '$' and '_'."""

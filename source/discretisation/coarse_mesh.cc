@@ -250,6 +250,10 @@ namespace geocone
                        "box | polygon | file with FEM",
                        "set Discretisation/Method = MPM, or mesh the discs "
                        "with gmsh");
+    if (!method.is_mpm())
+      geometry.refuse_where("FEM",
+                            "set Discretisation/Method = MPM, or mesh the body "
+                            "with gmsh");
     if (geometry.shape != Geometry::Shape::file)
       choose_outline(geometry, method);
     if (!is_unstructured() && !method.is_mpm() &&

@@ -3,6 +3,12 @@
 
 #include <geocone/discretisation/material_points.h>
 
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/base/polynomial.h>
+#include <deal.II/base/polynomial_space.h>
+
+#include <Eigen/Dense>
+
 namespace geocone
 {
   void
@@ -46,24 +52,40 @@ namespace geocone
   }
 
   void
-  average_gradients(MaterialPoints &points)
+  project_gradients(const unsigned int degree, MaterialPoints &points)
   {
     const unsigned int m = dim * points.n_nodes; // values per point
-    points.mean_gradients.assign(points.n_cells() * m, 0.);
+    using Values =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    points.volumetric_gradients.resize(points.n_points() * m);
+    const dealii::PolynomialSpace<dim> polynomials(
+      dealii::Polynomials::Legendre::generate_complete_basis(degree));
+    std::vector<double> values(polynomials.n());
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       {
-        double *mean   = &points.mean_gradients[c * m];
-        double  volume = 0.;
-        for (unsigned int p = points.first_point[c];
-             p < points.first_point[c + 1];
-             ++p)
-          {
-            volume += points.weight[p];
-            for (unsigned int k = 0; k < m; ++k)
-              mean[k] += points.weight[p] * points.gradients[p * m + k];
-          }
-        for (unsigned int k = 0; k < m; ++k)
-          mean[k] /= volume;
+        const unsigned int first = points.first_point[c],
+                           n     = points.first_point[c + 1] - first;
+        if (n == 0)
+          continue;
+        // Polynomials of the place in the box of the points.
+        const dealii::BoundingBox<dim> box(
+          std::vector<dealii::Point<dim>>(points.position.begin() + first,
+                                          points.position.begin() + first + n));
+        Values M(n, values.size());
+        for (unsigned int q = 0; q < n; ++q)
+          for (unsigned int k = 0; k < values.size(); ++k)
+            {
+              dealii::Point<dim> x;
+              for (unsigned int d = 0; d < dim && degree > 0; ++d)
+                x[d] = (points.position[first + q][d] - box.lower_bound(d)) /
+                       box.side_length(d);
+              M(q, k) = polynomials.compute_value(k, x);
+            }
+        const Eigen::Map<const Eigen::VectorXd> w(&points.weight[first], n);
+        const Eigen::Map<const Values> g(&points.gradients[first * m], n, m);
+        const Values                   WM = w.asDiagonal() * M;
+        Eigen::Map<Values>(&points.volumetric_gradients[first * m], n, m) =
+          M * (M.transpose() * WM).ldlt().solve(WM.transpose() * g);
       }
   }
 } // namespace geocone

@@ -22,7 +22,34 @@ namespace geocone
     using Row    = std::array<double, Column::n_columns>;
 
     const std::array<std::string, Column::n_columns> names = {
+#if GEOCONE_DIMENSION == 2
       {"x", "y", "volume", "material", "vx", "vy", "sxx", "syy", "sxy"}};
+#else
+      {"x",
+       "y",
+       "z",
+       "volume",
+       "material",
+       "vx",
+       "vy",
+       "vz",
+       "sxx",
+       "syy",
+       "sxy",
+       "szz",
+       "syz",
+       "szx"}};
+#endif
+
+    /** Those of a group, from the first on. */
+    std::vector<Column>
+    group_of(const Column first, const unsigned int n)
+    {
+      std::vector<Column> group;
+      for (unsigned int i = 0; i < n; ++i)
+        group.push_back(static_cast<Column>(first + i));
+      return group;
+    }
 
     /** Some 10^9 rows, more than a run can have points. */
     constexpr std::uintmax_t largest_file = 1ULL << 37;
@@ -30,13 +57,18 @@ namespace geocone
     /** No quantity in SI units is larger; squares of it are still numbers. */
     constexpr double largest = 1e30;
 
+    constexpr const char *unit = dim == 2 ? "m^2" : "m^3"; ///< of volumes
+
     InputError
     refused(const std::string &file, const std::string &what)
     {
       return InputError("Particles/File",
                         file,
-                        "a .csv or .h5 file of x, y, volume > 0 and, if given, "
-                        "material, vx and vy, sxx and syy and sxy",
+                        std::string("a .csv or .h5 file of ") + coordinates +
+                          ", volume > 0 and, if given, material, " +
+                          (dim == 2 ? "vx and vy, sxx and syy and sxy"
+                                    : "vx, vy and vz, and the six stresses sxx "
+                                      "to szx"),
                         what);
     }
   } // namespace
@@ -65,7 +97,7 @@ namespace geocone
     check_columns() const
     {
       const std::vector<std::vector<Column>> groups = {
-        {x, y, volume}, {vx, vy}, {sxx, syy, sxy}};
+        group_of(x, dim + 1), group_of(vx, dim), group_of(sxx, n_mandel)};
       for (const auto &group : groups)
         if (group == groups[0] ||
             std::any_of(group.begin(), group.end(), [&](const Column column) {
@@ -92,9 +124,11 @@ namespace geocone
         what = "is no material: they are counted from 0 to " +
                std::to_string(materials.size() - 1);
       else if (std::abs(value) > largest)
-        what = "is larger than 1e30; give it in m, m^2, m/s or Pa";
+        what = std::string("is larger than 1e30; give it in m, ") + unit +
+               ", m/s or Pa";
       else if (column == volume && value < 1. / largest)
-        what = "is smaller than 1e-30 m^2; give it in m^2";
+        what =
+          std::string("is smaller than 1e-30 ") + unit + "; give it in " + unit;
       if (!what.empty())
         throw refused(file, place() + format("%g ", value) + what);
     }
@@ -262,13 +296,18 @@ namespace geocone
     std::vector<Seed> seeds(rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i)
       {
-        const Row &row       = rows[i];
-        seeds[i].position    = dealii::Point<dim>(row[x], row[y]);
-        seeds[i].volume      = row[volume];
-        seeds[i].material    = static_cast<unsigned int>(row[material]);
-        seeds[i].velocity[0] = row[vx];
-        seeds[i].velocity[1] = row[vy];
-        seeds[i].stress      = in_plane(row[sxx], row[syy], row[sxy]);
+        const Row &row    = rows[i];
+        seeds[i].volume   = row[volume];
+        seeds[i].material = static_cast<unsigned int>(row[material]);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            seeds[i].position[d] = row[x + d];
+            seeds[i].velocity[d] = row[vx + d];
+          }
+        for (int k = 0; k < n_mandel; ++k)
+          seeds[i].stress[k] = row[sxx + k];
+        for (int k = 0; k < n_shears; ++k)
+          seeds[i].stress[shears[k].place] *= sqrt2;
       }
     return seeds;
   }

@@ -35,11 +35,19 @@ namespace geocone
           {
             const auto       ends = geometry.side_ends(id);
             const Point<dim> foot = nearest_on_segment(x, ends[0], ends[1]);
-            if (foot.distance(x) < std::sqrt(volume) &&
+            if (foot.distance(x) < length_of(volume) &&
                 condition.holds_at(foot))
               return true;
           }
       return false;
+    }
+
+    Point<dim>
+    point_of(const double *coordinates)
+    {
+      Point<dim> x;
+      std::copy_n(coordinates, dim, x.begin_raw());
+      return x;
     }
   } // namespace
 
@@ -51,8 +59,11 @@ namespace geocone
     Point<dim> moved;
     for (unsigned int d = 0; d < dim; ++d)
       moved[d] = std::clamp(unit[d], margin, 1. - margin);
-    if (search->mesh_is_simplicial() && moved[0] + moved[1] > 1. - margin)
-      moved *= (1. - margin) / (moved[0] + moved[1]);
+    double sum = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      sum += moved[d];
+    if (search->mesh_is_simplicial() && sum > 1. - margin)
+      moved *= (1. - margin) / sum;
     return moved;
   }
 
@@ -176,7 +187,7 @@ namespace geocone
     if (n_points > 0)
       points.first_point.push_back(n_points);
     if (space.has_b_bar())
-      average_gradients(points);
+      project_gradients(space.degree() - 1, points);
     return points;
   }
 
@@ -229,8 +240,8 @@ namespace geocone
             const double *x = &values[i * size];
             places.push_back({static_cast<unsigned int>(x[0]),
                               cell->active_cell_index(),
-                              Point<dim>(x[1], x[2]),
-                              Point<dim>(x[3], x[4])});
+                              point_of(x + 1),
+                              point_of(x + 1 + dim)});
             states.insert(states.end(), x + 1 + 2 * dim, x + size);
           }
       }
@@ -267,13 +278,9 @@ namespace geocone
             continue;
           }
         std::vector<double> &message = leaving[owner];
-        message.insert(message.end(),
-                       {double(place.id),
-                        double(place.cell),
-                        place.position[0],
-                        place.position[1],
-                        place.unit[0],
-                        place.unit[1]});
+        message.insert(message.end(), {double(place.id), double(place.cell)});
+        for (const Point<dim> *x : {&place.position, &place.unit})
+          message.insert(message.end(), x->begin_raw(), x->end_raw());
         message.insert(message.end(), state, state + n_state);
       }
     places.resize(n);
@@ -281,14 +288,16 @@ namespace geocone
     if (Utilities::MPI::logical_or(!leaving.empty(), comm))
       for (const auto &[sender, message] :
            Utilities::MPI::some_to_some(comm, leaving))
-        for (std::size_t i = 0; i < message.size(); i += 6 + n_state)
+        for (std::size_t i = 0; i < message.size();
+             i += 2 + 2 * dim + n_state)
           {
             const double *x = &message[i];
             places.push_back({static_cast<unsigned int>(x[0]),
                               static_cast<unsigned int>(x[1]),
-                              Point<dim>(x[2], x[3]),
-                              Point<dim>(x[4], x[5])});
-            states.insert(states.end(), x + 6, x + 6 + n_state);
+                              point_of(x + 2),
+                              point_of(x + 2 + dim)});
+            x += 2 + 2 * dim;
+            states.insert(states.end(), x, x + n_state);
           }
 
     // By cell and number: an order that no history and no number of ranks changes.
@@ -334,10 +343,9 @@ namespace geocone
       {
         std::string which;
         if (!lost.empty())
-          which = format("particle %u at (%g, %g)",
+          which = format("particle %u at (%s)",
                          lost[0].id,
-                         lost[0].position[0],
-                         lost[0].position[1]);
+                         text_of_place(lost[0].position).c_str());
         throw StepFailure(
           format("%u particles left the background mesh, e.g. ", n_now) +
           text_of_any_rank(comm, which) +

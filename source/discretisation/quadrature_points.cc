@@ -141,7 +141,7 @@ namespace geocone
                          "  remedy:  take smaller cells, or check 'Region "
                          "polygon' and 'Region number'");
     if (space.has_b_bar())
-      average_gradients(points);
+      project_gradients(space.degree() - 1, points);
     return points;
   }
 } // namespace geocone

@@ -35,10 +35,8 @@ namespace geocone
     InputError
     outside_mesh(const Point<dim> &x)
     {
-      return InputError(format("the seed at (%g, %g) lies outside the "
-                               "background mesh",
-                               x[0],
-                               x[1]) +
+      return InputError("the seed at (" + text_of_place(x) +
+                        ") lies outside the background mesh"
                         "\n  allowed: points in the mesh\n"
                         "  remedy:  enlarge 'Mesh/Box'");
     }
@@ -78,27 +76,32 @@ namespace geocone
                               : Quadrature<1>(QIterated<1>(QMidpoint<1>(), k));
     }
 
-    /** Most Gauss points per direction in a triangle, by the library's rules. */
-    constexpr unsigned int most_in_triangle = 5;
+    /** Most Gauss points per direction in a simplex, by the library's rules. */
+    constexpr unsigned int most_in_simplex = 5;
 
     /**
-     * The same in the unit triangle: rules of degree 2 k - 1 (1, 3, 7, 15 and 19
-     * points; 3 of degree 2), or the centres of k^2 equal triangles.
+     * The same in the unit simplex: rules of degree 2 k - 1 (1, 3, 7, 15 and 19
+     * points of triangles; 3 of degree 2), or the centres of k^2 equal triangles.
      */
     Quadrature<dim>
-    places_in_triangle(const bool are_gauss_points, const unsigned int k)
+    places_in_simplex(const bool are_gauss_points, const unsigned int k)
     {
       if (are_gauss_points && k <= 2)
         return QGaussSimplex<dim>(k);
-      if (are_gauss_points)
+      if (are_gauss_points || dim == 3)
         return QWitherdenVincentSimplex<dim>(k);
       std::vector<Point<dim>> centres;
+      const auto              add = [&](const double x, const double y) {
+        centres.emplace_back();
+        centres.back()[0] = x / k;
+        centres.back()[1] = y / k;
+      };
       for (unsigned int j = 0; j < k; ++j)
         for (unsigned int i = 0; i + j < k; ++i)
           {
-            centres.emplace_back((i + 1. / 3.) / k, (j + 1. / 3.) / k);
+            add(i + 1. / 3., j + 1. / 3.);
             if (i + j + 1 < k)
-              centres.emplace_back((i + 2. / 3.) / k, (j + 2. / 3.) / k);
+              add(i + 2. / 3., j + 2. / 3.);
           }
       return Quadrature<dim>(
         centres, std::vector<double>(centres.size(), 0.5 / centres.size()));
@@ -111,24 +114,33 @@ namespace geocone
   {
     layout.declare(*this,
                    "Layout",
-                   ". Gauss: points of each cell. Sub-cells: their centres. "
-                   "Lattice: squares, independent of the mesh.");
+                   ". Gauss: points of each cell. Sub-cells: their centres "
+                   "(not of tetrahedra). Lattice: squares or cubes, "
+                   "independent of the mesh.");
     add_parameter(
       "Points per direction",
       k,
-      "Gauss and sub-cells: k for k x k points in each cell; in "
-      "triangles k x k sub-cells, or 1, 3, 7, 15, 19 Gauss points.");
+      dim == 2 ? "Gauss and sub-cells: k for k x k points in each cell; in "
+                 "triangles k x k sub-cells, or 1, 3, 7, 15, 19 Gauss points."
+               : "Gauss and sub-cells: k for k x k x k points in each cell; in "
+                 "tetrahedra Gauss points of degree 2 k - 1.");
     add_parameter("Spacing", spacing, "lattice: distance of points (m).");
     add_parameter("Number", number, "random: number of points in the body.");
     add_parameter(
       "Random seed", random_seed, "random: another number gives other points.");
     add_parameter("File",
                   file,
-                  "file: a .csv file whose first line names its columns, or an "
-                  ".h5 file with a dataset for each: x, y (m), volume (m^2); "
-                  "optionally material (name, or number from 0), vx, vy (m/s), "
-                  "sxx, syy, sxy (Pa). Relative to the folder of the parameter "
-                  "file, or else to that of the call.");
+                  std::string("file: a .csv file whose first line names its "
+                              "columns, or an .h5 file with a dataset for "
+                              "each: ") +
+                    (dim == 2 ? "x, y (m), volume (m^2); optionally material "
+                                "(name, or number from 0), vx, vy (m/s), sxx, "
+                                "syy, sxy (Pa)"
+                              : "x, y, z (m), volume (m^3); optionally "
+                                "material (name, or number from 0), vx, vy, vz "
+                                "(m/s), sxx, syy, sxy, szz, syz, szx (Pa)") +
+                    ". Relative to the folder of the parameter file, or else "
+                    "to that of the call.");
   }
 
   void
@@ -153,6 +165,10 @@ namespace geocone
         if (layout == Layout::lattice && !(spacing > 0.))
           throw InputError(
             "Particles/Spacing", spacing, "> 0", "half a cell size is usual");
+        if (layout == Layout::random)
+          scene.geometry.refuse_where("random points, whose volumes it would "
+                                      "have to know",
+                                      "set Particles/Layout = lattice");
         if (layout == Layout::random && number == 0)
           throw InputError("Particles/Number",
                            number,
@@ -184,9 +200,10 @@ namespace geocone
   Seeding::check_effort(const Geometry &geometry) const
   {
     const auto [lower, upper] = geometry.bounding_box();
-    const double tries        = (upper[0] - lower[0]) * (upper[1] - lower[1]) /
-                         (layout == Layout::lattice ? spacing * spacing
-                                                    : geometry.area() / number);
+    double tries = layout == Layout::lattice ? std::pow(spacing, -int(dim)) :
+                                               number / geometry.area();
+    for (unsigned int d = 0; d < dim; ++d)
+      tries *= upper[d] - lower[d];
     const std::string allowed = format(
       "at most %g points in the box around the body, which are tried one by "
       "one",
@@ -214,11 +231,11 @@ namespace geocone
     const bool   is_file = scene.geometry.shape == Geometry::Shape::file;
     const double area    = is_file ? mesh.area : scene.geometry.area();
     if (layout == Layout::lattice)
-      return area / (spacing * spacing);
+      return area * std::pow(spacing, -int(dim));
     const double per_cell =
       !mesh.is_simplicial || layout == Layout::sub_cells
-        ? double(k) * k
-        : places_in_triangle(true, std::min(k, most_in_triangle)).size();
+        ? std::pow(k, dim)
+        : places_in_simplex(true, std::min(k, most_in_simplex)).size();
     return per_cell * mesh.n_cells * std::min(1., area / mesh.area);
   }
 
@@ -318,7 +335,10 @@ namespace geocone
                  const Detail                       detail,
                  const Take                        &take) const
   {
-    const double size = std::sqrt(grid.axes[0].size * grid.axes[1].size);
+    double volume = 1.;
+    for (unsigned int d = 0; d < dim; ++d)
+      volume *= grid.axes[d].size;
+    const double size = length_of(volume);
     if (points_per_direction() == 0)
       {
         visit_all(scene, [&](Block &block, const Given &given) {
@@ -344,22 +364,33 @@ namespace geocone
       return grid.axes[d].begin +
              (interval + line.point(q)[0]) * grid.axes[d].size;
     };
+    // Columns of cells, in them rows, in three dimensions cells along z, and in each
+    // cell points along x, y, z: the first ones run fastest.
+    const unsigned int n_rows   = grid.axes[1].n_intervals,
+                       n_layers = dim == 3 ? grid.axes[dim - 1].n_intervals : 1,
+                       n_deep   = dim == 3 ? k : 1;
     for (unsigned int i = columns[0]; i < columns[1]; ++i)
-      for (unsigned int j = 0; j < grid.axes[1].n_intervals; ++j)
-        for (unsigned int b = 0; b < k; ++b)
-          for (unsigned int a = 0; a < k; ++a)
-            {
-              const Point<dim> x(place(0, i, a), place(1, j, b));
-              if (!scene.geometry.contains(x))
-                continue;
-              Seed seed;
-              seed.position = x;
-              seed.volume   = line.weight(a) * line.weight(b) *
-                            grid.axes[0].size * grid.axes[1].size;
-              seed.cell = size;
-              describe(seed, scene, Given(), detail);
-              take(seed);
-            }
+      for (unsigned int j = 0; j < n_rows; ++j)
+        for (unsigned int l = 0; l < n_layers; ++l)
+          for (unsigned int c = 0; c < n_deep; ++c)
+            for (unsigned int b = 0; b < k; ++b)
+              for (unsigned int a = 0; a < k; ++a)
+                {
+                  Seed seed;
+                  seed.position[0] = place(0, i, a);
+                  seed.position[1] = place(1, j, b);
+                  seed.volume      = line.weight(a) * line.weight(b) * volume;
+                  if (dim == 3)
+                    {
+                      seed.position[dim - 1] = place(dim - 1, l, c);
+                      seed.volume *= line.weight(c);
+                    }
+                  if (!scene.geometry.contains(seed.position))
+                    continue;
+                  seed.cell = size;
+                  describe(seed, scene, Given(), detail);
+                  take(seed);
+                }
   }
 
   void
@@ -389,18 +420,25 @@ namespace geocone
         return;
       }
     const bool simplicial = mesh.is_simplicial();
-    if (simplicial && layout == Layout::gauss && k > most_in_triangle)
+    if (simplicial && layout == Layout::sub_cells && dim == 3)
+      throw InputError("Particles/Layout",
+                       layout.word(),
+                       "Gauss | lattice | random | file on tetrahedra",
+                       "choose one of them");
+    if (simplicial && layout == Layout::gauss && k > most_in_simplex)
       throw InputError("Particles/Points per direction",
                        k,
-                       "1 to " + std::to_string(most_in_triangle) +
-                         " for Gauss points of triangles",
-                       "set Particles/Layout = sub-cells");
+                       "1 to " + std::to_string(most_in_simplex) +
+                         " for Gauss points of simplices",
+                       dim == 2 ? "set Particles/Layout = sub-cells"
+                                : "set Particles/Layout = lattice");
     const Quadrature<dim> quadrature =
       simplicial
-        ? places_in_triangle(layout == Layout::gauss, k)
+        ? places_in_simplex(layout == Layout::gauss, k)
         : Quadrature<dim>(places_in_interval(layout == Layout::gauss, k));
-    const FE_Nothing<dim> nothing(simplicial ? ReferenceCells::Triangle
-                                             : ReferenceCells::Quadrilateral);
+    const FE_Nothing<dim> nothing(
+      simplicial ? ReferenceCells::get_simplex<dim>() :
+                   ReferenceCells::get_hypercube<dim>());
     FEValues<dim>         values(mesh.mapping(),
                          nothing,
                          quadrature,
@@ -469,18 +507,30 @@ namespace geocone
     };
     if (layout == Layout::lattice)
       {
-        seed.volume = spacing * spacing;
+        seed.volume = spacing * spacing * (dim == 3 ? spacing : 1.);
         // By index: a sum of spacings would gather rounding errors.
         const auto coordinate = [&](const double begin, const std::size_t i) {
           return begin + (i + 0.5) * spacing;
         };
-        for (std::size_t j = 0; coordinate(lower[1], j) < upper[1]; ++j)
-          for (std::size_t i = 0; coordinate(lower[0], i) < upper[0]; ++i)
+        const auto layer = [&]() {
+          for (std::size_t j = 0; coordinate(lower[1], j) < upper[1]; ++j)
+            for (std::size_t i = 0; coordinate(lower[0], i) < upper[0]; ++i)
+              {
+                seed.position[0] = coordinate(lower[0], i);
+                seed.position[1] = coordinate(lower[1], j);
+                if (geometry.contains(seed.position))
+                  add();
+              }
+        };
+        if (dim == 2)
+          layer();
+        else
+          for (std::size_t l = 0;
+               coordinate(lower[dim - 1], l) < upper[dim - 1];
+               ++l)
             {
-              seed.position = {coordinate(lower[0], i),
-                               coordinate(lower[1], j)};
-              if (geometry.contains(seed.position))
-                add();
+              seed.position[dim - 1] = coordinate(lower[dim - 1], l);
+              layer();
             }
       }
     else

@@ -62,15 +62,17 @@ namespace geocone
           "MPM B-spline 2, P1 or Q1."
         : ". P1 and P2 on tetrahedra, Q1 to Q3 on hexahedra, B-splines on "
           "grids of "
-          "them. Automatic: P2 or Q2.");
+          "them. Automatic: P2 or Q2 for FEM; for MPM B-spline 2, P2 or Q1.");
     basis.declare(*this,
                   "Basis",
                   ", of P2, P3, Q2 and Q3. Automatic: Lagrange's for FEM, "
                   "Bernstein's, which are not negative, for MPM.");
     add_parameter("B-bar",
                   b_bar,
-                  "For Q1: the volumetric strain of a cell is its mean over "
-                  "the cell's points, against locking.");
+                  "For Q1, Q2 and Q3: the volumetric strain of a cell is "
+                  "projected onto polynomials of one degree less (for Q1 it is "
+                  "its mean over the cell's points), against locking. Of Q2 "
+                  "and Q3 only with FEM.");
   }
 
   void
@@ -79,7 +81,10 @@ namespace geocone
                         const Method &method)
   {
     if (kind == Element::automatic)
-      kind = dim == 3     ? simplicial ? Element::p2 : Element::q2
+      kind = dim == 3     ? simplicial         ? Element::p2
+                            : !method.is_mpm() ? Element::q2
+                            : has_grid         ? Element::spline_2
+                                               : Element::q1
              : simplicial ? method.is_explicit() ? Element::p1 : Element::p3
              : !method.is_mpm()     ? Element::q3
              : !has_grid            ? Element::q1
@@ -112,13 +117,17 @@ namespace geocone
                        "take B-spline 2 or 3, which hardly lock");
     if (basis == Basis::automatic)
       basis = method.is_mpm() ? Basis::bernstein : Basis::lagrange;
-    if (b_bar && kind != Element::q1)
+    if (b_bar && (simplicial || kind >= Element::spline_2))
       throw InputError("Discretisation/B-bar",
                        "true",
-                       "true for Q1 only",
-                       "elements and splines of higher degree lock little, and "
-                       "one mean per cell leaves them too soft: set B-bar = "
-                       "false, or Element = Q1");
+                       "true for Q1, Q2 and Q3",
+                       "others lock little: set B-bar = false");
+    if (b_bar && method.is_mpm() && p > 1)
+      throw InputError("Discretisation/B-bar",
+                       "true",
+                       "true for Q1 where particles carry the material",
+                       "elements and splines of higher degree lock little: set "
+                       "B-bar = false, or Element = Q1");
   }
 
   void

@@ -383,12 +383,9 @@ namespace geocone
 
     // Rigid velocities along the axes, and rotations w x (x - x_c)/size about z or
     // about x, y and z: a motion is free if it moves no prescribed dof.
-    constexpr unsigned int n_rotations = dim == 2 ? 1 : 3;
-    constexpr unsigned int n_rigid     = dim + n_rotations;
+    constexpr unsigned int n_rigid = dim + n_rotations;
     using Gram  = Eigen::Matrix<double, n_rigid, n_rigid>;
     using Rigid = Eigen::Matrix<double, n_rigid, 1>;
-    // The plane in which a rotation moves points, from its first axis to its second.
-    constexpr unsigned int plane[3][2] = {{0, 1}, {1, 2}, {2, 0}};
     std::vector<double>    gram(n_rigid * n_rigid * n_parts, 0.), size(n_parts);
     std::vector<Point<dim>> centre(n_parts);
     for (unsigned int p = 0; p < n_parts; ++p)
@@ -415,7 +412,7 @@ namespace geocone
         row[c] = d[c];
       for (unsigned int k = 0; k < n_rotations; ++k)
         {
-          const auto [a, b] = plane[k];
+          const auto [a, b] = plane_of_rotation[k];
           row[dim + k]      = (d[b] * r[a] - d[a] * r[b]) / size[p];
         }
       of_part(p) += row * row.transpose();
@@ -465,7 +462,7 @@ namespace geocone
             for (unsigned int i = 1; i < n_rotations; ++i)
               if (std::abs(m[dim + i]) > std::abs(m[dim + k]))
                 k = i;
-            const auto [a, b]  = plane[k];
+            const auto [a, b]  = plane_of_rotation[k];
             const auto rounded = [&](const double x) {
               return std::abs(x) < 1e-9 * size[p] ? 0. : x;
             };

@@ -124,7 +124,7 @@ namespace geocone
     p.nodes                            = gather(p.nodes, comm);
     p.gradients                        = gather(points.gradients, comm);
     p.values                           = gather(points.values, comm);
-    p.mean_gradients                   = gather(points.mean_gradients, comm);
+    p.volumetric_gradients = gather(points.volumetric_gradients, comm);
     p.material                         = gather(points.material, comm);
     p.weight                           = gather(points.weight, comm);
     p.mass                             = gather(points.mass, comm);
@@ -190,7 +190,7 @@ namespace geocone
     file.write("points/nodes", integers(points.nodes));
     file.write("points/gradients", points.gradients);
     file.write("points/values", points.values);
-    file.write("points/mean_gradients", points.mean_gradients);
+    file.write("points/mean_gradients", points.volumetric_gradients);
     file.write("points/material", integers(points.material));
     file.write("points/weight", points.weight);
     file.write("points/mass", points.mass);
@@ -262,7 +262,7 @@ namespace geocone
     p.nodes           = unsigned_array("points/nodes");
     p.gradients       = doubles("points/gradients");
     p.values          = doubles("points/values");
-    p.mean_gradients  = doubles("points/mean_gradients");
+    p.volumetric_gradients = doubles("points/mean_gradients");
     p.material        = unsigned_array("points/material");
     p.weight          = doubles("points/weight");
     p.mass            = doubles("points/mass");
@@ -302,8 +302,8 @@ namespace geocone
           "the histories of its points differ in length");
     p.n_history = p.history.size() / n;
     check((p.values.empty() || p.values.size() == n * functions) &&
-            (p.mean_gradients.empty() ||
-             p.mean_gradients.size() == dim * p.n_cells() * functions),
+            (p.volumetric_gradients.empty() ||
+             p.volumetric_gradients.size() == p.gradients.size()),
           "the functions of its points differ in number");
     for (const double weight : p.weight)
       check(weight > 0., "it has points without a volume");

@@ -136,32 +136,51 @@ namespace geocone
         const auto place = mesh.place_in_grid(cell);
         for (unsigned int along = 0; along < dim; ++along)
           {
-            const unsigned int across = 1 - along;
-            const auto         number = [&](const unsigned int i,
-                                    const unsigned int j) {
-              return space.local_node(
-                nodes[along == 0 ? j * n_row + i : i * n_row + j]);
+            // Lines of functions along a direction, counted in the others; those
+            // that the next cell has, too, are left to it.
+            unsigned int n_lines = 1, stride = 1;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                n_lines *= d == along ? 1 : n_row;
+                stride *= d < along ? n_row : 1;
+              }
+            const auto is_last = [&](const unsigned int d) {
+              return place[d] + 2 == mesh.grid()[d].size();
             };
-            const bool last[dim] = {place[0] + 2 == mesh.grid()[0].size(),
-                                    place[1] + 2 == mesh.grid()[1].size()};
-            for (unsigned int j = 0; j <= p; ++j)
-              if (j == 0 || last[across])
+            for (unsigned int line = 0; line < n_lines; ++line)
+              {
+                unsigned int first = 0, rest = line, factor = 1;
+                bool         is_mine = true;
+                for (unsigned int d = 0; d < dim; ++d, factor *= n_row)
+                  if (d != along)
+                    {
+                      const unsigned int j = rest % n_row;
+                      rest /= n_row;
+                      first += j * factor;
+                      is_mine = is_mine && (j == 0 || is_last(d));
+                    }
+                if (!is_mine)
+                  continue;
+                const auto number = [&](const unsigned int i) {
+                  return space.local_node(nodes[first + i * stride]);
+                };
                 for (unsigned int i = 0; i <= p; ++i)
                   for (const bool up : {true, false})
                     {
                       // Of the cells that all three reach, the outermost one.
                       if (up ? i < 2 || (i < p && place[along] > 0)
-                             : i + 2 > p || (i > 0 && !last[along]))
+                             : i + 2 > p || (i > 0 && !is_last(along)))
                         continue;
                       Triple triple;
                       for (unsigned int k = 0; k < 3; ++k)
-                        triple.node[k] = number(up ? i - 2 + k : i + 2 - k, j);
+                        triple.node[k] = number(up ? i - 2 + k : i + 2 - k);
                       const auto &x = space.node_positions();
                       triple.a =
                         (x[triple.node[2]] - x[triple.node[1]]).norm() /
                         (x[triple.node[1]] - x[triple.node[0]]).norm();
                       triples.push_back(triple);
                     }
+              }
           }
       }
   }

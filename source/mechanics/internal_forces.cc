@@ -70,12 +70,16 @@ namespace geocone
             rate += points.hoop[n * p + i] * cell_v[2 * i];
           result_zz[p] = factor * rate;
         }
-    if (points.mean_gradients.empty())
+    if (points.volumetric_gradients.empty())
       return;
-    const double mean = trace<n_mandel>(
-      factor * kernels::strain<n>(&points.mean_gradients[dim * n * c], cell_v));
     for (unsigned int p = begin; p < end; ++p)
-      result[p] += ((mean - trace(result[p])) / dim) * unit_tensor<n_mandel>();
+      {
+        const double volumetric =
+          factor * trace(kernels::strain<n>(
+                     &points.volumetric_gradients[dim * n * p], cell_v));
+        result[p] +=
+          ((volumetric - trace(result[p])) / dim) * unit_tensor<n_mandel>();
+      }
   }
 
   template <int n, typename WeightedStress, typename WeightedHoopStress>
@@ -95,25 +99,22 @@ namespace geocone
           for (int i = 0; i < n; ++i)
             cell_f[2 * i] += points.hoop[n * p + i] * hoop;
         }
-    if (points.mean_gradients.empty())
+    if (points.volumetric_gradients.empty())
       {
         for (unsigned int p = begin; p < end; ++p)
           add_force<n>(
             &points.gradients[dim * n * p], weighted_stress(p), cell_f);
         return;
       }
-    double volumetric = 0.;
     for (unsigned int p = begin; p < end; ++p)
       {
         Mandel       s    = weighted_stress(p);
-        const double mean = trace(s) / dim;
-        s -= mean * unit_tensor<n_mandel>();
-        volumetric += mean;
+        const Mandel mean = (trace(s) / dim) * unit_tensor<n_mandel>();
+        s -= mean;
         add_force<n>(&points.gradients[dim * n * p], s, cell_f);
+        add_force<n>(
+          &points.volumetric_gradients[dim * n * p], mean, cell_f);
       }
-    add_force<n>(&points.mean_gradients[dim * n * c],
-                 volumetric * unit_tensor<n_mandel>(),
-                 cell_f);
   }
 
   template <int n>
@@ -383,14 +384,17 @@ namespace geocone
                        (blend * h * points.weight[p]) *
                          materials[points.material[p]].elasticity().stiffness();
             }
-          const double *g = &points.gradients[dim * n * first];
-          if (!points.mean_gradients.empty())
-            stiffness_b_bar<n>(
-              g, &points.mean_gradients[dim * n * c], C.data(), n_q, K);
-          else if (one_triangle)
-            stiffness<n, true>(g, C.data(), n_q, scratch.data(), K);
+          const double *const g = &points.gradients[dim * n * first];
+          const double *const volumetric =
+            points.volumetric_gradients.empty()
+              ? nullptr
+              : &points.volumetric_gradients[dim * n * first];
+          if (one_triangle)
+            stiffness<n, true>(
+              g, volumetric, C.data(), n_q, scratch.data(), K);
           else
-            stiffness<n, false>(g, C.data(), n_q, scratch.data(), K);
+            stiffness<n, false>(
+              g, volumetric, C.data(), n_q, scratch.data(), K);
           if (is_axisymmetric())
             for (unsigned int q = 0; q < n_q; ++q)
               add_hoop_stiffness<n>(first + q, blend, K);

@@ -136,8 +136,8 @@ namespace geocone
     const unsigned int padded = group.n_padded();
     at.nodes.resize(n * padded);
     at.N.resize(n * padded);
-    at.dN_dx.resize(n * padded);
-    at.dN_dy.resize(n * padded);
+    for (std::vector<double> &slopes : at.slopes)
+      slopes.resize(n * padded);
     std::vector<Tensor<1, dim>> gradient(n);
     for (unsigned int p = 0; p < padded; ++p)
       {
@@ -151,8 +151,8 @@ namespace geocone
         for (unsigned int i = 0; i < n; ++i)
           {
             const Tensor<1, dim> slope = gradient[i] * inverse;
-            at.dN_dx[p * n + i]        = slope[0];
-            at.dN_dy[p * n + i]        = slope[1];
+            for (unsigned int d = 0; d < dim; ++d)
+              at.slopes[d][p * n + i] = slope[d];
             at.nodes[p * n + i]        = cell_nodes[c * n + i];
           }
       }
@@ -164,8 +164,10 @@ namespace geocone
   {
     const Functions  &at    = functions[points.group];
     const std::size_t first = n * static_cast<std::size_t>(points.first + k);
-    return {
-      n, &at.nodes[first], &at.N[first], &at.dN_dx[first], &at.dN_dy[first]};
+    PointFunctions    here  = {n, &at.nodes[first], &at.N[first], {}};
+    for (unsigned int d = 0; d < dim; ++d)
+      here.slopes[d] = &at.slopes[d][first];
+    return here;
   }
 
   void
@@ -284,9 +286,12 @@ namespace geocone
     std::size_t bytes = read.memory_consumption() + write.memory_consumption() +
                         mass.memory_consumption();
     for (const Functions &at : functions)
-      bytes += at.nodes.capacity() * sizeof(unsigned int) +
-               (at.N.capacity() + at.dN_dx.capacity() + at.dN_dy.capacity()) *
-                 sizeof(double);
+      {
+        bytes += at.nodes.capacity() * sizeof(unsigned int) +
+                 at.N.capacity() * sizeof(double);
+        for (const std::vector<double> &slopes : at.slopes)
+          bytes += slopes.capacity() * sizeof(double);
+      }
     return bytes;
   }
 } // namespace geocone

@@ -41,6 +41,22 @@ namespace geocone
     , space(space)
   {
     const auto &list = scene.dirichlet.list;
+    if (dim == 3)
+      {
+        // Sides that move are lines.
+        for (const auto &condition : list)
+          if (condition->moves())
+            throw InputError(condition->parameter("Imposed on"),
+                             condition->imposition.word(),
+                             "nodes in three dimensions",
+                             "hold or move sides of the background mesh");
+        if (!scene.tractions.list.empty())
+          throw InputError("Tractions/Names",
+                           scene.tractions.list[0]->name,
+                           "none on particles in three dimensions",
+                           "prescribe velocities, or set "
+                           "Discretisation/Method = FEM");
+      }
     for (unsigned int c = 0; c < list.size(); ++c)
       if (list[c]->holds() == Imposition::On::side)
         {
@@ -359,7 +375,7 @@ namespace geocone
                            beyond = (along[1] * to[0] - along[0] * to[1]) /
                                     length; // to the right, outside
               // Not far behind: there another part of the body may be.
-              const double size = std::sqrt(points.weight[p]);
+              const double size = length_of(points.weight[p]);
               behind = behind || (s > 0. && s < 1. && beyond > 0.1 * size &&
                                   beyond < length);
             }

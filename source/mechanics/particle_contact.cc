@@ -30,7 +30,7 @@ namespace geocone
                        [&](const unsigned int p,
                            const unsigned int /* cell */,
                            const PointFunctions &at) {
-                         const double half = std::sqrt(points.weight[p]) / 2.;
+                         const double half = length_of(points.weight[p]) / 2.;
                          const double gap =
                            obstacles.list[o]
                              ->nearest(points.position[p], moved[o], {})

@@ -101,7 +101,10 @@ namespace geocone
       element[0] == 'B' ||
       (element == "automatic" && method.is_mpm() && expected.is_grid);
     const unsigned int p = element != "automatic" ? element.back() - '0'
-                           : dim == 3             ? 2
+                           : dim == 3 ? (method.is_mpm() && !expected.is_grid &&
+                                             !expected.is_simplicial
+                                           ? 1
+                                           : 2)
                            : !method.is_mpm()     ? 3
                            : expected.is_simplicial
                              ? (method.is_explicit() ? 1 : 3)

@@ -263,7 +263,10 @@ namespace geocone
     corner[0]         = 1.;
     polygon           = {dealii::Point<dim>(), corner, corner};
     polygon.back()[1] = 1.;
-    shape.declare(*this, "Shape", ". Discs are for MPM only.");
+    shape.declare(*this,
+                  "Shape",
+                  dim == 2 ? ". Discs are for MPM only."
+                           : ". Discs are balls, for MPM only.");
     symmetry.declare(*this,
                      "Symmetry",
                      ": what the scene is a section of. Axisymmetric: a round "
@@ -274,7 +277,7 @@ namespace geocone
                   dimension,
                   "2, or 3: then points have coordinates x, y, z (y upwards), "
                   "polygons of regions are boxes given by two corners, and "
-                  "forces are in N. Three dimensions are for FEM.",
+                  "forces are in N. Three dimensions are for FEM and MPM.",
                   prm,
                   dealii::Patterns::Integer(2, 3));
     add_parameter(
@@ -285,6 +288,15 @@ namespace geocone
                : "Lowest and highest corner x, y, z; x, y, z (m). Its sides "
                  "are called left and right (least and largest x), bottom "
                  "and top (y), back and front (z).");
+    add_parameter("Where",
+                  where_text,
+                  std::string("MPM: of the shape, the body is where this "
+                              "formula in ") +
+                    coordinates +
+                    " (m) is > 0, e.g. " +
+                    (dim == 2 ? "0.25 - x^2 - y^2" : "0.25 - x^2 - z^2") +
+                    " for a " + (dim == 2 ? "disc" : "cylinder") +
+                    " of radius 0.5 m. Empty: all of it.");
     add_parameter("Polygon",
                   polygon,
                   "Vertices x, y; x, y; ... (m) in order. Side i runs from "
@@ -321,6 +333,8 @@ namespace geocone
                        "leave it out, or set Dimension = 2");
     outline.clear();
     sides.clear();
+    if (!where_text.empty())
+      where.emplace().prepare(where_text, "Geometry/Where");
     if (shape == Shape::box)
       {
         if (!is_box(box))
@@ -334,11 +348,12 @@ namespace geocone
         outline = outline_of_box(box[0], box[1]);
         sides   = sides_of_box();
       }
-    else if (dim == 3 && shape != Shape::file)
+    else if (dim == 3 && shape == Shape::polygon)
       throw InputError("Geometry/Shape",
                        shape.word(),
-                       "box | file in three dimensions",
-                       "mesh other bodies with gmsh");
+                       "box | discs | file in three dimensions",
+                       "mesh other bodies with gmsh; MPM has 'Geometry/Where', "
+                       "too");
     else if (shape == Shape::polygon)
       {
         outline = polygon;
@@ -398,8 +413,9 @@ namespace geocone
       {
         if (!(radii[i] > 0.))
           throw InputError("Geometry/Radii", values, "> 0", "give them in m");
-        const double farthest =
-          std::max(std::abs(centres[i][0]), std::abs(centres[i][1])) + radii[i];
+        double farthest = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          farthest = std::max(farthest, std::abs(centres[i][d]) + radii[i]);
         if (!(farthest <= largest_coordinate))
           throw InputError(
             "Geometry/Centres",
@@ -409,10 +425,9 @@ namespace geocone
         if (radii[i] < resolved_length({centres[i]}))
           throw InputError("Geometry/Radii",
                            values,
-                           format(">= %g at the centre %g, %g",
-                                  resolved_length({centres[i]}),
-                                  centres[i][0],
-                                  centres[i][1]),
+                           format(">= %g at the centre ",
+                                  resolved_length({centres[i]})) +
+                             text_of_place(centres[i]),
                            "put the origin near the body: numbers of 16 "
                            "digits hold no small body far away");
         for (std::size_t j = 0; j < i; ++j)
@@ -437,6 +452,8 @@ namespace geocone
   bool
   Geometry::contains(const Point<dim> &x) const
   {
+    if (where && !(where->value(x, 0.) > 0.))
+      return false;
     switch (shape)
       {
         case Shape::file:
@@ -479,14 +496,48 @@ namespace geocone
   Geometry::area() const
   {
     Assert(shape != Shape::file, dealii::ExcNotImplemented());
+    if (where)
+      return area_of_samples();
+    if (shape == Shape::discs)
+      {
+        double area = 0.;
+        for (const double r : radii)
+          area += dim == 2 ? pi * r * r : 4. / 3. * pi * r * r * r;
+        return area;
+      }
     if (dim == 3)
       return dealii::BoundingBox<dim>(outline).volume();
-    if (shape != Shape::discs)
-      return std::abs(signed_area(outline));
-    double area = 0.;
-    for (const double r : radii)
-      area += pi * r * r;
-    return area;
+    return std::abs(signed_area(outline));
+  }
+
+  double
+  Geometry::area_of_samples() const
+  {
+    const auto [lower, upper] = bounding_box();
+    constexpr unsigned int n  = dim == 2 ? 256 : 40;
+    unsigned int           total = 1, inside = 0;
+    double                 area  = 1.;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        total *= n;
+        area *= upper[d] - lower[d];
+      }
+    for (unsigned int i = 0; i < total; ++i)
+      {
+        Point<dim> x;
+        for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= n)
+          x[d] = lower[d] + (rest % n + 0.5) / n * (upper[d] - lower[d]);
+        inside += contains(x);
+      }
+    return area * inside / total;
+  }
+
+  void
+  Geometry::refuse_where(const std::string &who,
+                         const std::string &remedy) const
+  {
+    if (where)
+      throw InputError("Geometry/Where", where_text, "empty with " + who, remedy);
   }
 
   Regions::Region::Region(const std::string &name)

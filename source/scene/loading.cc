@@ -446,8 +446,9 @@ namespace geocone
   void
   InitialStress::check_level_ground(const Geometry &geometry) const
   {
-    if (geometry.outline.empty())
-      return; // a .msh file: its surface is the user's to know
+    // A box is level; the surface of a .msh file is the user's to know.
+    if (dim == 3 || geometry.outline.empty())
+      return;
     double top = geometry.outline[0][1];
     for (const dealii::Point<dim> &x : geometry.outline)
       top = std::max(top, x[1]);

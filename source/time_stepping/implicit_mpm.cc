@@ -172,7 +172,7 @@ namespace geocone
     if (rule.is_affine())
       for (unsigned int p = 0; p < points.n_points(); ++p)
         points.affine[p] = scene->initial_velocity.gradient(
-          points.position[p], std::sqrt(points.weight[p]));
+          points.position[p], length_of(points.weight[p]));
     begin(points, timer);
     constraints->check_axis(*mesh, *space);
     newton.check(*problem);
@@ -202,10 +202,13 @@ namespace geocone
                      [&](const unsigned int p,
                          const unsigned int /* cell */,
                          const PointFunctions &at) {
-                       const double m             = points.mass[p];
-                       const double masses[dim]   = {m, m};
-                       const double momentum[dim] = {m * points.velocity[p][0],
-                                                     m * points.velocity[p][1]};
+                       const double m = points.mass[p];
+                       double       masses[dim], momentum[dim];
+                       for (unsigned int d = 0; d < dim; ++d)
+                         {
+                           masses[d]   = m;
+                           momentum[d] = m * points.velocity[p][d];
+                         }
                        at.scatter<dim, false>(masses, lumped_mass.begin());
                        at.scatter<dim, false>(momentum, velocity_L.begin());
                        if (rule.is_affine())
@@ -343,8 +346,7 @@ namespace geocone
                      const Tensor<1, dim> f =
                        part * points.weight[p] *
                        scene->water.force(points.position[p]);
-                     const double both[dim] = {f[0], f[1]};
-                     at.scatter<dim, false>(both, of_water.begin());
+                     at.scatter<dim, false>(f.begin_raw(), of_water.begin());
                    });
     of_water.compress(VectorOperation::add);
     force += of_water;

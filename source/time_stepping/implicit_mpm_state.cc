@@ -9,6 +9,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,15 +21,41 @@ namespace geocone
 
   namespace
   {
-    /** A Mandel vector turned by an angle: Q t Q'. */
+    /** A Mandel vector turned by angles about z, x, y: Q t Q'. */
     Mandel
-    turn(const Mandel &t, const double angle)
+    turn(const Mandel &t, const Tensor<1, n_rotations> &angle)
     {
-      const double c = std::cos(2. * angle), s = std::sin(2. * angle);
-      const double mean = (t[0] + t[1]) / 2., half = (t[0] - t[1]) / 2.,
-                   shear = t[2] / sqrt2;
-      const double h     = c * half - s * shear;
-      return in_plane(mean + h, mean - h, s * half + c * shear);
+      if constexpr (dim == 2)
+        {
+          const double c = std::cos(2. * angle[0]), s = std::sin(2. * angle[0]);
+          const double mean = (t[0] + t[1]) / 2., half = (t[0] - t[1]) / 2.,
+                       shear = t[2] / sqrt2;
+          const double h     = c * half - s * shear;
+          return in_plane(mean + h, mean - h, s * half + c * shear);
+        }
+      else
+        {
+          const double size = angle.norm();
+          if (size == 0.)
+            return t;
+          const Eigen::Vector3d axis =
+            Eigen::Vector3d(angle[1], angle[2], angle[0]) / size;
+          const Eigen::Matrix3d Q =
+            Eigen::AngleAxisd(size, axis).toRotationMatrix();
+          Eigen::Matrix3d tensor;
+          for (int d = 0; d < 3; ++d)
+            tensor(d, d) = t[place_of_normal[d]];
+          for (const auto [place, a, b] : shears)
+            if (place < n_mandel)
+              tensor(a, b) = tensor(b, a) = t[place] / sqrt2;
+          tensor = (Q * tensor * Q.transpose()).eval();
+          Mandel turned;
+          for (int d = 0; d < 3; ++d)
+            turned[place_of_normal[d]] = tensor(d, d);
+          for (const auto [place, a, b] : shears)
+            turned[place] = sqrt2 * tensor(a, b);
+          return turned;
+        }
     }
   } // namespace
 
@@ -80,9 +108,11 @@ namespace geocone
       points,
       [&](
         const unsigned int p, const unsigned int c, const PointFunctions &at) {
-        const auto   box         = points.cells[c]->bounding_box();
-        const double extent[dim] = {box.side_length(0), box.side_length(1)};
-        double       end[dim], gained[dim], mean[3 * dim];
+        const auto            box = points.cells[c]->bounding_box();
+        std::array<double, dim> extent;
+        for (unsigned int d = 0; d < dim; ++d)
+          extent[d] = box.side_length(d);
+        double end[dim], gained[dim], mean[(1 + dim) * dim];
         at.gather<dim, false>(v.begin(), end);
         at.gather<dim, false>(change.begin(), gained);
         at.gather<dim, true>(v_mean.begin(), mean);
@@ -96,7 +126,8 @@ namespace geocone
           next.affine = at.gather_affine<dim>(v.begin(),
                                               points.position[p],
                                               space->node_positions(),
-                                              std::min(extent[0], extent[1]));
+                                              *std::min_element(extent.begin(),
+                                                                extent.end()));
         // Particles held one by one stay in their row: out of it, their rows would
         // prescribe a gradient as well.
         const BoundaryCondition *holder = holder_of(points, p);
@@ -125,27 +156,29 @@ namespace geocone
                                     ? next.position[0] / points.position[p][0]
                                     : 1.);
         next.volume = ratio * points.weight[p];
-        next.spin   = h * (gradient[1][0] - gradient[0][1]) / 2.;
+        for (unsigned int k = 0; k < n_rotations; ++k)
+          {
+            const auto [a, b] = plane_of_rotation[k];
+            next.spin[k]      = h * (gradient[b][a] - gradient[a][b]) / 2.;
+          }
 
         if (!std::isfinite(next.position.square()) ||
             !std::isfinite(next.velocity.norm_square()))
           obstacle =
             format("the velocity of particle %u is not a number", points.id[p]);
         else if (!(ratio > 0.05))
-          obstacle = format("the volume of particle %u at (%g, %g) would "
-                            "collapse to %.2g of itself",
+          obstacle = format("the volume of particle %u at (%s) would collapse "
+                            "to %.2g of itself",
                             points.id[p],
-                            points.position[p][0],
-                            points.position[p][1],
+                            text_of_place(points.position[p]).c_str(),
                             ratio);
         for (unsigned int d = 0; d < dim; ++d)
           if (std::abs(move[d]) > largest_move * extent[d])
             obstacle =
-              format("particle %u at (%g, %g) would cross %.1f cells, more "
-                     "than 'Material point method/Largest move'",
+              format("particle %u at (%s) would cross %.1f cells, more than "
+                     "'Material point method/Largest move'",
                      points.id[p],
-                     points.position[p][0],
-                     points.position[p][1],
+                     text_of_place(points.position[p]).c_str(),
                      std::abs(move[d]) / extent[d]);
       });
     return text_of_any_rank(v.get_mpi_communicator(), obstacle);

@@ -144,7 +144,7 @@ namespace
     // One block for each element and group, as gmsh writes them.
     std::size_t n = 0;
     SwappedText elements;
-    for (const auto *list : {&data.lines, &data.cells})
+    for (const auto *list : {&data.faces, &data.cells})
       for (const auto &e : *list)
         for (const int group : data.group_lists[e.groups])
           {
@@ -169,7 +169,7 @@ namespace
     out << "$MeshFormat\n4.1 1 8\n" << 1 << "\n$EndMeshFormat\n";
     out << "$PhysicalNames\n1\n1 11 \"the bottom\"\n$EndPhysicalNames\n";
     std::map<std::pair<int, int>, unsigned int> groups;
-    for (const auto &e : data.lines)
+    for (const auto &e : data.faces)
       groups[{1, e.entity}] = e.groups;
     for (const auto &e : data.cells)
       groups[{2, e.entity}] = e.groups;
@@ -197,12 +197,12 @@ namespace
     for (const auto &node : data.nodes)
       out << node.x[0] << node.x[1] << node.x[2] << 0.5 << 0.5;
     out << "\n$EndNodes\n$Elements\n";
-    const Size n = data.lines.size() + data.cells.size();
+    const Size n = data.faces.size() + data.cells.size();
     out << n << n << Size(1) << Size(99);
-    for (const auto *list : {&data.lines, &data.cells})
+    for (const auto *list : {&data.faces, &data.cells})
       for (const auto &e : *list)
         {
-          out << (list == &data.lines ? 1 : 2) << e.entity << e.type << Size(1)
+          out << (list == &data.faces ? 1 : 2) << e.entity << e.type << Size(1)
               << Size(e.tag);
           for (unsigned int i = 0; i < n_nodes_of_type(e.type); ++i)
             out << Size(e.nodes[i]);

@@ -24,27 +24,32 @@ some(const unsigned int i)
   return std::sin(12.9898 * i + 0.3) * std::cos(4.1414 * i);
 }
 
-/** The means of the gradients of each cell, weighted by volume. */
+/** The means of the gradients of each cell, weighted by volume, for each point. */
 std::vector<double>
 mean_gradients(const MaterialPoints &points)
 {
   const unsigned int  m = dim * points.n_nodes;
-  std::vector<double> mean(points.n_cells() * m, 0.);
+  std::vector<double> means;
   for (unsigned int c = 0; c < points.n_cells(); ++c)
     {
-      double volume = 0.;
+      std::vector<double> mean(m, 0.);
+      double              volume = 0.;
       for (unsigned int p = points.first_point[c];
            p < points.first_point[c + 1];
            ++p)
         {
           volume += points.weight[p];
           for (unsigned int i = 0; i < m; ++i)
-            mean[c * m + i] += points.weight[p] * points.gradients[p * m + i];
+            mean[i] += points.weight[p] * points.gradients[p * m + i];
         }
-      for (unsigned int i = 0; i < m; ++i)
-        mean[c * m + i] /= volume;
+      for (double &value : mean)
+        value /= volume;
+      for (unsigned int p = points.first_point[c];
+           p < points.first_point[c + 1];
+           ++p)
+        means.insert(means.end(), mean.begin(), mean.end());
     }
-  return mean;
+  return means;
 }
 
 void
@@ -64,9 +69,9 @@ check(const std::string &element,
   setup.particles.prepare(setup.scene, setup.mesh, setup.space);
   MaterialPoints points = setup.particles.collect(setup.mesh, setup.space);
   if (b_bar)
-    points.mean_gradients = mean_gradients(points);
+    points.volumetric_gradients = mean_gradients(points);
   else
-    points.mean_gradients.clear();
+    points.volumetric_gradients.clear();
   const double h = 0.01;
   for (unsigned int p = 0; p < points.n_points(); ++p)
     points.stress[p] = {-300. + 50. * some(7 * p),

@@ -89,6 +89,18 @@ namespace geocone
     return I;
   }
 
+  /** Rotations are about z, and in three dimensions about x and y, too; each moves
+   *  points in a plane, from its first axis to its second. */
+  constexpr unsigned int n_rotations             = dim == 2 ? 1 : 3;
+  constexpr unsigned int plane_of_rotation[3][2] = {{0, 1}, {1, 2}, {2, 0}};
+
+  /** The side of a square, or of a cube, of a volume (m). */
+  inline double
+  length_of(const double volume)
+  {
+    return dim == 2 ? std::sqrt(volume) : std::cbrt(volume);
+  }
+
   /** Names of the coordinates, one by one and in texts. */
   constexpr char        coordinate[3] = {'x', 'y', 'z'};
   constexpr const char *coordinates   = dim == 2 ? "x, y" : "x, y, z";

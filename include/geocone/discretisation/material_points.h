@@ -56,10 +56,10 @@ namespace geocone
     std::vector<double> values;
 
     /**
-     * Mean of grad N over a cell, weighted by volume, laid out as gradients: the
-     * volumetric strain comes from it (B-bar). Empty without B-bar.
+     * What the volumetric strain at a point comes from in place of grad N, laid out as
+     * gradients (B-bar). Empty without B-bar.
      */
-    std::vector<double> mean_gradients;
+    std::vector<double> volumetric_gradients;
 
     /** Index of the material of each point. */
     std::vector<unsigned int> material;
@@ -115,9 +115,12 @@ namespace geocone
     resize(const unsigned int n, const bool moving);
   };
 
-  /** Fills the mean gradients, for B-bar. */
+  /** Fills the volumetric gradients: in each cell the projection of grad N, weighted by
+   *  volume, onto the polynomials of x of a degree, 0 being the mean. Of elements of
+   *  degree k it is k - 1, a pair that neither locks nor oscillates (Q2/P-1 of Stokes
+   *  flow). Cells need as many points as there are such polynomials. */
   void
-  average_gradients(MaterialPoints &points);
+  project_gradients(const unsigned int degree, MaterialPoints &points);
 } // namespace geocone
 
 #endif

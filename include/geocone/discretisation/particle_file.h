@@ -20,7 +20,7 @@ namespace geocone
   struct Seed
   {
     dealii::Point<dim>     position;
-    double                 volume = 0.; ///< per unit thickness (m^2)
+    double                 volume = 0.; ///< per unit thickness (m^2), or (m^3)
     double                 cell = 0.; ///< BackgroundMesh::size_of its cell (m)
     unsigned int           material = 0;
     dealii::Tensor<1, dim> velocity;
@@ -32,7 +32,7 @@ namespace geocone
    * A table of particles, read in parts: a .csv file whose first line names its
    * columns, or an .h5 file with an array for each: x, y (m), volume (m^2), and,
    * if given, material (name in .csv, or number from 0), vx and vy (m/s), sxx and
-   * syy and sxy (Pa). A .csv file may begin with a byte-order mark, have lines that
+   * syy and sxy (Pa). In three dimensions z, vz, szz, syz, szx, too, and m^3. A .csv file may begin with a byte-order mark, have lines that
    * end in any way, names in double quotes, and blank lines at its end.
    * @throws InputError naming the parameter, the file, the place, and what is wrong
    * there; the same on all ranks that read the file
@@ -43,16 +43,12 @@ namespace geocone
     /** The columns, in the order of the class's text. */
     enum Column : unsigned int
     {
-      x,
-      y,
-      volume,
+      x, ///< and the other coordinates
+      volume = x + dim,
       material,
-      vx,
-      vy,
-      sxx,
-      syy,
-      sxy,
-      n_columns
+      vx, ///< and its other components
+      sxx       = vx + dim,
+      n_columns = sxx + n_mandel
     };
 
     ParticleFile(const std::string &file_name, const Materials &materials);

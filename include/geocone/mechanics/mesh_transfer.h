@@ -109,7 +109,9 @@ namespace geocone
     struct Functions
     {
       std::vector<unsigned int> nodes;
-      std::vector<double>       N, dN_dx, dN_dy; ///< (-), (1/m)
+      std::vector<double>       N;
+      /** dN/dx, dN/dy, ... (1/m) */
+      std::array<std::vector<double>, dim> slopes;
     };
 
     /** Evaluates the functions of all points of a group, and its padding. */

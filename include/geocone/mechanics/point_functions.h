@@ -10,6 +10,7 @@
 #include <deal.II/base/point.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace geocone
@@ -25,18 +26,18 @@ namespace geocone
     unsigned int        n;     ///< number of functions
     const unsigned int *nodes; ///< local numbers of their nodes
     const double       *N;
-    const double       *dN_dx; ///< (1/m)
-    const double       *dN_dy;
+    /** dN/dx of all functions, dN/dy, ... (1/m). */
+    std::array<const double *, dim> slopes;
 
     using Positions = std::vector<dealii::Point<dim>>; ///< of the local nodes
 
     /** G2P. @param[out] at_point sum N_i f_i of the m values, then, with gradients,
-     *  sum f_i dN_i/dx and sum f_i dN_i/dy */
+     *  sum f_i dN_i/dx, sum f_i dN_i/dy, ... */
     template <unsigned int m, bool with_gradients>
     void
     gather(const double *at_nodes, double *at_point) const
     {
-      std::fill_n(at_point, with_gradients ? 3 * m : m, 0.);
+      std::fill_n(at_point, with_gradients ? (1 + dim) * m : m, 0.);
       for (unsigned int i = 0; i < n; ++i)
         {
           const double *f = at_nodes + m * nodes[i];
@@ -44,10 +45,8 @@ namespace geocone
             {
               at_point[c] += N[i] * f[c];
               if (with_gradients)
-                {
-                  at_point[m + c] += dN_dx[i] * f[c];
-                  at_point[2 * m + c] += dN_dy[i] * f[c];
-                }
+                for (unsigned int d = 0; d < dim; ++d)
+                  at_point[(1 + d) * m + c] += slopes[d][i] * f[c];
             }
         }
     }
@@ -64,14 +63,14 @@ namespace geocone
             {
               f[c] += N[i] * at_point[c];
               if (with_gradients)
-                f[c] +=
-                  dN_dx[i] * at_point[m + c] + dN_dy[i] * at_point[2 * m + c];
+                for (unsigned int d = 0; d < dim; ++d)
+                  f[c] += slopes[d][i] * at_point[(1 + d) * m + c];
             }
         }
     }
 
     /** P2G of the affine momentum of APIC: adds mass N_i C (x_i - x) to the first
-     *  two of m values. */
+     *  dim of m values. */
     template <unsigned int m>
     void
     scatter_affine(const double                  mass,
@@ -88,7 +87,7 @@ namespace geocone
         }
     }
 
-    /** G2P of APIC: C of a point at x by the first two of m values, its velocities.
+    /** G2P of APIC: C of a point at x by the first dim of m values, its velocities.
      *  @param size of the cell (m), as in affine_velocity() */
     template <unsigned int m>
     dealii::Tensor<2, dim>
@@ -100,14 +99,13 @@ namespace geocone
       dealii::Tensor<2, dim> B, gradient;
       for (unsigned int i = 0; i < n; ++i)
         {
-          const double                *v          = at_nodes + m * nodes[i];
-          const dealii::Tensor<1, dim> r          = positions[nodes[i]] - x;
-          const double                 slope[dim] = {dN_dx[i], dN_dy[i]};
+          const double                *v = at_nodes + m * nodes[i];
+          const dealii::Tensor<1, dim> r = positions[nodes[i]] - x;
           for (unsigned int d = 0; d < dim; ++d)
             for (unsigned int e = 0; e < dim; ++e)
               {
                 B[d][e] += N[i] * v[d] * r[e];
-                gradient[d][e] += slope[e] * v[d];
+                gradient[d][e] += slopes[e][i] * v[d];
               }
         }
       return affine_velocity(B, moment(x, positions), gradient, size);
@@ -138,14 +136,11 @@ namespace geocone
            p < points.first_point[c + 1];
            ++p)
         {
-          const double *slopes = &points.gradients[2 * n * p];
-          f(p,
-            c,
-            PointFunctions{n,
-                           &points.nodes[n * c],
-                           &points.values[n * p],
-                           slopes,
-                           slopes + n});
+          PointFunctions at = {
+            n, &points.nodes[n * c], &points.values[n * p], {}};
+          for (unsigned int d = 0; d < dim; ++d)
+            at.slopes[d] = &points.gradients[n * (dim * p + d)];
+          f(p, c, at);
         }
   }
 } // namespace geocone

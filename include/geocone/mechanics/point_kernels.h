@@ -223,9 +223,45 @@ namespace geocone::kernels
       }
   }
 
+  /**
+   * What other gradients of the volumetric strain change of K (B-bar). With I the unit
+   * tensor the strain is B + I a'/dim, a the difference of the gradients, so that with
+   * w = C I/dim
+   * K += sum_q a_q (C_q' I/dim)' B_q + (B_q' w_q) a_q' + (I' w_q/dim) a_q a_q'.
+   * @param volumetric those gradients, laid out as g
+   */
+  template <int n, bool upper>
+  [[gnu::always_inline]] inline void
+  add_volumetric_stiffness(const double       *g,
+                           const double       *volumetric,
+                           const MandelMatrix *C,
+                           const unsigned int  n_points,
+                           double             *K)
+  {
+    constexpr int m = dim * n;
+    const Mandel  I = unit_tensor<n_mandel>() / dim;
+    for (unsigned int q = 0; q < n_points; ++q, g += m, volumetric += m)
+      {
+        const Mandel w = C[q] * I;
+        double       a[m], left[m] = {}, right[m] = {};
+        for (int i = 0; i < n; ++i)
+          for (unsigned int d = 0; d < dim; ++d)
+            a[dim * i + d] = volumetric[n * d + i] - g[n * d + i];
+        add_force<n>(g, w, left);
+        add_force<n>(g, C[q].transpose() * I, right);
+        const double square = I.dot(w);
+        for (int j = 0; j < m; ++j)
+          right[j] += square * a[j];
+        for (int i = 0; i < m; ++i)
+          for (int j = upper ? i - i % int(dim) : 0; j < m; ++j)
+            K[i * m + j] += a[i] * right[j] + left[i] * a[j];
+      }
+  }
+
   template <int n, bool upper>
   [[gnu::always_inline]] inline void
   stiffness_body(const double       *g,
+                 const double       *volumetric,
                  const MandelMatrix *C,
                  const unsigned int  n_points,
                  double             *scratch,
@@ -235,6 +271,8 @@ namespace geocone::kernels
       stiffness_of_plane<n, upper>(g, C, n_points, scratch, K);
     else
       stiffness_of_space<n, upper>(g, C, n_points, scratch, K);
+    if (volumetric != nullptr)
+      add_volumetric_stiffness<n, upper>(g, volumetric, C, n_points, K);
   }
 
 #if defined(__x86_64__)
@@ -242,19 +280,22 @@ namespace geocone::kernels
   template <int n, bool upper>
   [[gnu::target("avx2,fma")]] void
   stiffness_avx2(const double       *g,
+                 const double       *volumetric,
                  const MandelMatrix *C,
                  const unsigned int  n_points,
                  double             *scratch,
                  double             *K)
   {
-    stiffness_body<n, upper>(g, C, n_points, scratch, K);
+    stiffness_body<n, upper>(g, volumetric, C, n_points, scratch, K);
   }
 #endif
 
-  /** K by the fastest variant that the processor has. */
+  /** K by the fastest variant that the processor has.
+   *  @param volumetric those of B-bar, or null */
   template <int n, bool upper>
   void
   stiffness(const double       *g,
+            const double       *volumetric,
             const MandelMatrix *C,
             const unsigned int  n_points,
             double             *scratch,
@@ -264,50 +305,9 @@ namespace geocone::kernels
     static const bool avx2 =
       __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
     if (avx2)
-      return stiffness_avx2<n, upper>(g, C, n_points, scratch, K);
+      return stiffness_avx2<n, upper>(g, volumetric, C, n_points, scratch, K);
 #endif
-    stiffness_body<n, upper>(g, C, n_points, scratch, K);
-  }
-
-  /**
-   * K = sum_q B_q' C_q B_q with the volumetric part of B from the mean gradients
-   * of the cell (B-bar); as stiffness(), all entries.
-   * @param mean mean gradients, dim n values
-   */
-  template <int n>
-  void
-  stiffness_b_bar(const double       *g,
-                  const double       *mean,
-                  const MandelMatrix *C,
-                  const unsigned int  n_points,
-                  double             *K)
-  {
-    constexpr int                                            m = dim * n;
-    Eigen::Map<Eigen::Matrix<double, m, m, Eigen::RowMajor>> stiffness(K);
-    Eigen::Matrix<double, n_mandel, m>                       B;
-    stiffness.setZero();
-    for (unsigned int q = 0; q < n_points; ++q, g += m)
-      {
-        B.setZero();
-        for (int i = 0; i < n; ++i)
-          {
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                const double own = g[n * d + i];
-                for (unsigned int c = 0; c < dim; ++c)
-                  B(place_of_normal[c], dim * i + d) =
-                    (mean[n * d + i] - own) / dim;
-                B(place_of_normal[d], dim * i + d) += own;
-              }
-            for (int k = 0; k < n_shears; ++k)
-              {
-                const auto [place, a, b] = shears[k];
-                B(place, dim * i + a)    = g[n * b + i] / sqrt2;
-                B(place, dim * i + b)    = g[n * a + i] / sqrt2;
-              }
-          }
-        stiffness.noalias() += B.transpose() * (C[q] * B);
-      }
+    stiffness_body<n, upper>(g, volumetric, C, n_points, scratch, K);
   }
 
   /** Copies the entries of a cell's nodes between a cell vector and a vector. */

@@ -7,6 +7,7 @@
 #include <geocone/base/choice.h>
 #include <geocone/base/types.h>
 #include <geocone/materials/material_library.h>
+#include <geocone/scene/expression.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/point.h>
@@ -15,6 +16,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -96,7 +98,7 @@ namespace geocone
 
   /**
    * The domain: a box, a polygon, discs, or whatever a .msh file (or a script of
-   * gmsh) holds. The sides of a box are called bottom, right, top, left; those of
+   * gmsh) holds; of MPM the part of it where a formula is positive, if one is given. The sides of a box are called bottom, right, top, left; those of
    * a polygon 0, 1, 2, ... (side i runs from vertex i to the next one); those of
    * a file have the numbers or names of its physical curves; discs have none, and
    * only the material point method can fill them.
@@ -180,15 +182,27 @@ namespace geocone
     std::pair<dealii::Point<dim>, dealii::Point<dim>>
     bounding_box() const;
 
-    /** Area of the body (m^2); not for a file. */
+    /** Area or volume of the body (m^2, m^3), of a formula that of samples; not for a
+     *  file. */
     double
     area() const;
+
+    /** @throws InputError where a formula tells the body @param who cannot take it
+     *  @param remedy e.g. "set ..." */
+    void
+    refuse_where(const std::string &who, const std::string &remedy) const;
 
   private:
     void
     check_discs();
 
+    /** That of the points of a lattice which lie in the body. */
+    double
+    area_of_samples() const;
+
     const std::string               folder_of_parameters;
+    std::string                     where_text;
+    std::optional<Expression>       where;
     unsigned int                    dimension = dim;
     std::vector<dealii::Point<dim>> box;
     std::vector<dealii::Point<dim>> polygon;

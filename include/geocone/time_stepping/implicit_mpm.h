@@ -21,7 +21,7 @@ namespace geocone
    * particles take from them
    *   v_p += sum_i N_i (v_i - vL_i)   (FLIP),   x_p += h sum_i N_i v_i,
    *   V_p *= det(I + h grad v),
-   * while their stress turns by the spin h (d_x v_y - d_y v_x)/2. Then they are
+   * while their stress turns by the spin h curl(v)/2. Then they are
    * sorted into cells anew, and the mesh is as if it had never moved.
    *
    * Options: PIC and APIC instead of FLIP, advection with the velocity of the
@@ -130,7 +130,7 @@ namespace geocone
       dealii::Tensor<1, dim> velocity;
       dealii::Tensor<2, dim> affine;
       double                 volume;
-      double                 spin; ///< angle of rotation (rad)
+      dealii::Tensor<1, n_rotations> spin; ///< angles of rotation (rad)
     };
 
     /** Mass, vL, unknowns and pattern: all that depends on t_n only. */

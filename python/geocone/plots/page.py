@@ -13,7 +13,7 @@ import numpy as np
 from geocone.files import add_to_list, write_whole
 from geocone.plots import points
 from geocone.reader import Missing, ReadError
-from geocone.style import STRAINS, PlotError, Skipped, draw_water
+from geocone.style import STRAINS, PlotError, Skipped, draw_water, in_plane
 
 TEMPLATE = Path(__file__).with_name("run.html")
 MOST_FRAMES = 16
@@ -87,6 +87,7 @@ def frames_of(run):
         chosen = np.unique(np.linspace(0, len(times) - 1,
                                        min(len(times), MOST_FRAMES)).astype(int))
         fields = run.states("points", tuple(int(i) for i in chosen))
+        in_plane(fields[0])
         values, label, norm, _ = points.strain_or_shear(fields)
         view = points.view_of(fields, lambda size: 0.5 * size)
     except (Missing, Skipped):

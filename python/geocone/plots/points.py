@@ -8,15 +8,18 @@ from matplotlib.colors import LogNorm, Normalize
 from matplotlib.ticker import MaxNLocator
 
 from geocone.reader import nearest
-from geocone.style import STRAINS, Skipped, disks, panels, plain, save
+from geocone.style import STRAINS, Skipped, disks, in_plane, panels, plain, save
 
 STRAIN = "cumulative_plastic_strain"
 SHEAR = "largest shear stress in the plane (Pa)"
 
 
 def states_at(run, wanted):
-    """The states of the points of a run at the times nearest to those wanted."""
-    return run.states("points", tuple(nearest(run.times("points"), wanted)))
+    """The states of the points of a run at the times nearest to those wanted.
+    @throw Skipped in three dimensions"""
+    fields = run.states("points", tuple(nearest(run.times("points"), wanted)))
+    in_plane(fields[0])
+    return fields
 
 
 def values_of(fields, *names):

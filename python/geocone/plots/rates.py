@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import LogNorm
 
-from geocone.style import RATES, SHOWN, Skipped, add_bar, disks, draw_water, panels, plain, save
+from geocone.style import RATES, SHOWN, Skipped, add_bar, disks, draw_water, in_plane, panels, plain, save
 
 ZONE = 1e-3  # the view is where the rate is more than this part of the greatest one
 
@@ -47,6 +47,10 @@ def draw_cells(run, path):
     """Draws the rate in each cell, and the displacement."""
     field, rates, title = rates_of(run, "cells")
     points, cells, data, _ = field
+    if points.shape[1] == 3:
+        from geocone.plots import solid
+        solid.draw_cells(run, path, field, rates, title)
+        return
     view = view_of(run)
     figure, (first, second) = panels(2, view)
     add_rates(first, cells_of(field, rates), rates.max())
@@ -75,6 +79,7 @@ def draw_cells(run, path):
 def draw_points(run, path):
     """Draws the rate of each material point."""
     field, rates, title = rates_of(run, "points")
+    in_plane(field)
     figure, (axes,) = panels(1, view_of(run))
     add_rates(axes, disks(axes, field, rates), rates.max())
     axes.set_title(title)
