@@ -4,11 +4,11 @@
 radius = 0.1;  // of the footing
 width  = 0.6;  // of the ground
 depth  = 0.4;
-n      = 3;    // cells along the half of the arc
-inner  = 6;    // rings in the footing
+n      = 2;    // cells along the half of the arc
+inner  = 4;    // rings in the footing
 outer  = 7;    // rings beyond
-layers = 8;
-ratio  = 1.9;  // of a cell to its neighbour that is nearer to the edge
+layers = 6;
+ratio  = 2;    // of a cell to its neighbour that is nearer to the edge
 
 // Chords of a circle that is a little larger, so that they enclose the footing's area.
 chord  = Pi / 4 / n;

@@ -301,6 +301,17 @@ namespace geocone
     check(p.history.size() % n == 0,
           "the histories of its points differ in length");
     p.n_history = p.history.size() / n;
+    // Of former files: one for all points of a cell.
+    if (p.volumetric_gradients.size() == dim * p.n_cells() * functions)
+      {
+        const std::vector<double> of_cells = std::move(p.volumetric_gradients);
+        p.volumetric_gradients.clear();
+        for (unsigned int c = 0; c < p.n_cells(); ++c)
+          for (unsigned int q = p.first_point[c]; q < p.first_point[c + 1]; ++q)
+            p.volumetric_gradients.insert(p.volumetric_gradients.end(),
+                                          &of_cells[dim * functions * c],
+                                          &of_cells[dim * functions * (c + 1)]);
+      }
     check((p.values.empty() || p.values.size() == n * functions) &&
             (p.volumetric_gradients.empty() ||
              p.volumetric_gradients.size() == p.gradients.size()),

@@ -17,6 +17,8 @@ for ranks in 1 2; do
   run "${call[@]}" "$root/tests/mpm/square-01.prm" --output mpm$ranks \
     --set 'Output/Expectations ='
   run "${call[@]}" "$root/tests/explicit/collapse.prm" --output explicit$ranks
+  run "${call[@]}" "$root/tests/three/triaxial-02.prm" --output solid$ranks \
+    --set 'Output/Expectations =' --set 'Loading/press/Output every = 6'
 done
 /usr/bin/python3 -B - "$root" <<'PYTHON'
 import pathlib, re, sys
@@ -28,7 +30,7 @@ sys.path.insert(0, sys.argv[1] + "/python")
 from geocone.reader import read_vtu
 
 folders = [path for path in pathlib.Path().iterdir() if path.is_dir()]
-assert len(folders) == 8
+assert len(folders) == 10
 for folder in folders:
     files = sorted(folder.glob("*.h5"))
     assert files
@@ -46,7 +48,9 @@ for folder in folders:
                 assert values.shape == other.shape, path
                 assert np.allclose(values, other, rtol=1e-6, atol=1e-30,
                                    equal_nan=True), path
-            same(np.concatenate([f.points for f in fields]), file["nodes"][:])
+            nodes = file["nodes"][:]
+            assert nodes.shape[1] == (3 if folder.name[:-1] == "solid" else 2)
+            same(np.concatenate([f.points for f in fields])[:, :nodes.shape[1]], nodes)
             assert np.array_equal(np.concatenate(cells), file["cells"][:])
             for name in names:
                 same(np.concatenate([f.data[name] for f in fields]), file[name][:])

@@ -34,7 +34,8 @@ def outer_faces(points, cells, vertices):
     @return the points of the corners (n, 4), and the outward unit normals (n, 3)"""
     corners = cells[:, FACES[cells.shape[1]]]  # cell, face, corner
     flat = corners.reshape(-1, 4)
-    _, first, number = np.unique(np.sort(vertices[flat], axis=1), axis=0,
+    own = flat[:, :3] if cells.shape[1] == 4 else flat  # the fourth is told twice
+    _, first, number = np.unique(np.sort(vertices[own], axis=1), axis=0,
                                  return_index=True, return_counts=True)
     outer = first[number == 1]
     faces = flat[outer]
