@@ -50,7 +50,7 @@ class Skipped(Exception):
 def in_plane(field):
     """@throw Skipped if the points of a field are in three dimensions"""
     if field.points.shape[1] == 3:
-        raise Skipped("points are drawn in the plane only")
+        raise Skipped("points that stay are drawn in the plane only")
 
 
 def plain(text, longest=100):

@@ -9,7 +9,7 @@ for cells in "hexahedra" "tetra --set Mesh/Type=unstructured"; do
     $([ "$cells" = hexahedra ] || echo --set Discretisation/Element=P2)
   "$root/scripts/plot" ${cells%% *} > said
   grep -qx "${cells%% *}/plastic_strain_rate.png" said
-  grep -q 'points.png is not drawn: points are drawn in the plane only' said
+  grep -q 'points.png is not drawn: points that stay are drawn in the plane only' said
 done
 PYTHONPATH=$root/python /usr/bin/python3 -B - <<'PYTHON'
 import struct

@@ -8,18 +8,15 @@ from matplotlib.colors import LogNorm, Normalize
 from matplotlib.ticker import MaxNLocator
 
 from geocone.reader import nearest
-from geocone.style import STRAINS, Skipped, disks, in_plane, panels, plain, save
+from geocone.style import STRAINS, Skipped, disks, panels, plain, save
 
 STRAIN = "cumulative_plastic_strain"
 SHEAR = "largest shear stress in the plane (Pa)"
 
 
 def states_at(run, wanted):
-    """The states of the points of a run at the times nearest to those wanted.
-    @throw Skipped in three dimensions"""
-    fields = run.states("points", tuple(nearest(run.times("points"), wanted)))
-    in_plane(fields[0])
-    return fields
+    """The states of the points of a run at the times nearest to those wanted."""
+    return run.states("points", tuple(nearest(run.times("points"), wanted)))
 
 
 def values_of(fields, *names):
@@ -106,5 +103,9 @@ def draw_strains(run, path, times=None):
         values, label = shear_stress(fields), SHEAR
         path = path.with_name("shear_stress.png")
     norm = Normalize(0., max(np.max(np.concatenate(values)), np.finfo(float).tiny))
+    if fields[0].points.shape[1] == 3:
+        from geocone.plots import solid
+        solid.draw_points(run, path, fields, values, norm, label)
+        return
     draw_panels(run, path, fields, view_of(fields, lambda size: size / 2.), values, norm,
                 label)

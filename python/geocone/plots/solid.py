@@ -1,15 +1,17 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""plastic_strain_rate.png of a body in three dimensions: the faces of its cells that
-are seen from where most of the flow is, the body cut open where the flow is inside."""
+"""Bodies in three dimensions. plastic_strain_rate.png: the faces of the cells that are
+seen from where most of the flow is, the body cut open where the flow is inside.
+plastic_strain.png: material points as balls, the nearest in front."""
 
 import numpy as np
 from matplotlib.cm import ScalarMappable
-from matplotlib.collections import PolyCollection
+from matplotlib.collections import EllipseCollection, PolyCollection
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.patheffects import withStroke
 
-from geocone.style import RATES, SHOWN, STEPS, add_bar, panels, save
+from geocone.plots.points import view_of
+from geocone.style import RATES, SHOWN, STEPS, STRAINS, add_bar, panels, plain, save
 
 # Corners of the faces of cells, in VTK's order; triangles tell one corner twice.
 FACES = {4: [(0, 1, 2, 2), (0, 1, 3, 3), (1, 2, 3, 3), (0, 2, 3, 3)],
@@ -140,6 +142,11 @@ def draw_cells(run, path, field, rates, title):
     name, unit, factor = (("displacement", "mm", 1e3) if "displacement" in data else
                           ("velocity", "m/s", 1.))
     size = factor * np.linalg.norm(data[name], axis=1)[faces].mean(axis=1)
+    most = size.max()
+    if name == "velocity":
+        # Nodes with hardly any mass may be much faster than all particles.
+        particles, = run.states("points")
+        most = min(most, np.linalg.norm(particles.data[name], axis=1).max())
     # What is seen is where something moves, with a margin.
     moving = np.concatenate([rates[faces[:, 0]] > 1e-3 * rates.max(),
                              size > 0.02 * size.max()]).reshape(2, -1).any(axis=0)
@@ -153,10 +160,37 @@ def draw_cells(run, path, field, rates, title):
               LogNorm(SHOWN * rates.max(), rates.max()), "plastic strain rate (1/s)",
               extend="min")
     add_faces(second, view, points, faces, normals, size, STEPS,
-              Normalize(0., max(size.max(), np.finfo(float).tiny)), f"{name} ({unit})")
+              Normalize(0., max(most, np.finfo(float).tiny)), f"{name} ({unit})")
     opened = "" if left.all() else ", cut open"
     first.set_title(f"{title}\nseen from {view.name()}{opened}")
     second.set_title(f"magnitude of the {name}")
     for axes in (first, second):
         add_directions(axes, view, box)
+    save(figure, run, path, cropped=True)
+
+
+def draw_points(run, path, fields, values, norm, label):
+    """Draws material points at some times, coloured by values, with one colour bar."""
+    view = View(1., 1.)
+    box = view_of([field._replace(points=view.seen(field.points)) for field in fields],
+                  lambda size: size / 2.)
+    figure, axes = panels(len(fields), box)
+    for ax, field, value in zip(axes, fields, values):
+        order = np.argsort(field.points @ view.towards)
+        size = (np.cbrt(field.data["volume"][order, 0]) if "volume" in field.data else
+                np.full(len(order), np.ptp(box, axis=0).max() / 100.))
+        drawn = EllipseCollection(1.3 * size, 1.3 * size, 0. * size, units="xy",
+                                  offsets=view.seen(field.points)[order],
+                                  array=value[order], cmap=STRAINS, norm=norm,
+                                  edgecolors="#40404080", linewidths=0.2,
+                                  offset_transform=ax.transData)
+        ax.add_collection(drawn)
+        ax.set_title(f"t = {field.time:.4g} s")
+        add_directions(ax, view, box)
+    title = f"{plain(run.name)}: {label.rsplit(' (', 1)[0]}, seen from {view.name()}"
+    if len(fields) == 1:
+        axes[0].set_title(f"{title}, {axes[0].get_title()}")
+    else:
+        figure.suptitle(title, fontsize=13)
+    figure.colorbar(drawn, ax=list(axes), label=label, aspect=40, pad=0.02)
     save(figure, run, path, cropped=True)
