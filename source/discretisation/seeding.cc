@@ -429,7 +429,8 @@ namespace geocone
       throw InputError("Particles/Points per direction",
                        k,
                        "1 to " + std::to_string(most_in_simplex) +
-                         " for Gauss points of simplices",
+                         " for Gauss points of " +
+                         (dim == 2 ? "triangles" : "tetrahedra"),
                        dim == 2 ? "set Particles/Layout = sub-cells"
                                 : "set Particles/Layout = lattice");
     const Quadrature<dim> quadrature =
