@@ -4,7 +4,7 @@
 inner  = 1;
 outer  = 2;
 n      = 6;  // cells along the half of an arc of 90 degrees
-layers = 6;
+layers = 10;
 
 // The faces are flat; those of a little larger spheres enclose the same volume.
 larger = 1 + 0.0898 / n ^ 2;

@@ -16,16 +16,16 @@ namespace geocone
 
     extern "C" // what a handler is called as, of this unit alone
     {
-      static void
-      note_request(const int signal)
-      {
-        if (request != 0)
-          {
-            std::signal(signal, SIG_DFL);
-            std::raise(signal);
-          }
-        request = signal;
-      }
+    static void
+    note_request(const int signal)
+    {
+      if (request != 0)
+        {
+          std::signal(signal, SIG_DFL);
+          std::raise(signal);
+        }
+      request = signal;
+    }
     }
 
     std::string

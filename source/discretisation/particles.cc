@@ -288,8 +288,7 @@ namespace geocone
     if (Utilities::MPI::logical_or(!leaving.empty(), comm))
       for (const auto &[sender, message] :
            Utilities::MPI::some_to_some(comm, leaving))
-        for (std::size_t i = 0; i < message.size();
-             i += 2 + 2 * dim + n_state)
+        for (std::size_t i = 0; i < message.size(); i += 2 + 2 * dim + n_state)
           {
             const double *x = &message[i];
             places.push_back({static_cast<unsigned int>(x[0]),

@@ -200,8 +200,8 @@ namespace geocone
   Seeding::check_effort(const Geometry &geometry) const
   {
     const auto [lower, upper] = geometry.bounding_box();
-    double tries = layout == Layout::lattice ? std::pow(spacing, -int(dim)) :
-                                               number / geometry.area();
+    double tries = layout == Layout::lattice ? std::pow(spacing, -int(dim))
+                                             : number / geometry.area();
     for (unsigned int d = 0; d < dim; ++d)
       tries *= upper[d] - lower[d];
     const std::string allowed = format(
@@ -437,9 +437,9 @@ namespace geocone
       simplicial
         ? places_in_simplex(layout == Layout::gauss, k)
         : Quadrature<dim>(places_in_interval(layout == Layout::gauss, k));
-    const FE_Nothing<dim> nothing(
-      simplicial ? ReferenceCells::get_simplex<dim>() :
-                   ReferenceCells::get_hypercube<dim>());
+    const FE_Nothing<dim> nothing(simplicial
+                                    ? ReferenceCells::get_simplex<dim>()
+                                    : ReferenceCells::get_hypercube<dim>());
     FEValues<dim>         values(mesh.mapping(),
                          nothing,
                          quadrature,

@@ -384,9 +384,9 @@ namespace geocone
     // Rigid velocities along the axes, and rotations w x (x - x_c)/size about z or
     // about x, y and z: a motion is free if it moves no prescribed dof.
     constexpr unsigned int n_rigid = dim + n_rotations;
-    using Gram  = Eigen::Matrix<double, n_rigid, n_rigid>;
-    using Rigid = Eigen::Matrix<double, n_rigid, 1>;
-    std::vector<double>    gram(n_rigid * n_rigid * n_parts, 0.), size(n_parts);
+    using Gram                     = Eigen::Matrix<double, n_rigid, n_rigid>;
+    using Rigid                    = Eigen::Matrix<double, n_rigid, 1>;
+    std::vector<double> gram(n_rigid * n_rigid * n_parts, 0.), size(n_parts);
     std::vector<Point<dim>> centre(n_parts);
     for (unsigned int p = 0; p < n_parts; ++p)
       {

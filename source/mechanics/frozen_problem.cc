@@ -121,15 +121,15 @@ namespace geocone
       p.first_point.push_back(p.first_point.back() + count);
     for (const unsigned int node : points.nodes)
       p.nodes.push_back(layout->local_to_global(dim * node) / dim);
-    p.nodes                            = gather(p.nodes, comm);
-    p.gradients                        = gather(points.gradients, comm);
-    p.values                           = gather(points.values, comm);
+    p.nodes                = gather(p.nodes, comm);
+    p.gradients            = gather(points.gradients, comm);
+    p.values               = gather(points.values, comm);
     p.volumetric_gradients = gather(points.volumetric_gradients, comm);
-    p.material                         = gather(points.material, comm);
-    p.weight                           = gather(points.weight, comm);
-    p.mass                             = gather(points.mass, comm);
-    p.n_history                        = points.n_history;
-    p.history                          = gather(points.history, comm);
+    p.material             = gather(points.material, comm);
+    p.weight               = gather(points.weight, comm);
+    p.mass                 = gather(points.mass, comm);
+    p.n_history            = points.n_history;
+    p.history              = gather(points.history, comm);
     const std::vector<double> stresses = gather(flat(points.stress), comm);
     for (std::size_t i = 0; i < stresses.size(); i += n_mandel)
       p.stress.emplace_back(&stresses[i]);
@@ -256,18 +256,18 @@ namespace geocone
           "cells have 1 to 16 nodes");
     frozen.particles = particles[0] != 0;
 
-    MaterialPoints &p = frozen.points;
-    p.n_nodes         = n_nodes[0];
-    p.first_point     = unsigned_array("points/first_point");
-    p.nodes           = unsigned_array("points/nodes");
-    p.gradients       = doubles("points/gradients");
-    p.values          = doubles("points/values");
+    MaterialPoints &p      = frozen.points;
+    p.n_nodes              = n_nodes[0];
+    p.first_point          = unsigned_array("points/first_point");
+    p.nodes                = unsigned_array("points/nodes");
+    p.gradients            = doubles("points/gradients");
+    p.values               = doubles("points/values");
     p.volumetric_gradients = doubles("points/mean_gradients");
-    p.material        = unsigned_array("points/material");
-    p.weight          = doubles("points/weight");
-    p.mass            = doubles("points/mass");
-    const auto stress = doubles("points/stress");
-    const auto x      = doubles("points/position");
+    p.material             = unsigned_array("points/material");
+    p.weight               = doubles("points/weight");
+    p.mass                 = doubles("points/mass");
+    const auto stress      = doubles("points/stress");
+    const auto x           = doubles("points/position");
     if (file.has("points/history")) // older files lack it
       p.history = doubles("points/history");
     if (file.has("ghosts/nodes"))

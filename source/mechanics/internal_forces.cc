@@ -112,8 +112,7 @@ namespace geocone
         const Mandel mean = (trace(s) / dim) * unit_tensor<n_mandel>();
         s -= mean;
         add_force<n>(&points.gradients[dim * n * p], s, cell_f);
-        add_force<n>(
-          &points.volumetric_gradients[dim * n * p], mean, cell_f);
+        add_force<n>(&points.volumetric_gradients[dim * n * p], mean, cell_f);
       }
   }
 
@@ -390,8 +389,7 @@ namespace geocone
               ? nullptr
               : &points.volumetric_gradients[dim * n * first];
           if (one_triangle)
-            stiffness<n, true>(
-              g, volumetric, C.data(), n_q, scratch.data(), K);
+            stiffness<n, true>(g, volumetric, C.data(), n_q, scratch.data(), K);
           else
             stiffness<n, false>(
               g, volumetric, C.data(), n_q, scratch.data(), K);

@@ -153,7 +153,7 @@ namespace geocone
             const Tensor<1, dim> slope = gradient[i] * inverse;
             for (unsigned int d = 0; d < dim; ++d)
               at.slopes[d][p * n + i] = slope[d];
-            at.nodes[p * n + i]        = cell_nodes[c * n + i];
+            at.nodes[p * n + i] = cell_nodes[c * n + i];
           }
       }
   }

@@ -100,17 +100,16 @@ namespace geocone
     const bool spline =
       element[0] == 'B' ||
       (element == "automatic" && method.is_mpm() && expected.is_grid);
-    const unsigned int p = element != "automatic" ? element.back() - '0'
-                           : dim == 3 ? (method.is_mpm() && !expected.is_grid &&
-                                             !expected.is_simplicial
-                                           ? 1
-                                           : 2)
-                           : !method.is_mpm()     ? 3
-                           : expected.is_simplicial
-                             ? (method.is_explicit() ? 1 : 3)
-                           : !expected.is_grid    ? 1
-                           : method.is_explicit() ? 2
-                                                  : 3;
+    const unsigned int p =
+      element != "automatic" ? element.back() - '0'
+      : dim == 3
+        ? (method.is_mpm() && !expected.is_grid && !expected.is_simplicial ? 1
+                                                                           : 2)
+      : !method.is_mpm()       ? 3
+      : expected.is_simplicial ? (method.is_explicit() ? 1 : 3)
+      : !expected.is_grid      ? 1
+      : method.is_explicit()   ? 2
+                               : 3;
     // Of a triangle and a tetrahedron, by Euler's formula and what is usual.
     const double of_simplex     = dim == 2 ? (p == 1   ? 0.5
                                               : p == 2 ? 2.

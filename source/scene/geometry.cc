@@ -292,8 +292,7 @@ namespace geocone
                   where_text,
                   std::string("MPM: of the shape, the body is where this "
                               "formula in ") +
-                    coordinates +
-                    " (m) is > 0, e.g. " +
+                    coordinates + " (m) is > 0, e.g. " +
                     (dim == 2 ? "0.25 - x^2 - y^2" : "0.25 - x^2 - z^2") +
                     " for a " + (dim == 2 ? "disc" : "cylinder") +
                     " of radius 0.5 m. Empty: all of it.");
@@ -423,13 +422,13 @@ namespace geocone
             format("discs within %g m of the origin", largest_coordinate),
             "give centres and radii in m");
         if (radii[i] < resolved_length({centres[i]}))
-          throw InputError("Geometry/Radii",
-                           values,
-                           format(">= %g at the centre ",
-                                  resolved_length({centres[i]})) +
-                             text_of_place(centres[i]),
-                           "put the origin near the body: numbers of 16 "
-                           "digits hold no small body far away");
+          throw InputError(
+            "Geometry/Radii",
+            values,
+            format(">= %g at the centre ", resolved_length({centres[i]})) +
+              text_of_place(centres[i]),
+            "put the origin near the body: numbers of 16 "
+            "digits hold no small body far away");
         for (std::size_t j = 0; j < i; ++j)
           if (centres[i].distance(centres[j]) <
               (radii[i] + radii[j]) * (1. - 1e-9))
@@ -513,10 +512,10 @@ namespace geocone
   double
   Geometry::area_of_samples() const
   {
-    const auto [lower, upper] = bounding_box();
-    constexpr unsigned int n  = dim == 2 ? 256 : 40;
+    const auto [lower, upper]    = bounding_box();
+    constexpr unsigned int n     = dim == 2 ? 256 : 40;
     unsigned int           total = 1, inside = 0;
-    double                 area  = 1.;
+    double                 area = 1.;
     for (unsigned int d = 0; d < dim; ++d)
       {
         total *= n;
@@ -537,7 +536,8 @@ namespace geocone
                          const std::string &remedy) const
   {
     if (where)
-      throw InputError("Geometry/Where", where_text, "empty with " + who, remedy);
+      throw InputError(
+        "Geometry/Where", where_text, "empty with " + who, remedy);
   }
 
   Regions::Region::Region(const std::string &name)

@@ -108,7 +108,7 @@ namespace geocone
       points,
       [&](
         const unsigned int p, const unsigned int c, const PointFunctions &at) {
-        const auto            box = points.cells[c]->bounding_box();
+        const auto              box = points.cells[c]->bounding_box();
         std::array<double, dim> extent;
         for (unsigned int d = 0; d < dim; ++d)
           extent[d] = box.side_length(d);
@@ -123,11 +123,11 @@ namespace geocone
 
         Moved &next = moved[p];
         if (rule.is_affine())
-          next.affine = at.gather_affine<dim>(v.begin(),
-                                              points.position[p],
-                                              space->node_positions(),
-                                              *std::min_element(extent.begin(),
-                                                                extent.end()));
+          next.affine = at.gather_affine<dim>(
+            v.begin(),
+            points.position[p],
+            space->node_positions(),
+            *std::min_element(extent.begin(), extent.end()));
         // Particles held one by one stay in their row: out of it, their rows would
         // prescribe a gradient as well.
         const BoundaryCondition *holder = holder_of(points, p);

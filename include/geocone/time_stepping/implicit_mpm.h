@@ -125,11 +125,11 @@ namespace geocone
     /** A particle after the step. */
     struct Moved
     {
-      dealii::Point<dim>     position;
-      dealii::Tensor<1, dim> displacement; ///< of the step
-      dealii::Tensor<1, dim> velocity;
-      dealii::Tensor<2, dim> affine;
-      double                 volume;
+      dealii::Point<dim>             position;
+      dealii::Tensor<1, dim>         displacement; ///< of the step
+      dealii::Tensor<1, dim>         velocity;
+      dealii::Tensor<2, dim>         affine;
+      double                         volume;
       dealii::Tensor<1, n_rotations> spin; ///< angles of rotation (rad)
     };
 
