@@ -54,13 +54,15 @@ namespace geocone
         std::error_code error;
         const double    size =
           std::filesystem::file_size(scene.geometry.file, error);
-        const double n = error ? 1. : std::max(1., size / 80.);
+        const double n = tria    ? tria->n_global_active_cells()
+                         : error ? 1.
+                                 : std::max(1., size / 80.);
         Expected     expected;
         expected.n_cells = n;
         expected.intervals.fill(1.);
         expected.intervals[0]  = n;
         expected.area          = 1.;
-        expected.is_simplicial = !method.is_mpm();
+        expected.is_simplicial = tria ? simplicial : !method.is_mpm();
         expected.is_grid       = false;
         expected.parameter     = "Geometry/File";
         return expected;

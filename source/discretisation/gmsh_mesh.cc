@@ -239,7 +239,7 @@ namespace geocone
     {
       const std::filesystem::path path(geometry.file);
       const std::string           text      = content_of_file(path, what);
-      const bool                  is_script = path.extension() == ".geo";
+      const bool                  is_script = geometry.is_script();
       if (begins_as_msh(text))
         return parse_msh(text, what);
       if (!is_script)

@@ -142,11 +142,15 @@ namespace geocone
     newton.prepare();
     step_control.prepare();
     exact_solution.prepare();
-    Seeding *seeding = method.is_mpm() ? &implicit_mpm.seeding() : nullptr;
-    const RunEstimate estimate =
-      estimate_run(scene, method, mesh, seeding, run_output.fields_asked());
-    log.print(options.name + ": " + estimate.text());
-    estimate.check(options.force);
+    Seeding   *seeding    = method.is_mpm() ? &implicit_mpm.seeding() : nullptr;
+    const auto check_size = [&]() {
+      const RunEstimate estimate =
+        estimate_run(scene, method, mesh, seeding, run_output.fields_asked());
+      log.print(options.name + ": " + estimate.text());
+      estimate.check(options.force);
+    };
+    if (!scene.geometry.is_script())
+      check_size();
     if (const std::string text = text_of_memory(scene); !text.empty())
       log.print(options.name + ": " + text);
     mesh.take_sizes(
@@ -156,6 +160,8 @@ namespace geocone
       scene,
       method);
     mesh.prepare(scene, method);
+    if (scene.geometry.is_script())
+      check_size();
     space.prepare(mesh, method);
     if (method.is_mpm())
       stepper = &implicit_mpm;

@@ -369,6 +369,13 @@ namespace geocone
                            "an existing gmsh .msh file");
   }
 
+  bool
+  Geometry::is_script() const
+  {
+    return shape == Shape::file &&
+           std::filesystem::path(file).extension() == ".geo";
+  }
+
   std::string
   Geometry::unit(const std::string &in_plane_strain) const
   {

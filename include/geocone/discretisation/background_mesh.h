@@ -48,8 +48,8 @@ namespace geocone
       std::string parameter; ///< that the number comes from
     };
 
-    /** Without creating the mesh; of a file, from its size. @throws InputError as
-     *  prepare() */
+    /** Without creating the mesh; of a file, from its size, or after prepare() from
+     *  what it held. @throws InputError as prepare() */
     Expected
     expect(const Scene &scene, const Method &method);
 

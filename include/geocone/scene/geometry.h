@@ -170,6 +170,10 @@ namespace geocone
     /** Whether the file may be a script, which gmsh then runs. */
     bool may_run_script = false;
 
+    /** Whether it is one, whose cells are known when it has run only. */
+    bool
+    is_script() const;
+
     /** The ends of a side of the outline: its vertex and the next one. */
     std::array<dealii::Point<dim>, 2>
     side_ends(const dealii::types::boundary_id side) const;
