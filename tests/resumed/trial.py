@@ -58,7 +58,10 @@ METHODS = {
         "Path/forth/Increments": "30000", "Path/failure/Increments": "30000",
         "Checkpoint/Every steps": "5000"}),
     # A body that turns, with APIC, and implicit steps that are cut.
-    "slope": ("mpm/slope-dilatancy_free-01.prm", {})}
+    "slope": ("mpm/slope-dilatancy_free-01.prm", {}),
+    # Three dimensions.
+    "three": ("three/column_layer-01.prm", {
+        "Mesh/Cell size": "0.125", "Loading/collapse/Output every": "3"})}
 ALWAYS = {"Output/Expectations": "", "Output/Report for tests": "none",
           "Output/Pictures": "false", "Output/Fields": "true"}
 DEEDS = ("kill", "terminate", "truncate", "ranks")
