@@ -35,6 +35,8 @@ namespace
         if (const auto resumed = call.own.find("--resume");
             resumed != call.own.end())
           return parameters_of_run(resumed->second).peek(parameter, plane);
+        if (call.own.count("--replay") > 0)
+          return plane;
         if (call.file.empty())
           return ParameterFile::from_text("", "call", call.overrides)
             .peek(parameter, plane);

@@ -4,6 +4,7 @@
 // Those of three dimensions, in place of methods.cc.
 #include <geocone/base/exceptions.h>
 #include <geocone/methods.h>
+#include <geocone/run/explicit_simulation.h>
 #include <geocone/run/implicit_simulation.h>
 
 #include <algorithm>
@@ -16,9 +17,11 @@ namespace geocone
   {
     Runs(const ParameterFile &file, Log &log)
       : implicit(MPI_COMM_WORLD, file, log, {})
+      , explicit_mpm(MPI_COMM_WORLD, file, log)
     {}
 
     ImplicitSimulation implicit;
+    ExplicitSimulation explicit_mpm;
   };
 
   namespace
@@ -45,7 +48,7 @@ namespace geocone
 
   Methods::Methods(const ParameterFile &file, Log &log)
   {
-    check(file, "Discretisation/Method", {"FEM", "MPM"});
+    check(file, "Discretisation/Method", {"FEM", "MPM", "explicit MPM"});
     check(file, "Analysis/Kind", {"steps"});
     runs = std::make_unique<Runs>(file, log);
   }
@@ -55,6 +58,8 @@ namespace geocone
   Simulation &
   Methods::chosen()
   {
+    if (ParameterFile::value("Discretisation/Method") == "explicit MPM")
+      return runs->explicit_mpm;
     return runs->implicit;
   }
 } // namespace geocone

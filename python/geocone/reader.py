@@ -82,12 +82,14 @@ class Run:
         return leaves(self.summary).get(key)
 
     def per_metre(self, unit):
-        """A unit of forces or energies: per metre of thickness, or, of a round body,
-        of all of it; e.g. "N/m" or "N" for "N"."""
+        """A unit of forces or energies: per metre of thickness, or, of a round body
+        and in three dimensions, of all of it; e.g. "N/m" or "N" for "N"."""
         try:
-            return unit if "load (N)" in self.statistics else f"{unit}/m"
+            known = self.statistics
         except Missing:
-            return f"{unit}/m"
+            known = ()
+        whole = "load (N)" in known or "kinetic energy (J)" in known
+        return unit if whole else f"{unit}/m"
 
     def table(self, name):
         """The columns of NAME.csv, {"name (unit)": array}.

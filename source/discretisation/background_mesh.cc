@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/discretisation/background_mesh.h>
+#include <geocone/discretisation/structured_mesh.h>
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/mpi.h>

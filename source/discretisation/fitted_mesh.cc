@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/discretisation/fitted_mesh.h>
+#include <geocone/discretisation/structured_mesh.h>
 
 #include <deal.II/base/bounding_box.h>
 
@@ -22,17 +23,14 @@ namespace geocone
       double      distance = std::numeric_limits<double>::max();
       if (dim == 3)
         {
-          // In the order of the coordinates, the lower one first.
-          static const char *const names[] = {
-            "left", "right", "bottom", "top", "back", "front"};
           for (unsigned int c = 0; c < dim; ++c)
             for (unsigned int i = 0; i < 2; ++i)
               if (const double d = std::abs(x[c] - outline[i][c]); d < distance)
                 {
                   distance = d;
-                  nearest  = 2 * c + i;
+                  nearest  = sides_of_box().at(side_of_box[c][i]);
                 }
-          return sides_of_box().at(names[nearest]);
+          return nearest;
         }
       for (std::size_t i = 0; i < outline.size(); ++i)
         if (const double d = distance_to_segment(

@@ -3,7 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
-#include <geocone/discretisation/fitted_mesh.h>
+#include <geocone/discretisation/gmsh_mesh.h>
 #include <geocone/discretisation/msh_mesh.h>
 
 #include <deal.II/base/mpi.h>

@@ -3,7 +3,6 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
-#include <geocone/base/types.h>
 #include <geocone/discretisation/msh_scanner.h>
 
 #include <algorithm>
@@ -18,9 +17,6 @@ namespace geocone
 {
   namespace
   {
-    /** What gmsh calls the faces of cells. */
-    const std::string face_word = dim == 2 ? "curve" : "surface";
-
     // Five million nodes in ASCII; the solvers end long before.
     constexpr std::uintmax_t largest_file = 512ULL << 20;
 

@@ -20,9 +20,6 @@ namespace geocone
 
   namespace
   {
-    /** What gmsh calls the faces of cells. */
-    const std::string face_word = dim == 2 ? "curve" : "surface";
-
     double
     signed_area(const std::vector<Point<dim>>   &points,
                 const std::vector<unsigned int> &around)
@@ -399,11 +396,7 @@ namespace geocone
       }
 
     // Faces, by their sorted vertices, with the physical groups they are in.
-    using Face        = CoarseMesh::Face;
-    const auto sorted = [](Face face) {
-      std::sort(face.begin(), face.end());
-      return face;
-    };
+    using Face = CoarseMesh::Face;
     std::vector<std::pair<Face, int>> groups_of_faces;
     for (const MshData::Element &element : data.faces)
       {
@@ -417,7 +410,7 @@ namespace geocone
           }
         if (is_known)
           for (const int group : data.group_lists[element.groups])
-            groups_of_faces.emplace_back(sorted(face), group);
+            groups_of_faces.emplace_back(CoarseMesh::sorted(face), group);
       }
     std::sort(groups_of_faces.begin(), groups_of_faces.end());
     groups_of_faces.erase(
@@ -426,7 +419,7 @@ namespace geocone
     set_sides(data, what, mesh);
     for (const Face &outer : mesh.outer_faces())
       {
-        const Face face = sorted(outer);
+        const Face face = CoarseMesh::sorted(outer);
         const auto side = std::lower_bound(groups_of_faces.begin(),
                                            groups_of_faces.end(),
                                            std::make_pair(face, 0));

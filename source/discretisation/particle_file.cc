@@ -21,25 +21,17 @@ namespace geocone
     using Column = ParticleFile::Column;
     using Row    = std::array<double, Column::n_columns>;
 
-    const std::array<std::string, Column::n_columns> names = {
-#if GEOCONE_DIMENSION == 2
-      {"x", "y", "volume", "material", "vx", "vy", "sxx", "syy", "sxy"}};
-#else
-      {"x",
-       "y",
-       "z",
-       "volume",
-       "material",
-       "vx",
-       "vy",
-       "vz",
-       "sxx",
-       "syy",
-       "sxy",
-       "szz",
-       "syz",
-       "szx"}};
-#endif
+    const std::vector<std::string> names = [] {
+      std::vector<std::string> list;
+      for (unsigned int d = 0; d < dim; ++d)
+        list.emplace_back(1, coordinate[d]);
+      list.insert(list.end(), {"volume", "material"});
+      for (unsigned int d = 0; d < dim; ++d)
+        list.push_back(std::string("v") + coordinate[d]);
+      for (int i = 0; i < n_mandel; ++i)
+        list.push_back(std::string("s") + tensor_component[i]);
+      return list;
+    }();
 
     /** Those of a group, from the first on. */
     std::vector<Column>
@@ -304,10 +296,9 @@ namespace geocone
             seeds[i].position[d] = row[x + d];
             seeds[i].velocity[d] = row[vx + d];
           }
-        for (int k = 0; k < n_mandel; ++k)
-          seeds[i].stress[k] = row[sxx + k];
-        for (int k = 0; k < n_shears; ++k)
-          seeds[i].stress[shears[k].place] *= sqrt2;
+        std::array<double, n_mandel> stress;
+        std::copy_n(&row[sxx], n_mandel, stress.begin());
+        seeds[i].stress = mandel_of_components(stress);
       }
     return seeds;
   }

@@ -105,7 +105,7 @@ namespace geocone
         one.velocity[0]             = seed.velocity;
         one.stress[0]               = seed.stress;
         start.set(law,
-                  plane_strain_stress(seed.stress, seed.stress_zz),
+                  stress_of(extended(seed.stress, seed.stress_zz)),
                   space.band_width(seed.cell),
                   seed.position,
                   one.history.data());

@@ -12,7 +12,7 @@ namespace geocone
     : material(material)
     , n_history(n_history)
     , affine(affine)
-    , data(n_common + n_history + (affine ? 4 : 0))
+    , data(n_common + n_history + (affine ? dim * dim : 0))
   {}
 
   namespace

@@ -112,9 +112,9 @@ namespace geocone
             points.stress[p]   = scene.initial_stress.at(
               x, material, scene.materials, scene.regions);
             start.set(scene.materials.law(material),
-                      plane_strain_stress(
+                      stress_of(extended(
                         points.stress[p],
-                        scene.initial_stress.zz_at(x, points.stress[p])),
+                        scene.initial_stress.zz_at(x, points.stress[p]))),
                       space.band_width(BackgroundMesh::size_of(cell)),
                       x,
                       &points.history[points.n_history * p]);

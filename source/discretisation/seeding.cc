@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/lexicographic.h>
 #include <geocone/base/log.h>
 #include <geocone/discretisation/cell_search.h>
 #include <geocone/discretisation/seeding.h>
@@ -357,40 +358,34 @@ namespace geocone
         });
         return;
       }
-    const Quadrature<1> line  = places_in_interval(layout == Layout::gauss, k);
-    const auto          place = [&](const unsigned int d,
-                           const unsigned int interval,
-                           const unsigned int q) {
-      return grid.axes[d].begin +
-             (interval + line.point(q)[0]) * grid.axes[d].size;
-    };
-    // Columns of cells, in them rows, in three dimensions cells along z, and in each
-    // cell points along x, y, z: the first ones run fastest.
-    const unsigned int n_rows   = grid.axes[1].n_intervals,
-                       n_layers = dim == 3 ? grid.axes[dim - 1].n_intervals : 1,
-                       n_deep   = dim == 3 ? k : 1;
+    // Columns of cells, then cells in a column, then points in a cell.
+    const Quadrature<dim> places(
+      places_in_interval(layout == Layout::gauss, k));
+    GridIndex n_cells;
+    for (unsigned int d = 0; d < dim; ++d)
+      n_cells[d] = grid.axes[d].n_intervals;
+    n_cells[0] = 1;
     for (unsigned int i = columns[0]; i < columns[1]; ++i)
-      for (unsigned int j = 0; j < n_rows; ++j)
-        for (unsigned int l = 0; l < n_layers; ++l)
-          for (unsigned int c = 0; c < n_deep; ++c)
-            for (unsigned int b = 0; b < k; ++b)
-              for (unsigned int a = 0; a < k; ++a)
-                {
-                  Seed seed;
-                  seed.position[0] = place(0, i, a);
-                  seed.position[1] = place(1, j, b);
-                  seed.volume      = line.weight(a) * line.weight(b) * volume;
-                  if (dim == 3)
-                    {
-                      seed.position[dim - 1] = place(dim - 1, l, c);
-                      seed.volume *= line.weight(c);
-                    }
-                  if (!scene.geometry.contains(seed.position))
-                    continue;
-                  seed.cell = size;
-                  describe(seed, scene, Given(), detail);
-                  take(seed);
-                }
+      for (std::size_t in_column = 0; in_column < grid_volume(n_cells);
+           ++in_column)
+        {
+          GridIndex cell = index_in_grid(in_column, n_cells);
+          cell[0]        = i;
+          for (unsigned int q = 0; q < places.size(); ++q)
+            {
+              Seed seed;
+              for (unsigned int d = 0; d < dim; ++d)
+                seed.position[d] =
+                  grid.axes[d].begin +
+                  (cell[d] + places.point(q)[d]) * grid.axes[d].size;
+              if (!scene.geometry.contains(seed.position))
+                continue;
+              seed.volume = places.weight(q) * volume;
+              seed.cell   = size;
+              describe(seed, scene, Given(), detail);
+              take(seed);
+            }
+        }
   }
 
   void
@@ -513,26 +508,18 @@ namespace geocone
         const auto coordinate = [&](const double begin, const std::size_t i) {
           return begin + (i + 0.5) * spacing;
         };
-        const auto layer = [&]() {
-          for (std::size_t j = 0; coordinate(lower[1], j) < upper[1]; ++j)
-            for (std::size_t i = 0; coordinate(lower[0], i) < upper[0]; ++i)
-              {
-                seed.position[0] = coordinate(lower[0], i);
-                seed.position[1] = coordinate(lower[1], j);
-                if (geometry.contains(seed.position))
-                  add();
-              }
-        };
-        if (dim == 2)
-          layer();
-        else
-          for (std::size_t l = 0;
-               coordinate(lower[dim - 1], l) < upper[dim - 1];
-               ++l)
-            {
-              seed.position[dim - 1] = coordinate(lower[dim - 1], l);
-              layer();
-            }
+        GridIndex n;
+        for (unsigned int d = 0; d < dim; ++d)
+          for (n[d] = 0; coordinate(lower[d], n[d]) < upper[d];)
+            ++n[d];
+        for (std::size_t i = 0; i < grid_volume(n); ++i)
+          {
+            const GridIndex index = index_in_grid(i, n);
+            for (unsigned int d = 0; d < dim; ++d)
+              seed.position[d] = coordinate(lower[d], index[d]);
+            if (geometry.contains(seed.position))
+              add();
+          }
       }
     else
       {

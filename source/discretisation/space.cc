@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/lexicographic.h>
 #include <geocone/discretisation/space.h>
 
 #include <deal.II/base/mpi.h>
@@ -30,20 +31,6 @@ namespace geocone
         set.add_range(dim * *interval->begin(), dim * (interval->last() + 1));
       set.compress();
       return set;
-    }
-
-    /** The places along each direction of the functions of a cell that is a product,
-     *  in lexicographic order. */
-    std::array<unsigned int, dim>
-    lexicographic(unsigned int i, const unsigned int per_direction)
-    {
-      std::array<unsigned int, dim> place;
-      for (unsigned int c = 0; c < dim; ++c)
-        {
-          place[c] = i % per_direction;
-          i /= per_direction;
-        }
-      return place;
     }
   } // namespace
 
@@ -75,21 +62,27 @@ namespace geocone
                   "and Q3 only with FEM.");
   }
 
+  std::string
+  Space::automatic_element(const bool    simplicial,
+                           const bool    has_grid,
+                           const Method &method)
+  {
+    if (simplicial)
+      return dim == 3 ? "P2" : method.is_explicit() ? "P1" : "P3";
+    if (!method.is_mpm())
+      return dim == 3 ? "Q2" : "Q3";
+    if (!has_grid)
+      return "Q1";
+    return dim == 3 || method.is_explicit() ? "B-spline 2" : "B-spline 3";
+  }
+
   void
   Space::choose_element(const bool    simplicial,
                         const bool    has_grid,
                         const Method &method)
   {
     if (kind == Element::automatic)
-      kind = dim == 3     ? simplicial         ? Element::p2
-                            : !method.is_mpm() ? Element::q2
-                            : has_grid         ? Element::spline_2
-                                               : Element::q1
-             : simplicial ? method.is_explicit() ? Element::p1 : Element::p3
-             : !method.is_mpm()     ? Element::q3
-             : !has_grid            ? Element::q1
-             : method.is_explicit() ? Element::spline_2
-                                    : Element::spline_3;
+      kind.set(automatic_element(simplicial, has_grid, method));
     const bool on_simplices = kind <= Element::p3;
     if (on_simplices != simplicial || (dim == 3 && kind == Element::p3) ||
         (kind >= Element::spline_2 && !has_grid))
@@ -197,7 +190,7 @@ namespace geocone
           fe = std::make_unique<FE_Q<dim>>(p);
         for (const unsigned int i :
              FETools::hierarchic_to_lexicographic_numbering<dim>(p))
-          lattice.push_back(lexicographic(i, p + 1));
+          lattice.push_back(index_in_grid(i, equal_sizes(p + 1)));
       }
     else if (p < 3)
       fe = std::make_unique<FE_SimplexP<dim>>(p);
@@ -221,48 +214,35 @@ namespace geocone
     for (unsigned int c = 0; c < dim; ++c)
       splines.emplace_back(p, mesh.grid()[c]);
     for (unsigned int i = 0; i < n_nodes_per_cell; ++i)
-      lattice.push_back(lexicographic(i, p + 1));
+      lattice.push_back(index_in_grid(i, equal_sizes(p + 1)));
 
     // A node belongs to the rank of a cell in the middle of its support. The
     // ranks of all cells are needed: supports reach beyond the ghost cells.
     const MPI_Comm     comm    = mesh.triangulation().get_communicator();
     const unsigned int rank    = Utilities::MPI::this_mpi_process(comm);
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
-    std::array<unsigned int, dim> n_cells, n_functions;
-    unsigned int                  all_functions = 1;
+    GridIndex          n_cells, n_functions;
     for (unsigned int c = 0; c < dim; ++c)
       {
         n_cells[c]     = mesh.grid()[c].size() - 1;
         n_functions[c] = splines[c].n_functions();
-        all_functions *= n_functions[c];
       }
-    // The number in rows of x, of these rows those of y, and so on.
-    const auto number = [](const std::array<unsigned int, dim> &place,
-                           const std::array<unsigned int, dim> &n) {
-      unsigned int i = place[dim - 1];
-      for (unsigned int c = dim - 1; c-- > 0;)
-        i = i * n[c] + place[c];
-      return i;
-    };
     std::vector<unsigned int> rank_of_cell(
       mesh.triangulation().n_active_cells());
     for (const auto &cell : mesh.triangulation().active_cell_iterators())
-      rank_of_cell[number(mesh.place_in_grid(cell), n_cells)] =
+      rank_of_cell[number_in_grid(mesh.place_in_grid(cell), n_cells)] =
         mesh.owner_of_cell()[cell->active_cell_index()];
 
     const auto home = [&](const unsigned int function, const unsigned int n) {
       return std::min(n - 1, function - std::min(function, p / 2));
     };
     std::vector<unsigned int> rank_of_node;
-    for (unsigned int i = 0; i < all_functions; ++i)
+    for (std::size_t i = 0; i < grid_volume(n_functions); ++i)
       {
-        std::array<unsigned int, dim> cell;
-        for (unsigned int c = 0, rest = i; c < dim; ++c)
-          {
-            cell[c] = home(rest % n_functions[c], n_cells[c]);
-            rest /= n_functions[c];
-          }
-        rank_of_node.push_back(rank_of_cell[number(cell, n_cells)]);
+        GridIndex cell = index_in_grid(i, n_functions);
+        for (unsigned int c = 0; c < dim; ++c)
+          cell[c] = home(cell[c], n_cells[c]);
+        rank_of_node.push_back(rank_of_cell[number_in_grid(cell, n_cells)]);
       }
     std::vector<types::global_dof_index> next(n_ranks + 1, 0);
     for (const unsigned int r : rank_of_node)
@@ -282,14 +262,15 @@ namespace geocone
     nodes.resize(n_nodes_per_cell);
     if (is_spline())
       {
-        const auto place = mesh->place_in_grid(cell);
+        const GridIndex place = mesh->place_in_grid(cell);
+        GridIndex       sizes, function;
+        for (unsigned int c = 0; c < dim; ++c)
+          sizes[c] = splines[c].n_functions();
         for (unsigned int i = 0; i < n_nodes_per_cell; ++i)
           {
-            unsigned int function = 0;
-            for (unsigned int c = dim; c-- > 0;)
-              function =
-                function * splines[c].n_functions() + place[c] + lattice[i][c];
-            nodes[i] = spline_number[function];
+            for (unsigned int c = 0; c < dim; ++c)
+              function[c] = place[c] + lattice[i][c];
+            nodes[i] = spline_number[number_in_grid(function, sizes)];
           }
         return;
       }

@@ -186,13 +186,8 @@ namespace geocone
           history.push_back(h.data());
         trial_counts = {};
         law.advance({1,
-                     xx.data(),
-                     xy.data(),
-                     xy.data(),
-                     yy.data(),
-                     s_xx.data(),
-                     s_yy.data(),
-                     s_xy.data(),
+                     {{xx.data(), xy.data(), xy.data(), yy.data()}},
+                     {{s_xx.data(), s_yy.data(), s_xy.data()}},
                      history.data(),
                      plastic.data(),
                      work.data(),

@@ -5,6 +5,7 @@
 #include <geocone/materials/cone_kernel.h>
 #include <geocone/materials/cone_kernel.templates.h>
 
+#include <cmath>
 #include <limits>
 
 namespace geocone
@@ -22,10 +23,11 @@ namespace geocone
     ConeNumbers
     numbers_of(const FlowCone &cone, const Elasticity &elasticity)
     {
+      const double root = dim == 2 ? sqrt2 : std::sqrt(3.);
       return {cone.a,
               cone.b,
-              cone.k / sqrt2,
-              cone.a > 0. ? cone.k / sqrt2 / cone.a
+              cone.k / root,
+              cone.a > 0. ? cone.k / root / cone.a
                           : std::numeric_limits<double>::max(),
               elasticity.normal_stiffness(),
               elasticity.two_G,

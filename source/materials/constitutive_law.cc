@@ -32,6 +32,17 @@ namespace geocone
         "without inertia and gravity any positive value will do");
   }
 
+  ConstitutiveLaw::Stress
+  ConstitutiveLaw::whole(const Components &s, const double *history) const
+  {
+    Stress all = {{s[0], s[1], dim == 2 ? 0. : s[n_mandel / 2], s[2]}};
+    if (dim == 2)
+      all[2] = stress_zz(s, history);
+    for (int i = 4; i < n_spatial; ++i)
+      all[i] = s[i];
+    return all;
+  }
+
   ShownValue::ShownValue(const ConstitutiveLaw &law, const std::string &name)
     : law(&law)
   {
@@ -42,12 +53,12 @@ namespace geocone
   }
 
   double
-  ShownValue::operator()(const std::array<double, 3> &in_plane,
-                         const double                *history)
+  ShownValue::operator()(const ConstitutiveLaw::Components &stress,
+                         const double                      *history)
   {
     if (place == values.size())
       return std::numeric_limits<double>::quiet_NaN();
-    law->show(in_plane, history, values.data());
+    law->show(stress, history, values.data());
     return values[place];
   }
 } // namespace geocone

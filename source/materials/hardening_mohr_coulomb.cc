@@ -183,11 +183,11 @@ namespace geocone
   }
 
   void
-  HardeningMohrCoulomb::show(const std::array<double, 3> &in_plane,
-                             const double                *history,
-                             double                      *values) const
+  HardeningMohrCoulomb::show(const Components &stress,
+                             const double     *history,
+                             double           *values) const
   {
-    MohrCoulomb::show(in_plane, history, values);
+    MohrCoulomb::show(stress, history, values);
     const unsigned int first = MohrCoulomb::shown().size();
     const double       kappa = history[plastic_shear()];
     values[first]            = cohesion_at(kappa);

@@ -44,6 +44,8 @@ namespace geocone
   void
   LinearElastic::advance(const PointBlock &block, LawCounts &counts) const
   {
+    if (axisymmetric)
+      return SpatialLaw::advance(block, counts);
     counts.updates += block.n_points;
     FlowCone everything;
     everything.k = std::numeric_limits<double>::max();

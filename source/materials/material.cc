@@ -47,20 +47,16 @@ namespace geocone
   }
 
   double
-  Material::stress_zz(const std::array<double, 3> &in_plane,
-                      const double                *history) const
+  Material::stress_zz(const Components &stress, const double *history) const
   {
-    return history[0] + poisson_ratio * (in_plane[0] + in_plane[1]);
+    return history[0] + poisson_ratio * (stress[0] + stress[1]);
   }
 
   SpatialMandel
-  Material::whole_stress(const Mandel &in_plane, const double *history) const
+  Material::whole_stress(const Mandel &stress, const double *history) const
   {
-    return extended(
-      in_plane,
-      dim == 2
-        ? stress_zz({{in_plane[0], in_plane[1], in_plane[2] / sqrt2}}, history)
-        : 0.);
+    return extended(stress,
+                    dim == 2 ? stress_zz(components_of(stress), history) : 0.);
   }
 
   SpatialMandel
@@ -164,11 +160,11 @@ namespace geocone
       {
         for (unsigned int k = 0; k < m; ++k)
           history_n[m * p + k] = block.history[k][p];
-        double xx = block.s_xx[p], yy = block.s_yy[p], xy = block.s_xy[p];
-        Spin(block.l_xy[p], block.l_yx[p]).turn(xx, yy, xy);
-        stress_n[p] = in_plane(xx, yy, xy);
-        strain[p]   = in_plane(
-          block.l_xx[p], block.l_yy[p], (block.l_xy[p] + block.l_yx[p]) / 2.);
+        const auto l = block.gradient(p);
+        auto       s = block.stress(p);
+        Spin(l).turn(s);
+        stress_n[p] = mandel_of_components(s);
+        strain[p]   = symmetric_part(l);
       }
     std::vector<double> history = history_n;
     Response            response;
@@ -179,24 +175,27 @@ namespace geocone
             dealii::ArrayView<const Mandel>(stress_n.data(), n),
             history_n.data(),
             m,
-            {block.step}},
+            {block.step},
+            block.l_zz},
            response);
     for (unsigned int p = 0; p < n; ++p)
       {
         for (unsigned int k = 0; k < m; ++k)
           block.history[k][p] = history[m * p + k];
-        const Mandel change = stress[p] - stress_n[p];
-        block.work[p]       = strain[p].dot(stress_n[p] + change / 2.);
+        const Mandel change    = stress[p] - stress_n[p];
+        block.work[p]          = strain[p].dot(stress_n[p] + change / 2.);
+        const double        zz = block.l_zz != nullptr ? block.l_zz[p] : 0.;
+        const SpatialMandel whole_n =
+          whole_stress(stress_n[p], &history_n[m * p]);
+        const SpatialMandel whole = whole_stress(stress[p], &history[m * p]);
+        if (block.l_zz != nullptr)
+          block.work[p] += zz * (whole_n[3] + whole[3]) / 2.;
         block.plastic_strain[p] +=
           mode[p] == Mode::elastic
             ? 0.
-            : (extended(strain[p], 0.) -
-               elastic_strain(whole_stress(stress[p], &history[m * p]) -
-                              whole_stress(stress_n[p], &history_n[m * p])))
+            : (extended(strain[p], zz) - elastic_strain(whole - whole_n))
                 .norm();
-        block.s_xx[p]         = stress[p][0];
-        block.s_yy[p]         = stress[p][1];
-        block.s_xy[p]         = stress[p][2] / sqrt2;
+        block.set_stress(p, components_of(stress[p]));
         block.wave_modulus[p] = elastic.lambda + elastic.two_G;
       }
   }

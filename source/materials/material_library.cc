@@ -31,29 +31,27 @@ namespace geocone
       std::pair<std::string,
                 std::unique_ptr<ConstitutiveLaw> (*)(const std::string &)>>;
 
-    /** The list of all laws: a new one is a new line here, those of the plane being
-     *  apart. In three dimensions Mohr-Coulomb's law is the spatial one. */
+    /** The list of all laws: a new one is a new line here. In three dimensions
+     *  Mohr-Coulomb's law is the spatial one, and those of the plane are not there. */
     List
     all_laws()
     {
+      List list = {{"spatial Mohr-Coulomb", &make<SpatialMohrCoulomb>},
+                   {"spatial Tresca", &make<SpatialTresca>},
+                   {"Drucker-Prager", &make<DruckerPrager>},
+                   {"von Mises", &make<VonMises>},
+                   {"linear elastic", &make<LinearElastic>},
+                   {"subloading", &make<Subloading>}};
       if constexpr (dim == 2)
-        return {{"Mohr-Coulomb", &make<MohrCoulomb>},
-                {"Tresca", &make<Tresca>},
-                {"hardening Mohr-Coulomb", &make<HardeningMohrCoulomb>},
-                {"spatial Mohr-Coulomb", &make<SpatialMohrCoulomb>},
-                {"spatial Tresca", &make<SpatialTresca>},
-                {"Drucker-Prager", &make<DruckerPrager>},
-                {"von Mises", &make<VonMises>},
-                {"linear elastic", &make<LinearElastic>},
-                {"subloading", &make<Subloading>}};
+        list.insert(list.begin(),
+                    {{"Mohr-Coulomb", &make<MohrCoulomb>},
+                     {"Tresca", &make<Tresca>},
+                     {"hardening Mohr-Coulomb", &make<HardeningMohrCoulomb>}});
       else
-        return {{"Mohr-Coulomb", &make<SpatialMohrCoulomb>},
-                {"Tresca", &make<SpatialTresca>},
-                {"spatial Mohr-Coulomb", &make<SpatialMohrCoulomb>},
-                {"spatial Tresca", &make<SpatialTresca>},
-                {"Drucker-Prager", &make<DruckerPrager>},
-                {"von Mises", &make<VonMises>},
-                {"linear elastic", &make<LinearElastic>}};
+        list.insert(list.begin(),
+                    {{"Mohr-Coulomb", &make<SpatialMohrCoulomb>},
+                     {"Tresca", &make<SpatialTresca>}});
+      return list;
     }
 
     const List laws = all_laws();
@@ -146,13 +144,13 @@ namespace geocone
   Materials::set_axisymmetric()
   {
     for (unsigned int i = 0; i < list.size(); ++i)
-      if (auto *const law = dynamic_cast<Material *>(list[i].get());
-          law == nullptr || !law->set_axisymmetric())
+      if (!list[i]->set_axisymmetric())
         throw InputError("Materials/" + names[i] + "/Type",
                          types[i],
                          "spatial Mohr-Coulomb | spatial Tresca | "
-                         "Drucker-Prager | von Mises | linear elastic where "
-                         "Geometry/Symmetry = axisymmetric",
+                         "Drucker-Prager | von Mises | linear elastic | "
+                         "subloading (explicit MPM) where Geometry/Symmetry = "
+                         "axisymmetric",
                          "around an axis the stress out of the plane counts: "
                          "choose one of these");
   }

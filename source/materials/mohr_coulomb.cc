@@ -126,11 +126,11 @@ namespace geocone
   }
 
   void
-  MohrCoulomb::show(const std::array<double, 3> &in_plane,
-                    const double                *history,
-                    double                      *values) const
+  MohrCoulomb::show(const Components &stress,
+                    const double     *history,
+                    double           *values) const
   {
-    Material::show(in_plane, history, values);
+    Material::show(stress, history, values);
     if (tau > 0.)
       values[Material::shown().size()] = history[memory];
   }

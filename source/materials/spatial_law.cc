@@ -40,9 +40,7 @@ namespace geocone
         if (response.history != nullptr)
           {
             double *const history = response.history + increment.n_history * p;
-            const Stress  whole =
-              plane_strain_stress(response.stress[p], stress[3]);
-            Material::initialise(whole, 0., history);
+            Material::initialise(stress_of(stress), 0., history);
           }
       }
   }

@@ -57,30 +57,18 @@ namespace geocone
     [[maybe_unused]] Spectrum<6>
     spectrum(const Eigen::Matrix<double, 6, 1> &s)
     {
-      Eigen::Matrix3d t;
-      for (unsigned int d = 0; d < 3; ++d)
-        t(d, d) = s[place_of_normal[d]];
-      for (const auto &[place, a, b] : shears)
-        t(a, b) = t(b, a) = s[place] / sqrt2;
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(t);
-      Spectrum<6>                                          result;
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(
+        spatial_tensor(s));
+      Spectrum<6> result;
       result.value            = eigen.eigenvalues().reverse();
       const Eigen::Matrix3d n = eigen.eigenvectors().rowwise().reverse();
-      const auto            column =
-        [&](const unsigned int to, const unsigned int i, const unsigned int j) {
-          const double factor = i == j ? 1. : sqrt2;
-          for (unsigned int d = 0; d < 3; ++d)
-            result.directions(place_of_normal[d], to) =
-              factor * n(d, i) * n(d, j);
-          for (const auto &[place, a, b] : shears)
-            result.directions(place, to) =
-              factor * (n(a, i) * n(b, j) + n(b, i) * n(a, j)) / sqrt2;
-        };
       for (unsigned int i = 0; i < 3; ++i)
         {
           const unsigned int j = (i + 1) % 3;
-          column(i, i, i);
-          column(3 + i, i, j);
+          result.directions.col(i) =
+            spatial_mandel(n.col(i) * n.col(i).transpose());
+          result.directions.col(3 + i) =
+            spatial_mandel(sqrt2 * n.col(i) * n.col(j).transpose());
           result.pair[i] = {{i, j}};
         }
       return result;

@@ -14,32 +14,64 @@ namespace geocone
 {
   namespace
   {
-    using Vector4 = SubloadingModel<4>::Vector;
+    using Components = ConstitutiveLaw::Components;
+    using Model      = SubloadingModel<n_spatial>;
 
-    /** Places in the history of a point. */
+    /** Places in the history of a point; s_zz is there in the plane only. */
     enum
     {
       stress_zz,
-      centre,
-      inclination = centre + 4,
-      size        = inclination + 4,
+      centre      = stress_zz + (dim == 2),
+      inclination = centre + n_spatial,
+      size        = inclination + n_spatial,
       structure
     };
 
+    /** Names of the components in the order of the model, and where the motion has
+     *  each among its own; zz is not there in the plane. */
+    constexpr const char *component[6] = {"xx", "yy", "zz", "xy", "yz", "zx"};
+    constexpr int place_in_motion[6]   = {0, 1, dim == 2 ? -1 : 3, 2, 4, 5};
+
+    /** Of a component k of the model, in a Mandel vector. */
+    constexpr double
+    factor(const int k)
+    {
+      return k < 3 ? 1. : sqrt2;
+    }
+
+    /** A stress of the motion in that of the model, which keeps the others. */
+    void
+    take_stress(const Components &s, Model::Vector &stress)
+    {
+      for (int k = 0; k < n_spatial; ++k)
+        if (const int i = place_in_motion[k]; i >= 0)
+          stress[k] = -factor(k) * s[i];
+    }
+
+    Components
+    motion_of(const Model::Vector &t, const double sign)
+    {
+      Components s;
+      for (int k = 0; k < n_spatial; ++k)
+        if (const int i = place_in_motion[k]; i >= 0)
+          s[i] = sign * (t[k] / factor(k));
+      return s;
+    }
+
     /** The history h_k of a point, k = 0, 1, ..., as its state. */
     template <typename History>
-    SubloadingState<4>
-    state_of(const double   xx,
-             const double   yy,
-             const double   xy,
-             const History &h)
+    SubloadingState<n_spatial>
+    state_of(const Components &s, const History &h)
     {
-      SubloadingState<4> state;
-      state.stress << -xx, -yy, -h(stress_zz), -sqrt2 * xy;
-      state.a << -h(centre), -h(centre + 1), -h(centre + 2),
-        -sqrt2 * h(centre + 3);
-      state.beta << h(inclination), h(inclination + 1), h(inclination + 2),
-        sqrt2 * h(inclination + 3);
+      SubloadingState<n_spatial> state;
+      if (dim == 2)
+        state.stress[2] = -h(stress_zz);
+      take_stress(s, state.stress);
+      for (int k = 0; k < n_spatial; ++k)
+        {
+          state.a[k]    = -factor(k) * h(centre + k);
+          state.beta[k] = factor(k) * h(inclination + k);
+        }
       state.pcb = h(size);
       state.Rb  = h(structure);
       return state;
@@ -47,14 +79,15 @@ namespace geocone
 
     template <typename History>
     void
-    store(const SubloadingState<4> &state, const History &h)
+    store(const SubloadingState<n_spatial> &state, const History &h)
     {
-      h(stress_zz) = -state.stress[2];
-      for (unsigned int k = 0; k < 4; ++k)
+      if (dim == 2)
+        h(stress_zz) = -state.stress[2];
+      for (int k = 0; k < n_spatial; ++k)
         {
-          const double factor = k < 3 ? 1. : 1. / sqrt2;
-          h(centre + k)       = -factor * state.a[k];
-          h(inclination + k)  = factor * state.beta[k];
+          const double per_factor = k < 3 ? 1. : 1. / sqrt2;
+          h(centre + k)           = -per_factor * state.a[k];
+          h(inclination + k)      = per_factor * state.beta[k];
         }
       h(size)      = state.pcb;
       h(structure) = state.Rb;
@@ -467,9 +500,11 @@ namespace geocone
                          const double,
                          double *history) const
   {
-    SubloadingState<4> state;
-    const std::string  changed = initial_state<4>(
-      Vector4(-stress[0], -stress[1], -stress[2], -sqrt2 * stress[3]), state);
+    Model::Vector s;
+    for (int k = 0; k < n_spatial; ++k)
+      s[k] = -factor(k) * stress[k];
+    SubloadingState<n_spatial> state;
+    const std::string          changed = initial_state<n_spatial>(s, state);
     store(state, [&](const unsigned int k) -> double & { return history[k]; });
     return changed;
   }
@@ -478,30 +513,37 @@ namespace geocone
   Subloading::advance(const PointBlock &block, LawCounts &counts) const
   {
     counts.updates += block.n_points;
+    const Model &law = model<n_spatial>();
     for (unsigned int i = 0; i < block.n_points; ++i)
       {
         const auto history = [&](const unsigned int k) -> double & {
           return block.history[k][i];
         };
-        SubloadingState<4> y =
-          state_of(block.s_xx[i], block.s_yy[i], block.s_xy[i], history);
+        SubloadingState<n_spatial> y = state_of(block.stress(i), history);
 
-        const Spin spin(block.l_xy[i], block.l_yx[i]);
-        const auto turn = [&](Vector4 &x) {
-          double xy = x[3] / sqrt2;
-          spin.turn(x[0], x[1], xy);
-          x[3] = sqrt2 * xy;
+        const auto l = block.gradient(i);
+        const Spin spin(l);
+        const auto turn = [&](Model::Vector &x) {
+          Components s = motion_of(x, -1.);
+          spin.turn(s);
+          take_stress(s, x);
         };
         turn(y.stress);
         turn(y.a);
         turn(y.beta);
 
-        const Vector4          strain(-block.l_xx[i],
-                             -block.l_yy[i],
-                             0.,
-                             -(block.l_xy[i] + block.l_yx[i]) / sqrt2);
-        const Vector4          before = y.stress;
-        const SubloadingReport report = in_plane.integrate(y, strain);
+        Model::Vector strain = Model::Vector::Zero();
+        if (block.l_zz != nullptr)
+          strain[2] = -block.l_zz[i];
+        for (unsigned int d = 0; d < dim; ++d)
+          strain[d] = -l[(dim + 1) * d];
+        for (unsigned int k = 0; k < n_shears; ++k)
+          {
+            const auto [place, a, b] = shears[k];
+            strain[3 + k] = -(l[dim * a + b] + l[dim * b + a]) / sqrt2;
+          }
+        const Model::Vector    before = y.stress;
+        const SubloadingReport report = law.integrate(y, strain);
         counts.substeps += report.substeps;
         counts.forced += report.forced;
         counts.limited += report.limited;
@@ -510,10 +552,8 @@ namespace geocone
         block.work[i] = 0.5 * strain.dot(before + y.stress);
         block.plastic_strain[i] += report.plastic_strain;
         block.wave_modulus[i] =
-          in_plane.wave_modulus((y.stress[0] + y.stress[1] + y.stress[2]) / 3.);
-        block.s_xx[i] = -y.stress[0];
-        block.s_yy[i] = -y.stress[1];
-        block.s_xy[i] = -y.stress[3] / sqrt2;
+          law.wave_modulus((y.stress[0] + y.stress[1] + y.stress[2]) / 3.);
+        block.set_stress(i, motion_of(y.stress, -1.));
         store(y, history);
       }
   }
@@ -521,59 +561,60 @@ namespace geocone
   double
   Subloading::wave_modulus(const Stress &stress, const double *) const
   {
-    return in_plane.wave_modulus(-(stress[0] + stress[1] + stress[2]) / 3.);
+    return model<n_spatial>().wave_modulus(
+      -(stress[0] + stress[1] + stress[2]) / 3.);
   }
 
-  SubloadingState<4>
-  Subloading::state(const std::array<double, 3> &stress,
-                    const double                *history) const
+  SubloadingState<n_spatial>
+  Subloading::state(const Components &stress, const double *history) const
   {
-    return state_of(stress[0], stress[1], stress[2], [&](const unsigned int k) {
-      return history[k];
-    });
+    return state_of(stress, [&](const unsigned int k) { return history[k]; });
   }
 
   std::vector<ConstitutiveLaw::Shown>
   Subloading::shown() const
   {
-    std::vector<Shown> all = {{"stress_zz", "stress zz (Pa)"},
-                              {"mean_pressure", "p (Pa)"},
-                              {"deviatoric_stress", "q (Pa)"},
-                              {"subloading_ratio", "R (-)"},
-                              {"structure_ratio", "Rb (-)"},
-                              {"yield_surface_size", "pcb (Pa)"},
-                              {"anisotropy", "anisotropy (-)"}};
+    std::vector<Shown> all;
+    if (dim == 2)
+      all.push_back({"stress_zz", "stress zz (Pa)"});
+    for (const Shown &shown :
+         std::vector<Shown>{{"mean_pressure", "p (Pa)"},
+                            {"deviatoric_stress", "q (Pa)"},
+                            {"subloading_ratio", "R (-)"},
+                            {"structure_ratio", "Rb (-)"},
+                            {"yield_surface_size", "pcb (Pa)"},
+                            {"anisotropy", "anisotropy (-)"}})
+      all.push_back(shown);
     if (show_tensors)
       for (const bool is_centre : {false, true})
-        for (const char *component : {"xx", "yy", "zz", "xy"})
+        for (int k = 0; k < n_spatial; ++k)
           all.push_back(
-            {std::string(is_centre ? "centre_" : "inclination_") + component,
-             std::string(is_centre ? "a " : "beta ") + component +
+            {std::string(is_centre ? "centre_" : "inclination_") + component[k],
+             std::string(is_centre ? "a " : "beta ") + component[k] +
                (is_centre ? " (Pa)" : " (-)")});
     return all;
   }
 
   void
-  Subloading::show(const std::array<double, 3> &stress,
-                   const double                *history,
-                   double                      *values) const
+  Subloading::show(const Components &stress,
+                   const double     *history,
+                   double           *values) const
   {
-    const SubloadingState<4> y = state(stress, history);
-    const double             p = (y.stress[0] + y.stress[1] + y.stress[2]) / 3.;
-    values[0]                  = -y.stress[2];
-    values[1]                  = p;
+    const SubloadingState<n_spatial> y = state(stress, history);
+    const double p = (y.stress[0] + y.stress[1] + y.stress[2]) / 3.;
+    if (dim == 2)
+      *values++ = -y.stress[2];
+    *values++ = p;
     // sqrt(3/2) ||s|| and the same of beta, a stress ratio q/p.
-    values[2] =
+    *values++ =
       std::sqrt(1.5 * std::max(0., y.stress.squaredNorm() - 3. * p * p));
-    values[3] = in_plane.ratio(y);
-    values[4] = y.Rb;
-    values[5] = y.pcb;
-    values[6] = std::sqrt(1.5) * y.beta.norm();
+    *values++ = model<n_spatial>().ratio(y);
+    *values++ = y.Rb;
+    *values++ = y.pcb;
+    *values++ = std::sqrt(1.5) * y.beta.norm();
     if (show_tensors)
-      for (unsigned int k = 0; k < 4; ++k)
-        {
-          values[7 + k]  = history[inclination + k];
-          values[11 + k] = history[centre + k];
-        }
+      for (const int first : {inclination, centre})
+        for (int k = 0; k < n_spatial; ++k)
+          *values++ = history[first + k];
   }
 } // namespace geocone

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/lexicographic.h>
 #include <geocone/mechanics/cartesian_transfer.h>
+#include <geocone/scene/geometry.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -32,53 +34,76 @@ namespace geocone
     , kernels(transfer_kernels())
   {
     // Only the first and the last function are not zero at the ends of an axis.
-    const unsigned int last_x = grid.axes[0].n_functions - 1,
-                       last_y = grid.axes[1].n_functions - 1;
-    const std::map<std::string, std::array<unsigned int, 2>> sides = {
-      {"bottom", {{1, 0}}},
-      {"right", {{0, last_x}}},
-      {"top", {{1, last_y}}},
-      {"left", {{0, 0}}}};
+    struct Side
+    {
+      std::string  name;
+      unsigned int axis, function;
+    };
+    std::vector<Side> sides;
+    std::string       known;
+    for (unsigned int d = 0; d < dim; ++d)
+      for (unsigned int end = 0; end < 2; ++end)
+        {
+          sides.push_back({side_of_box[d][end],
+                           d,
+                           end == 0 ? 0 : grid.axes[d].n_functions - 1});
+          known += sides.back().name + ", ";
+        }
 
     // The last condition in the list that prescribes a component holds it.
-    std::map<std::array<unsigned int, 3>, Prescribed> of_component;
+    std::map<std::array<unsigned int, dim + 1>, Prescribed> of_component;
     for (unsigned int c = 0; c < conditions.list.size(); ++c)
       {
         const BoundaryCondition &condition = *conditions.list[c];
-        for (const std::string &side : condition.sides)
-          if (side != "all" && sides.count(side) == 0)
+        for (const std::string &name : condition.sides)
+          if (name != "all" &&
+              std::none_of(sides.begin(), sides.end(), [&](const Side &side) {
+                return side.name == name;
+              }))
             throw InputError(condition.parameter("Sides"),
-                             side,
-                             "bottom, right, top, left, all: the sides of the "
-                             "background mesh",
+                             name,
+                             known + "all: the sides of the background mesh",
                              "choose among them");
         unsigned int n_found = 0;
-        Point<dim>   lower(1e300, 1e300), upper(-1e300, -1e300);
-        for (const auto &[side, place] : sides)
-          if (condition.is_on_side(side))
+        Point<dim>   lower, upper;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            lower[d] = 1e300;
+            upper[d] = -1e300;
+          }
+        for (const Side &side : sides)
+          if (condition.is_on_side(side.name))
             {
-              const unsigned int along = 1 - place[0];
-              for (unsigned int f = 0; f < grid.axes[along].n_functions; ++f)
+              GridIndex n;
+              for (unsigned int d = 0; d < dim; ++d)
+                n[d] = grid.axes[d].n_functions;
+              n[side.axis] = 1;
+              for (std::size_t i = 0; i < grid_volume(n); ++i)
                 {
-                  Prescribed p;
-                  p.function[place[0]] = place[1];
-                  p.function[along]    = f;
-                  p.condition          = c;
+                  const GridIndex on_side = index_in_grid(i, n);
+                  Prescribed      p;
+                  for (unsigned int d = 0; d < dim; ++d)
+                    p.function[d] = on_side[d];
+                  p.function[side.axis] = side.function;
+                  p.condition           = c;
                   for (unsigned int d = 0; d < dim; ++d)
                     p.place[d] = grid.axes[d].places[p.function[d]];
                   if (!condition.holds_at(p.place))
                     continue;
                   ++n_found;
+                  std::array<unsigned int, dim + 1> key;
                   for (unsigned int d = 0; d < dim; ++d)
                     {
+                      key[d]   = p.function[d];
                       lower[d] = std::min(lower[d], p.place[d]);
                       upper[d] = std::max(upper[d], p.place[d]);
                     }
                   for (unsigned int d = 0; d < dim; ++d)
                     if (condition.components[d])
                       {
-                        p.component                                       = d;
-                        of_component[{{p.function[0], p.function[1], d}}] = p;
+                        key[dim]          = d;
+                        p.component       = d;
+                        of_component[key] = p;
                       }
                 }
             }
@@ -178,34 +203,40 @@ namespace geocone
         if (cells[d].end < cells[d].begin)
           cells[d] = {0, 0};
       }
-    // Rows are the same on all ranks, so that shared columns are alike.
-    int rows[2] = {cells[1].size() > 0
-                     ? -cells[1].begin
-                     : -static_cast<int>(grid.axes[1].n_intervals),
-                   cells[1].end};
-    Utilities::MPI::max(rows, comm, rows);
-    if (cells[1].size() > 0)
-      cells[1] = {-rows[0], rows[1]};
+    // Columns have the same rows on all ranks, so that shared ones are alike.
+    for (unsigned int d = 1; d < dim; ++d)
+      {
+        int rows[2] = {cells[d].size() > 0
+                         ? -cells[d].begin
+                         : -static_cast<int>(grid.axes[d].n_intervals),
+                       cells[d].end};
+        Utilities::MPI::max(rows, comm, rows);
+        if (cells[d].size() > 0)
+          cells[d] = {-rows[0], rows[1]};
+      }
 
-    const int n_rows = cells[1].size();
+    std::size_t n_cells = 1;
+    for (const Range &range : cells)
+      n_cells *= range.size();
     for (PointArrays &group : groups)
       {
         const unsigned int n = group.n_points();
         if (n == 0)
           continue;
         const auto cell_of = [&](const unsigned int p) {
-          return (grid.axes[0].interval(group[PointArrays::x][p]) -
-                  cells[0].begin) *
-                   n_rows +
-                 grid.axes[1].interval(group[PointArrays::y][p]) -
-                 cells[1].begin;
+          std::size_t cell = 0;
+          for (unsigned int d = 0; d < dim; ++d)
+            cell = cell * cells[d].size() +
+                   (grid.axes[d].interval(group[PointArrays::x + d][p]) -
+                    cells[d].begin);
+          return cell;
         };
-        count.assign(static_cast<std::size_t>(cells[0].size()) * n_rows + 1, 0);
-        bool sorted = true;
-        int  last   = 0;
+        count.assign(n_cells + 1, 0);
+        bool        sorted = true;
+        std::size_t last   = 0;
         for (unsigned int p = 0; p < n; ++p)
           {
-            const int cell = cell_of(p);
+            const std::size_t cell = cell_of(p);
             ++count[cell + 1];
             sorted = sorted && cell >= last;
             last   = cell;
@@ -229,10 +260,9 @@ namespace geocone
         cells[d].size() > 0
           ? Range{cells[d].begin, cells[d].end + static_cast<int>(grid.degree)}
           : Range{0, 0};
-    const std::size_t n =
-      static_cast<std::size_t>(stored[0].size()) * stored[1].size();
-    read.resize_fast(4 * n);
-    write.resize_fast(4 * n);
+    const std::size_t n = stored[0].size() * column_size();
+    read.resize_fast(node_size * n);
+    write.resize_fast(node_size * n);
     mass.resize_fast(n + mass_padding);
     read.fill(0.);
     write.fill(0.);
@@ -250,7 +280,7 @@ namespace geocone
           return false;
       return true;
     };
-    const unsigned int stride = stored[1].size();
+    const unsigned int stride = column_size();
     mine.clear();
     for (int column = stored[0].begin; column < stored[0].end; ++column)
       if (is_mine(column))
@@ -265,16 +295,38 @@ namespace geocone
     prescribed.clear();
     for (const Prescribed &p : prescribed_functions)
       {
-        const int column = p.function[0], row = p.function[1];
-        if (column >= stored[0].begin && column < stored[0].end &&
-            row >= stored[1].begin && row < stored[1].end)
+        bool is_stored = true;
+        for (unsigned int d = 0; d < dim; ++d)
+          is_stored = is_stored &&
+                      static_cast<int>(p.function[d]) >= stored[d].begin &&
+                      static_cast<int>(p.function[d]) < stored[d].end;
+        if (is_stored)
           prescribed.push_back(
-            {(column - stored[0].begin) * stride + row - stored[1].begin,
+            {static_cast<unsigned int>(stored_place_of(p.function)),
              p.component,
              p.condition,
              p.place,
-             is_mine(column)});
+             is_mine(p.function[0])});
       }
+  }
+
+  std::size_t
+  CartesianTransfer::column_size() const
+  {
+    std::size_t n = 1;
+    for (unsigned int d = 1; d < dim; ++d)
+      n *= stored[d].size();
+    return n;
+  }
+
+  std::size_t
+  CartesianTransfer::stored_place_of(
+    const std::array<unsigned int, dim> &function) const
+  {
+    std::size_t place = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+      place = place * stored[d].size() + (function[d] - stored[d].begin);
+    return place;
   }
 
   bool
@@ -302,7 +354,7 @@ namespace geocone
     for (unsigned int d = 0; d < dim; ++d)
       {
         const CartesianGrid::Axis &from = grid.axes[d];
-        GridAxis                  &to   = d == 0 ? g.x : g.y;
+        GridAxis                  &to   = g.axes[d];
         to.origin                       = from.begin;
         to.inverse_size                 = from.inverse_size;
         to.n_intervals                  = from.n_intervals;
@@ -311,10 +363,12 @@ namespace geocone
         to.coefficients                 = from.coefficients.data();
         to.places                       = from.places.data();
       }
-    g.stride = stored[1].size();
-    g.read   = read.data();
-    g.write  = write.data();
-    g.mass   = with_mass ? mass.data() : nullptr;
+    g.stride[dim - 1] = 1;
+    for (unsigned int d = dim - 1; d-- > 0;)
+      g.stride[d] = g.stride[d + 1] * stored[d + 1].size();
+    g.read  = read.data();
+    g.write = write.data();
+    g.mass  = with_mass ? mass.data() : nullptr;
     return g;
   }
 
@@ -367,7 +421,7 @@ namespace geocone
     if (n_ranks == 1)
       return;
     // What this rank shares with each other one: columns, all their rows.
-    const unsigned int       stride = stored[1].size();
+    const unsigned int       stride = column_size();
     std::vector<Range>       shared(n_ranks);
     Range                    all = {stored[0].end, stored[0].begin};
     std::vector<MPI_Request> requests;
@@ -388,7 +442,7 @@ namespace geocone
       return;
     shared[rank] = all;
 
-    const unsigned int per_node = with_mass ? 5 : 4;
+    const unsigned int per_node = node_size + with_mass;
     const auto         offset   = [&](const int column) {
       return static_cast<std::size_t>(column - stored[0].begin) * stride;
     };
@@ -396,9 +450,10 @@ namespace geocone
       const std::size_t first = offset(range.begin),
                         n     = static_cast<std::size_t>(range.size()) * stride;
       buffer.resize(per_node * n);
-      std::copy_n(write.begin() + 4 * first, 4 * n, buffer.begin());
+      std::copy_n(
+        write.begin() + node_size * first, node_size * n, buffer.begin());
       if (with_mass)
-        std::copy_n(mass.begin() + first, n, buffer.begin() + 4 * n);
+        std::copy_n(mass.begin() + first, n, buffer.begin() + node_size * n);
     };
     pack(all, receive[rank]);
     for (unsigned int r = 0; r < n_ranks; ++r)
@@ -432,8 +487,8 @@ namespace geocone
     MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
 
     // Summed in the order of the ranks, so that all get the same to the last bit.
-    std::fill_n(write.begin() + 4 * offset(all.begin),
-                4 * static_cast<std::size_t>(all.size()) * stride,
+    std::fill_n(write.begin() + node_size * offset(all.begin),
+                node_size * static_cast<std::size_t>(all.size()) * stride,
                 0.);
     if (with_mass)
       std::fill_n(mass.begin() + offset(all.begin),
@@ -446,11 +501,11 @@ namespace geocone
         const std::size_t first = offset(shared[r].begin),
                           n =
                             static_cast<std::size_t>(shared[r].size()) * stride;
-        for (std::size_t i = 0; i < 4 * n; ++i)
-          write[4 * first + i] += receive[r][i];
+        for (std::size_t i = 0; i < node_size * n; ++i)
+          write[node_size * first + i] += receive[r][i];
         if (with_mass)
           for (std::size_t i = 0; i < n; ++i)
-            mass[first + i] += receive[r][4 * n + i];
+            mass[first + i] += receive[r][node_size * n + i];
       }
   }
 

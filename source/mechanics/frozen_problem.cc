@@ -390,7 +390,7 @@ namespace geocone
               {
                 const Mandel &s = points.stress[i];
                 law.initialise(
-                  plane_strain_stress(s, 0.), 0., &points.history[2 * i]);
+                  stress_of(extended(s, 0.)), 0., &points.history[2 * i]);
                 if (frozen.n_history == 1)
                   points.history[2 * i] = frozen.history[i];
                 remembered = true;

@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/lexicographic.h>
 #include <geocone/mechanics/ghost_stiffness.h>
 
 #include <deal.II/base/mpi.h>
@@ -128,7 +129,8 @@ namespace geocone
     : integral(space.spline_integrals())
     , n_owned(space.n_owned_nodes())
   {
-    const unsigned int                   p = space.degree(), n_row = p + 1;
+    const unsigned int                   p       = space.degree();
+    const GridIndex                      n_along = equal_sizes(p + 1);
     std::vector<types::global_dof_index> nodes;
     for (const auto &cell : mesh.own_cells())
       {
@@ -136,33 +138,25 @@ namespace geocone
         const auto place = mesh.place_in_grid(cell);
         for (unsigned int along = 0; along < dim; ++along)
           {
-            // Lines of functions along a direction, counted in the others; those
-            // that the next cell has, too, are left to it.
-            unsigned int n_lines = 1, stride = 1;
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                n_lines *= d == along ? 1 : n_row;
-                stride *= d < along ? n_row : 1;
-              }
             const auto is_last = [&](const unsigned int d) {
               return place[d] + 2 == mesh.grid()[d].size();
             };
-            for (unsigned int line = 0; line < n_lines; ++line)
+            // The lines of functions along a direction, by their first ones; those
+            // that the next cell has, too, are left to it.
+            for (unsigned int line = 0; line < nodes.size(); ++line)
               {
-                unsigned int first = 0, rest = line, factor = 1;
-                bool         is_mine = true;
-                for (unsigned int d = 0; d < dim; ++d, factor *= n_row)
-                  if (d != along)
-                    {
-                      const unsigned int j = rest % n_row;
-                      rest /= n_row;
-                      first += j * factor;
-                      is_mine = is_mine && (j == 0 || is_last(d));
-                    }
+                const GridIndex first   = index_in_grid(line, n_along);
+                bool            is_mine = first[along] == 0;
+                for (unsigned int d = 0; d < dim; ++d)
+                  is_mine =
+                    is_mine && (d == along || first[d] == 0 || is_last(d));
                 if (!is_mine)
                   continue;
                 const auto number = [&](const unsigned int i) {
-                  return space.local_node(nodes[first + i * stride]);
+                  GridIndex function = first;
+                  function[along]    = i;
+                  return space.local_node(
+                    nodes[number_in_grid(function, n_along)]);
                 };
                 for (unsigned int i = 0; i <= p; ++i)
                   for (const bool up : {true, false})

@@ -6,6 +6,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <map>
 
 namespace geocone
@@ -34,8 +35,8 @@ namespace geocone
       }
 
     const std::size_t n_nodes = space.n_local_nodes();
-    read.resize(4 * n_nodes);
-    write.resize(4 * n_nodes);
+    read.resize(node_size * n_nodes);
+    write.resize(node_size * n_nodes);
     mass.resize(n_nodes);
     mine = {{{0, space.n_owned_nodes()}}};
 
@@ -89,7 +90,7 @@ namespace geocone
               {
                 lost.push_back(
                   {{g, static_cast<unsigned int>(staying.size())}});
-                place = {*mesh.own_cells().begin(), Point<dim>(0.25, 0.25)};
+                place = CellSearch::Place{*mesh.own_cells().begin(), {}};
               }
             group.cell[p] = place->cell->active_cell_index();
             staying.push_back(p);
@@ -109,8 +110,10 @@ namespace geocone
                   group.append(&message[i],
                                static_cast<unsigned int>(extra[0]));
                   group.cell.push_back(static_cast<unsigned int>(extra[1]));
-                  places.push_back({search.cell(group.cell.back()),
-                                    Point<dim>(extra[2], extra[3])});
+                  Point<dim> unit;
+                  for (unsigned int d = 0; d < dim; ++d)
+                    unit[d] = extra[2 + d];
+                  places.push_back({search.cell(group.cell.back()), unit});
                 }
           }
         group.pad();
@@ -170,21 +173,37 @@ namespace geocone
     return here;
   }
 
+  template <bool with_gradients>
+  void
+  MeshTransfer::gather_any(const TransferBlock &points,
+                           BlockScratch        &scratch) const
+  {
+    for (unsigned int k = 0; k < points.n; ++k)
+      {
+        // The slopes are those of the first four doubles of a node.
+        const PointFunctions at = functions_at(points, k);
+        double *out = scratch.gathered + BlockScratch::n_gathered * k;
+        double  first[4 + 4 * dim];
+        at.gather<4, with_gradients, node_size>(read.data(), first);
+        std::copy_n(first, 4, out);
+        if constexpr (dim == 3)
+          at.gather<4, false, node_size>(read.data() + 4, out + 4);
+        if constexpr (with_gradients)
+          std::copy_n(first + 4, 4 * dim, out + node_size);
+      }
+  }
+
   void
   MeshTransfer::gather(const TransferBlock &points, BlockScratch &scratch)
   {
-    for (unsigned int k = 0; k < points.n; ++k)
-      functions_at(points, k).gather<4, true>(read.data(),
-                                              scratch.gathered + 12 * k);
+    gather_any<true>(points, scratch);
   }
 
   void
   MeshTransfer::gather_values(const TransferBlock &points,
                               BlockScratch        &scratch)
   {
-    for (unsigned int k = 0; k < points.n; ++k)
-      functions_at(points, k).gather<4, false>(read.data(),
-                                               scratch.gathered + 12 * k);
+    gather_any<false>(points, scratch);
   }
 
   void
@@ -192,15 +211,15 @@ namespace geocone
   {
     for (unsigned int k = 0; k < points.n; ++k)
       {
-        const Tensor<2, dim> C = functions_at(points, k).gather_affine<4>(
-          read.data(),
-          Point<dim>(points.x[k], points.y[k]),
-          space.node_positions(),
-          cell_size());
-        points.c_xx[k] = C[0][0];
-        points.c_xy[k] = C[0][1];
-        points.c_yx[k] = C[1][0];
-        points.c_yy[k] = C[1][1];
+        Point<dim> x;
+        for (unsigned int d = 0; d < dim; ++d)
+          x[d] = points.x[d][k];
+        const Tensor<2, dim> C =
+          functions_at(points, k).gather_affine<node_size>(
+            read.data(), x, space.node_positions(), cell_size());
+        for (unsigned int c = 0; c < dim; ++c)
+          for (unsigned int d = 0; d < dim; ++d)
+            points.c[dim * c + d][k] = C[c][d];
       }
   }
 
@@ -212,8 +231,21 @@ namespace geocone
   {
     for (unsigned int k = 0; k < points.n; ++k)
       {
-        const PointFunctions at = functions_at(points, k);
-        at.scatter<4, with_gradients>(scratch.given + 12 * k, write.data());
+        const PointFunctions at    = functions_at(points, k);
+        const double *const  given = scratch.given + BlockScratch::n_given * k;
+        if constexpr (dim == 2)
+          at.scatter<4, with_gradients>(given, write.data());
+        else
+          {
+            at.scatter<4, false, node_size>(given, write.data());
+            if constexpr (with_gradients)
+              {
+                double forces[4 + 4 * dim] = {};
+                std::copy_n(given + 4, 4 * dim, forces + 4);
+                at.scatter<4, true, node_size>(forces,
+                                               write.data() + change_of_node);
+              }
+          }
         if (with_mass)
           at.scatter<1, false>(&points.mass[k], mass.data());
       }
@@ -239,13 +271,18 @@ namespace geocone
   MeshTransfer::scatter_affine(const TransferBlock &points, BlockScratch &)
   {
     for (unsigned int k = 0; k < points.n; ++k)
-      functions_at(points, k).scatter_affine<4>(
-        points.mass[k],
-        Tensor<2, dim>(
-          {{points.c_xx[k], points.c_xy[k]}, {points.c_yx[k], points.c_yy[k]}}),
-        Point<dim>(points.x[k], points.y[k]),
-        space.node_positions(),
-        write.data());
+      {
+        Point<dim>     x;
+        Tensor<2, dim> C;
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            x[c] = points.x[c][k];
+            for (unsigned int d = 0; d < dim; ++d)
+              C[c][d] = points.c[dim * c + d][k];
+          }
+        functions_at(points, k).scatter_affine<node_size>(
+          points.mass[k], C, x, space.node_positions(), write.data());
+      }
   }
 
   void
@@ -261,13 +298,14 @@ namespace geocone
         for (unsigned int i = 0; i < n_nodes; ++i)
           for (unsigned int d = 0; d < dim; ++d)
             exchanged.local_element(dim * i + d) =
-              part < 2 ? write[4 * i + 2 * part + d] : mass[i];
+              part < 2 ? write[node_size * i + change_of_node * part + d]
+                       : mass[i];
         exchanged.compress(VectorOperation::add);
         exchanged.update_ghost_values();
         for (unsigned int i = 0; i < n_nodes; ++i)
           if (part < 2)
             for (unsigned int d = 0; d < dim; ++d)
-              write[4 * i + 2 * part + d] =
+              write[node_size * i + change_of_node * part + d] =
                 exchanged.local_element(dim * i + d);
           else
             mass[i] = exchanged.local_element(dim * i);

@@ -33,7 +33,7 @@ namespace geocone
     speed2       = std::max(speed2, other.speed2);
     strain       = std::max(strain, other.strain);
     least_volume = std::min(least_volume, other.least_volume);
-    for (int d = 0; d < 2; ++d)
+    for (unsigned int d = 0; d < dim; ++d)
       {
         lower[d] = std::min(lower[d], other.lower[d]);
         upper[d] = std::max(upper[d], other.upper[d]);

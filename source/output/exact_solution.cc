@@ -16,21 +16,14 @@ namespace geocone
 {
   namespace
   {
-    const std::vector<const char *> names =
-      dim == 2 ? std::vector<const char *>{"Displacement x",
-                                           "Displacement y",
-                                           "Stress xx",
-                                           "Stress yy",
-                                           "Stress xy"}
-               : std::vector<const char *>{"Displacement x",
-                                           "Displacement y",
-                                           "Displacement z",
-                                           "Stress xx",
-                                           "Stress yy",
-                                           "Stress xy",
-                                           "Stress zz",
-                                           "Stress yz",
-                                           "Stress zx"};
+    const std::vector<std::string> names = [] {
+      std::vector<std::string> list;
+      for (unsigned int d = 0; d < dim; ++d)
+        list.push_back(std::string("Displacement ") + coordinate[d]);
+      for (int i = 0; i < n_mandel; ++i)
+        list.push_back(std::string("Stress ") + tensor_component[i]);
+      return list;
+    }();
   }
 
   ExactSolution::ExactSolution()
@@ -119,11 +112,10 @@ namespace geocone
             x -= points.displacement[p];
             add_displacement(points.displacement[p], x, points.weight[p]);
           }
-        Mandel exact;
+        std::array<double, n_mandel> values;
         for (int i = 0; i < n_mandel; ++i)
-          exact[i] = fields[dim + i].value(x, t);
-        for (int k = 0; k < n_shears; ++k)
-          exact[shears[k].place] *= sqrt2;
+          values[i] = fields[dim + i].value(x, t);
+        const Mandel exact = mandel_of_components(values);
         sums[2] += points.weight[p] * (points.stress[p] - exact).squaredNorm();
         sums[3] += points.weight[p] * exact.squaredNorm();
       }

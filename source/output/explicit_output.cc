@@ -22,14 +22,16 @@ namespace geocone
     make_folder(options);
     point_files    = std::make_unique<FieldFiles>("points", fields_format);
     using Record   = ExplicitRecord;
-    const auto add = [&](const char *name, const auto &value) {
-      table.add(name, [value](const Record &r) { return double(value(r)); });
+    const auto add = [&](const std::string &name, const auto &value) {
+      table.add(unit(name),
+                [value](const Record &r) { return double(value(r)); });
     };
-    const auto add_state = [&](const char *name,
+    const auto add_state = [&](const std::string &name,
                                double ExplicitState::*member) {
       add(name, [member](const Record &r) { return r.state.*member; });
     };
-    const auto add_balance = [&](const char *name, double Balance::*member) {
+    const auto add_balance = [&](const std::string &name,
+                                 double Balance::*member) {
       add(name, [member](const Record &r) { return r.balance.*member; });
     };
     add("step", [](const Record &r) { return r.step; });
@@ -42,17 +44,22 @@ namespace geocone
         [](const Record &r) { return r.report.largest_step; });
     add("limiting point (-)",
         [](const Record &r) { return r.state.limiting_id; });
-    add("limiting point x (m)",
-        [](const Record &r) { return r.state.limiting_place[0]; });
-    add("limiting point y (m)",
-        [](const Record &r) { return r.state.limiting_place[1]; });
+    for (unsigned int d = 0; d < dim; ++d)
+      add(std::string("limiting point ") + coordinate[d] + " (m)",
+          [d](const Record &r) { return r.state.limiting_place[d]; });
     add_state("limiting wave speed (m/s)", &ExplicitState::limiting_wave_speed);
     add("points (-)", [](const Record &r) { return r.state.n_points; });
     add_state("mass (kg/m)", &ExplicitState::mass);
-    add_state("volume (m^2)", &ExplicitState::volume);
+    add_state(dim == 2 ? "volume (m^2)" : "volume (m^3)",
+              &ExplicitState::volume);
     add("x least (m)", [](const Record &r) { return r.state.lower[0]; });
     add("x largest (m)", [](const Record &r) { return r.state.upper[0]; });
     add("y largest (m)", [](const Record &r) { return r.state.upper[1]; });
+    if (dim == 3)
+      {
+        add("z least (m)", [](const Record &r) { return r.state.lower[2]; });
+        add("z largest (m)", [](const Record &r) { return r.state.upper[2]; });
+      }
     add_state("x of 1 % of the mass (m)", &ExplicitState::left_front);
     add_state("x of 99 % of the mass (m)", &ExplicitState::right_front);
     add_state("largest speed (m/s)", &ExplicitState::largest_speed);
@@ -71,17 +78,19 @@ namespace geocone
     add("numerical loss (J/m)",
         [this](const Record &r) { return numerical_loss(r); });
     for (unsigned int d = 0; d < dim; ++d)
-      add(d == 0 ? "momentum x (N s/m)" : "momentum y (N s/m)",
+      add(std::string("momentum ") + coordinate[d] + " (N s/m)",
           [d](const Record &r) { return r.state.momentum[d]; });
     for (unsigned int d = 0; d < dim; ++d)
-      add(d == 0 ? "momentum residual x (N s/m)"
-                 : "momentum residual y (N s/m)",
+      add(std::string("momentum residual ") + coordinate[d] + " (N s/m)",
           [this, d](const Record &r) { return momentum_residual(r)[d]; });
-    add_state("angular momentum (N m s/m)", &ExplicitState::angular_momentum);
+    for (unsigned int i = 0; i < n_rotations; ++i)
+      add(std::string("angular momentum") +
+            (dim == 2 ? "" : " " + axis_of_rotation(i)) + " (N m s/m)",
+          [i](const Record &r) { return r.state.angular_momentum[i]; });
     add_balance("removed mass (kg/m)", &Balance::removed_mass);
     for (unsigned int i = 0; i < dim * scene->dirichlet.list.size(); ++i)
-      table.add("force " + scene->dirichlet.list[i / dim]->name +
-                  (i % dim == 0 ? " x" : " y") + " (N/m)",
+      table.add("force " + scene->dirichlet.list[i / dim]->name + " " +
+                  coordinate[i % dim] + unit(" (N/m)"),
                 [i](const Record &r) {
                   return r.report.reactions[i / dim].force[i % dim];
                 });
@@ -160,11 +169,12 @@ namespace geocone
       {
         warned_of_energy = true;
         log.warn(
-          format("the numerical method has created %.3g J/m, %.2g %% of "
+          format("the numerical method has created %.3g %s, %.2g %% of "
                  "the energy that was turned over until t = %.4g s: take "
                  "a smaller 'Explicit/Courant number', splines, or the "
                  "order MUSL",
                  created,
+                 unit("J/m").c_str(),
                  100. * created / scale,
                  record.time));
       }
@@ -207,7 +217,7 @@ namespace geocone
       {"velocity",
        dim,
        filled(dim, [](const auto &group, const unsigned int p, const int d) {
-         return group[Field::vx + d][p];
+         return group[Field::v + d][p];
        })});
     table.columns.push_back(
       {"displacement",
@@ -220,9 +230,18 @@ namespace geocone
          return double(group.material);
        })});
     add("volume", Field::volume);
-    add("stress_xx", Field::s_xx);
-    add("stress_yy", Field::s_yy);
-    add("stress_xy", Field::s_xy);
+    if (scene->geometry
+          .is_axisymmetric()) // what a point is in the plane of pictures
+      table.columns.push_back(
+        {"area",
+         1,
+         filled(1, [this](const auto &group, const unsigned int p, int) {
+           return group[Field::volume][p] /
+                  Geometry::measure(scene->geometry.symmetry,
+                                    group.position(p));
+         })});
+    for (int i = 0; i < n_mandel; ++i)
+      add(std::string("stress_") + tensor_component[i], Field::stress + i);
     add("cumulative_plastic_strain", Field::plastic_strain);
 
     // What any of the laws can show; where a law cannot, not a number.
@@ -243,16 +262,12 @@ namespace geocone
                        const PointArrays &group,
                        double            *values) const
   {
-    using Field = PointArrays::Field;
     ShownValue          shown(scene->materials.law(group.material), name);
     std::vector<double> history(group.n_history);
     for (unsigned int p = 0; p < group.n_points(); ++p)
       {
         group.copy_history(p, history.data());
-        values[p] = shown({{group[Field::s_xx][p],
-                            group[Field::s_yy][p],
-                            group[Field::s_xy][p]}},
-                          history.data());
+        values[p] = shown(group.stress_components(p), history.data());
       }
   }
 
@@ -290,8 +305,8 @@ namespace geocone
                                {"massless_nodes", b.small_masses}};
         summary["state"]    = {
              {"points", s.n_points},
-             {"mass_kg_per_m", s.mass},
-             {"volume_m2", s.volume},
+             {unit("mass_kg_per_m"), s.mass},
+             {dim == 2 ? "volume_m2" : "volume_m3", s.volume},
              {"x_least_m", s.lower[0]},
              {"x_largest_m", s.upper[0]},
              {"y_largest_m", s.upper[1]},
@@ -299,18 +314,25 @@ namespace geocone
              {"right_front_m", s.right_front},
              {"largest_speed_m_per_s", s.largest_speed},
              {"largest_plastic_strain", s.largest_plastic_strain},
-             {"removed_mass_kg_per_m", b.removed_mass}};
+             {unit("removed_mass_kg_per_m"), b.removed_mass}};
+        summary["motion"] = {{"front_x_m", s.upper[0]},
+                             {"front_y_m", s.upper[1]}};
+        if (dim == 3)
+          {
+            summary["state"]["z_least_m"]   = s.lower[2];
+            summary["state"]["z_largest_m"] = s.upper[2];
+          }
         summary["energy"] = {
-          {"kinetic_J_per_m", s.kinetic},
-          {"largest_kinetic_J_per_m", largest_kinetic},
-          {"potential_J_per_m", s.potential},
-          {"released_potential_J_per_m",
+          {unit("kinetic_J_per_m"), s.kinetic},
+          {unit("largest_kinetic_J_per_m"), largest_kinetic},
+          {unit("potential_J_per_m"), s.potential},
+          {unit("released_potential_J_per_m"),
            initial.potential - s.potential - b.removed_potential},
-          {"stress_work_J_per_m", b.stress_work},
-          {"gravity_work_J_per_m", b.gravity_work},
-          {"support_work_J_per_m", b.support_work},
-          {"damping_work_J_per_m", b.damping_work},
-          {"numerical_loss_J_per_m", numerical_loss(last)},
+          {unit("stress_work_J_per_m"), b.stress_work},
+          {unit("gravity_work_J_per_m"), b.gravity_work},
+          {unit("support_work_J_per_m"), b.support_work},
+          {unit("damping_work_J_per_m"), b.damping_work},
+          {unit("numerical_loss_J_per_m"), numerical_loss(last)},
           {"numerical_loss_relative", numerical_loss(last) / energy_scale},
           {"numerical_loss_max_relative", loss / energy_scale}};
         if (initial.kinetic > 0.)
@@ -324,16 +346,21 @@ namespace geocone
         // What a turning body of this size and energy would have.
         const double turning = std::sqrt(2. * initial.mass * initial.kinetic) *
                                (initial.lower.norm() + initial.upper.norm());
-        summary["momentum"] = {
-          {"x_N_s_per_m", s.momentum[0]},
-          {"y_N_s_per_m", s.momentum[1]},
-          {"angular_N_m_s_per_m", s.angular_momentum},
-          {"angular_change_relative",
-           std::abs(initial.angular_momentum) > 1e-9 * turning
-             ? Json(s.angular_momentum / initial.angular_momentum - 1.)
-             : Json()},
-          {"residual_max_relative",
-           momentum / std::max(largest_impulse, 1e-300)}};
+        summary["momentum"] = {{"angular_change_relative",
+                                initial.angular_momentum.norm() > 1e-9 * turning
+                                  ? Json(s.angular_momentum.norm() /
+                                           initial.angular_momentum.norm() -
+                                         1.)
+                                  : Json()},
+                               {"residual_max_relative",
+                                momentum / std::max(largest_impulse, 1e-300)}};
+        for (unsigned int d = 0; d < dim; ++d)
+          summary["momentum"][coordinate[d] + unit("_N_s_per_m")] =
+            s.momentum[d];
+        for (unsigned int i = 0; i < n_rotations; ++i)
+          summary["momentum"]["angular_" +
+                              (dim == 2 ? "" : axis_of_rotation(i) + "_") +
+                              unit("N_m_s_per_m")] = s.angular_momentum[i];
         summary["law"] = {
           {"updates", counts.updates},
           {"substeps", counts.substeps},
@@ -365,13 +392,15 @@ namespace geocone
              s.upper[0],
              s.upper[1]));
     log.print(format(
-      "kinetic energy %.4g J/m (at most %.4g), stress work %.4g, released "
-      "%.4g, numerical loss %.2g J/m; momentum to %.1e",
+      "kinetic energy %.4g %s (at most %.4g), stress work %.4g, released "
+      "%.4g, numerical loss %.2g %s; momentum to %.1e",
       s.kinetic,
+      unit("J/m").c_str(),
       largest_kinetic,
       last.balance.stress_work,
-      summary["energy"]["released_potential_J_per_m"].get<double>(),
+      summary["energy"][unit("released_potential_J_per_m")].get<double>(),
       numerical_loss(last),
+      unit("J/m").c_str(),
       summary["momentum"]["residual_max_relative"].get<double>()));
     if (summary["law"]["substeps"].get<unsigned long long>() > 0)
       log.print(

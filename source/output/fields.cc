@@ -71,15 +71,11 @@ namespace geocone
       return cells;
     }
 
-    /** Names of Mandel's components; s_zz of the plane is the law's to know. */
-    constexpr const char *of_tensor[] = {
-      "_xx", "_yy", "_xy", "_zz", "_yz", "_zx"};
-
     /** A component of the tensor of a Mandel vector. */
     double
     component(const Mandel &t, const int i)
     {
-      return i == 2 || i > 3 ? t[i] / sqrt2 : t[i];
+      return is_shear(i) ? t[i] / sqrt2 : t[i];
     }
 
     /** What is written of each cell: the material, and means. */
@@ -88,18 +84,10 @@ namespace geocone
     {
       std::vector<std::string> names = {"material"};
       for (int i = 0; i < n_spatial; ++i)
-        names.push_back(std::string("stress") + of_tensor[i]);
+        names.push_back(std::string("stress_") + tensor_component[i]);
       names.push_back("plastic_strain_rate");
       names.push_back("cumulative_plastic_strain");
       return names;
-    }
-
-    /** Stress components xx, yy, xy of a point (Pa). */
-    std::array<double, 3>
-    in_plane(const MaterialPoints &points, const unsigned int p)
-    {
-      const Mandel &s = points.stress[p];
-      return {{s[0], s[1], s[2] / sqrt2}};
     }
 
     /** The components of points or vectors, one after another. */
@@ -155,8 +143,9 @@ namespace geocone
             for (int i = 0; i < n_mandel; ++i)
               mean[1 + i] += V * component(points.stress[p], i);
             if (dim == 2)
-              mean[4] += V * materials[points.material[p]].stress_zz(
-                               in_plane(points, p), points.history_of(p));
+              mean[4] +=
+                V * materials[points.material[p]].stress_zz(
+                      components_of(points.stress[p]), points.history_of(p));
             mean[1 + n_spatial] += V * points.plastic_strain_rate[p];
             mean[2 + n_spatial] += V * points.cumulative_plastic_strain[p];
           }
@@ -229,9 +218,10 @@ namespace geocone
     const auto add_tensor = [&](const std::string         &name,
                                 const std::vector<Mandel> &values) {
       for (int i = 0; i < n_mandel; ++i)
-        add(name + of_tensor[i], [&values, i](const std::size_t p) {
-          return component(values[p], i);
-        });
+        add(name + "_" + tensor_component[i],
+            [&values, i](const std::size_t p) {
+              return component(values[p], i);
+            });
     };
     add_tensor("stress", points.stress);
     for (const std::string &name : materials.shown_names())
@@ -240,7 +230,7 @@ namespace geocone
         for (unsigned int m = 0; m < materials.size(); ++m)
           of_law.emplace_back(materials.law(m), name);
         add(name, [&points, of_law](const std::size_t p) mutable {
-          return of_law[points.material[p]](in_plane(points, p),
+          return of_law[points.material[p]](components_of(points.stress[p]),
                                             points.history_of(p));
         });
       }

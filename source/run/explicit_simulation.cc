@@ -90,10 +90,11 @@ namespace geocone
   std::string
   ExplicitSimulation::progress_of_step() const
   {
-    return format("%lu explicit steps  kinetic energy = %.3g J/m  plastic "
+    return format("%lu explicit steps  kinetic energy = %.3g %s  plastic "
                   "strain <= %.3g",
                   stepper.n_steps,
                   state.kinetic,
+                  scene.geometry.unit("J/m").c_str(),
                   state.largest_plastic_strain);
   }
 

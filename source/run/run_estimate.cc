@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/discretisation/space.h>
 #include <geocone/run/run_estimate.h>
 
 #include <cmath>
@@ -88,28 +89,19 @@ namespace geocone
                Seeding           *seeding,
                const FieldsAsked &fields)
   {
-    RunEstimate       e;
-    const std::string element = ParameterFile::value("Discretisation/Element");
+    RunEstimate e;
     if (seeding != nullptr)
       seeding->prepare(scene);
     const BackgroundMesh::Expected expected = mesh.expect(scene, method);
     e.cells                                 = expected.n_cells;
     e.driver                                = expected.parameter;
 
-    // As Space::choose_element() will.
-    const bool spline =
-      element[0] == 'B' ||
-      (element == "automatic" && method.is_mpm() && expected.is_grid);
-    const unsigned int p =
-      element != "automatic" ? element.back() - '0'
-      : dim == 3
-        ? (method.is_mpm() && !expected.is_grid && !expected.is_simplicial ? 1
-                                                                           : 2)
-      : !method.is_mpm()       ? 3
-      : expected.is_simplicial ? (method.is_explicit() ? 1 : 3)
-      : !expected.is_grid      ? 1
-      : method.is_explicit()   ? 2
-                               : 3;
+    std::string element = ParameterFile::value("Discretisation/Element");
+    if (element == "automatic")
+      element = Space::automatic_element(
+        expected.is_simplicial, expected.is_grid, method);
+    const bool         spline = element[0] == 'B';
+    const unsigned int p      = element.back() - '0';
     // Of a triangle and a tetrahedron, by Euler's formula and what is usual.
     const double of_simplex     = dim == 2 ? (p == 1   ? 0.5
                                               : p == 2 ? 2.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/lexicographic.h>
 #include <geocone/base/log.h>
 #include <geocone/scene/geometry.h>
 
@@ -70,9 +71,15 @@ namespace geocone
   std::string
   text_of_place(const Point<dim> &x)
   {
+    return text_of_vector(x, "%g");
+  }
+
+  std::string
+  text_of_vector(const dealii::Tensor<1, dim> &x, const char *number)
+  {
     std::string text;
     for (unsigned int c = 0; c < dim; ++c)
-      text += format(c == 0 ? "%g" : ", %g", x[c]);
+      text += (c == 0 ? "" : ", ") + format(number, x[c]);
     return text;
   }
 
@@ -519,22 +526,21 @@ namespace geocone
   double
   Geometry::area_of_samples() const
   {
-    const auto [lower, upper]    = bounding_box();
-    constexpr unsigned int n     = dim == 2 ? 256 : 40;
-    unsigned int           total = 1, inside = 0;
-    double                 area = 1.;
-    for (unsigned int d = 0; d < dim; ++d)
+    const auto [lower, upper] = bounding_box();
+    const GridIndex   n       = equal_sizes(dim == 2 ? 256 : 40);
+    const std::size_t total   = grid_volume(n);
+    std::size_t       inside  = 0;
+    for (std::size_t i = 0; i < total; ++i)
       {
-        total *= n;
-        area *= upper[d] - lower[d];
-      }
-    for (unsigned int i = 0; i < total; ++i)
-      {
-        Point<dim> x;
-        for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= n)
-          x[d] = lower[d] + (rest % n + 0.5) / n * (upper[d] - lower[d]);
+        const GridIndex index = index_in_grid(i, n);
+        Point<dim>      x;
+        for (unsigned int d = 0; d < dim; ++d)
+          x[d] = lower[d] + (index[d] + 0.5) / n[d] * (upper[d] - lower[d]);
         inside += contains(x);
       }
+    double area = 1.;
+    for (unsigned int d = 0; d < dim; ++d)
+      area *= upper[d] - lower[d];
     return area * inside / total;
   }
 

@@ -15,13 +15,12 @@ namespace geocone
   {
     constexpr double most_steps = 1e8; ///< of a stage
 
-    /** Of the components of a given initial stress, in the order of Mandel's. */
-    const char *const names_of_stress[] = {"Stress xx",
-                                           "Stress yy",
-                                           "Stress xy",
-                                           "Stress zz",
-                                           "Stress yz",
-                                           "Stress zx"};
+    /** Of the components of a given initial stress. */
+    std::string
+    name_of_stress(const unsigned int component)
+    {
+      return std::string("Stress ") + tensor_component[component];
+    }
   } // namespace
 
   Stage::Stage(const std::string &name)
@@ -90,8 +89,20 @@ namespace geocone
                   "start of a run.");
     add_parameter("Removed polygon",
                   removed_polygon,
-                  "Explicit MPM: vertices x, y; x, y; ... (m); the points that "
-                  "lie in it when the stage begins are taken away (a cut).");
+                  std::string("Explicit MPM: ") +
+                    (dim == 2 ? "vertices x, y; x, y; ... (m)"
+                              : "lowest and highest corner x, y, z; x, y, z of "
+                                "a box (m)") +
+                    "; the points that lie in it when the stage begins are "
+                    "taken away (a cut).");
+    add_parameter(
+      "Removed where",
+      removed_where_text,
+      std::string("Explicit MPM: the points where this formula in ") +
+        coordinates +
+        " (m) is > 0 when the stage begins are taken away, e.g. y "
+        "- x above a slope of 45 degrees; of those in 'Removed "
+        "polygon' if that is given, too.");
     add_parameter("Removal duration",
                   removal_duration,
                   "Explicit MPM: time (s) over which the weight and the stress "
@@ -125,6 +136,8 @@ namespace geocone
         refuse(entry, "true", "false");
     if (!removed_polygon.empty())
       refuse("Removed polygon", "given", "empty");
+    if (!removed_where_text.empty())
+      refuse("Removed where", removed_where_text, "empty");
   }
 
   void
@@ -176,16 +189,27 @@ namespace geocone
         throw InputError(section + entry, value, ">= 0", "0 is none");
     if (!removed_polygon.empty())
       check_polygon(removed_polygon, section + "Removed polygon");
-    else if (removal_duration > 0.)
+    if (!removed_where_text.empty())
+      removed_where.emplace().prepare(removed_where_text,
+                                      section + "Removed where");
+    if (!removes() && removal_duration > 0.)
       throw InputError(section + "Removal duration",
                        removal_duration,
-                       "0 where no polygon is removed",
-                       "give 'Removed polygon', too");
+                       "0 where nothing is removed",
+                       "give 'Removed polygon' or 'Removed where', too");
     if (removal_duration > duration)
       throw InputError(section + "Removal duration",
                        removal_duration,
                        "at most the duration of the stage",
                        "make the stage longer");
+  }
+
+  bool
+  Stage::removes(const dealii::Point<dim> &x) const
+  {
+    return removes() &&
+           (removed_polygon.empty() || contains(removed_polygon, x)) &&
+           (!removed_where || removed_where->value(x, 0.) > 0.);
   }
 
   double
@@ -359,7 +383,7 @@ namespace geocone
     type.declare(*this, "Type", ": the stress before the first step.");
     texts.fill("0");
     for (unsigned int i = 0; i < texts.size(); ++i)
-      add_parameter(names_of_stress[i],
+      add_parameter(name_of_stress(i),
                     texts[i],
                     i == 0 ? std::string("For 'given': formula in ") +
                                coordinates + " (Pa, tension positive)."
@@ -395,8 +419,8 @@ namespace geocone
     if (type == Type::given)
       {
         for (unsigned int i = 0; i < texts.size(); ++i)
-          components[i].prepare(
-            texts[i], std::string("Initial stress/") + names_of_stress[i]);
+          components[i].prepare(texts[i],
+                                "Initial stress/" + name_of_stress(i));
         if (!text_zz.empty())
           component_zz.prepare(text_zz, "Initial stress/Stress zz");
       }
@@ -486,12 +510,10 @@ namespace geocone
   {
     if (type == Type::given)
       {
-        Mandel stress;
-        for (unsigned int i = 0; i < n_mandel; ++i)
-          stress[i] = components[i].value(x, 0.);
-        for (int k = 0; k < n_shears; ++k)
-          stress[shears[k].place] *= sqrt2;
-        return stress;
+        std::array<double, n_mandel> values;
+        for (int i = 0; i < n_mandel; ++i)
+          values[i] = components[i].value(x, 0.);
+        return mandel_of_components(values);
       }
     if (type == Type::zero)
       return Mandel::Zero();

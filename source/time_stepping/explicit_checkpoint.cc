@@ -86,8 +86,13 @@ namespace geocone
     const std::vector<double> all = archive.read(name);
     std::vector<unsigned int> owner(all.size() / size, n_ranks);
     for (std::size_t i = 0; i < owner.size(); ++i)
-      if (transfer->owns({all[i * size + Field::x], all[i * size + Field::y]}))
-        owner[i] = rank;
+      {
+        Point<dim> x;
+        for (unsigned int d = 0; d < dim; ++d)
+          x[d] = all[i * size + Field::x + d];
+        if (transfer->owns(x))
+          owner[i] = rank;
+      }
     Utilities::MPI::min(owner, comm, owner);
     std::vector<double> own;
     for (std::size_t i = 0; i < owner.size(); ++i)

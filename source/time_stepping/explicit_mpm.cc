@@ -122,15 +122,14 @@ namespace geocone
       "give a layer of soil instead of a surcharge, or set "
       "Discretisation/Method = MPM");
     scene->absorbing.refuse("explicit MPM", "set Discretisation/Method = FEM");
-    scene->geometry.refuse_axis("explicit MPM",
-                                "set Discretisation/Method = FEM");
   }
 
   std::vector<std::string>
   ExplicitMPM::prepare(const Scene &scene_, const Method &method)
   {
-    scene  = &scene_;
-    affine = rule.is_affine();
+    scene        = &scene_;
+    affine       = rule.is_affine();
+    axisymmetric = scene->geometry.is_axisymmetric();
     check_parameters();
     seeding.prepare(*scene);
     kernels = &transfer_kernels();
@@ -143,7 +142,8 @@ namespace geocone
         const CartesianGrid grid(space.degree(), lines);
         transfer =
           std::make_unique<CartesianTransfer>(comm, grid, scene->dirichlet);
-        datum = {lines[0].front(), lines[1].front()};
+        for (unsigned int d = 0; d < dim; ++d)
+          datum[d] = lines[d].front();
         seed_columns(grid, remarks);
       }
     else
@@ -168,6 +168,7 @@ namespace geocone
                          ": with Q1 the noise of nodes with "
                          "little mass grows from step to step");
 
+    least_radius = 1e-6 * transfer->cell_size();
     if (const auto given = scene->observation.moment_centre())
       std::fill(transfer->centres.begin(), transfer->centres.end(), *given);
     nodes = std::make_unique<NodalUpdate>(
@@ -207,34 +208,34 @@ namespace geocone
     const auto array = [&](const unsigned int field) {
       return group[field] + first;
     };
-    const unsigned int c = group.first_affine();
-    return {n,
-            g,
-            first,
-            array(Field::x),
-            array(Field::y),
-            array(Field::vx),
-            array(Field::vy),
-            array(Field::s_xx),
-            array(Field::s_yy),
-            array(Field::s_xy),
-            array(Field::volume),
-            array(Field::mass),
-            affine ? array(c) : nullptr,
-            affine ? array(c + 1) : nullptr,
-            affine ? array(c + 2) : nullptr,
-            affine ? array(c + 3) : nullptr};
+    TransferBlock points = {
+      n, g, first, {}, {}, {}, array(Field::volume), array(Field::mass), {}};
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        points.x[d] = array(Field::x + d);
+        points.v[d] = array(Field::v + d);
+      }
+    for (int i = 0; i < n_mandel; ++i)
+      points.s[i] = array(Field::stress + i);
+    for (unsigned int i = 0; i < dim * dim && affine; ++i)
+      points.c[i] = array(group.first_affine() + i);
+    return points;
   }
 
   void
   ExplicitMPM::pass(const Pass &what, const double dt)
   {
     const Stopwatch watch(clock.passes);
+    const bool      gives_force =
+      what.gives == Gives::force || what.gives == Gives::all;
+    if (gives_force)
+      hoop_force = 0.;
     for (unsigned int g = 0; g < groups.size(); ++g)
       {
         PointArrays           &group = groups[g];
         const ConstitutiveLaw &law   = scene->materials.law(group.material);
         history.resize(group.n_history);
+        point_history.resize(group.n_history);
         for (unsigned int first = 0; first < group.n_padded();
              first += PointBlock::capacity)
           {
@@ -252,21 +253,22 @@ namespace geocone
               }
             if (what.update.strain)
               {
+                if (axisymmetric)
+                  strain_around_axis(what, dt, points);
                 for (unsigned int k = 0; k < group.n_history; ++k)
                   history[k] = group[group.first_history() + k] + first;
+                std::array<const double *, dim * dim> l;
+                for (unsigned int i = 0; i < dim * dim; ++i)
+                  l[i] = scratch.l[i];
                 law.advance({std::min(points.n, group.n_points() - first),
-                             scratch.l_xx,
-                             scratch.l_xy,
-                             scratch.l_yx,
-                             scratch.l_yy,
-                             points.s_xx,
-                             points.s_yy,
-                             points.s_xy,
+                             l,
+                             points.s,
                              history.data(),
                              group[Field::plastic_strain] + first,
                              scratch.work,
                              scratch.wave_modulus,
-                             dt},
+                             dt,
+                             axisymmetric ? scratch.l_zz : nullptr},
                             counts);
                 kernels->finish(points, scratch, sums);
               }
@@ -274,9 +276,14 @@ namespace geocone
               {
                 PassSums here;
                 kernels->bound(points, here);
-                if (!std::isfinite(here.check) ||
-                    !transfer->reaches({here.lower[0], here.lower[1]}) ||
-                    !transfer->reaches({here.upper[0], here.upper[1]}))
+                Point<dim> lower, upper;
+                for (unsigned int d = 0; d < dim; ++d)
+                  {
+                    lower[d] = here.lower[d];
+                    upper[d] = here.upper[d];
+                  }
+                if (!std::isfinite(here.check) || !transfer->reaches(lower) ||
+                    !transfer->reaches(upper))
                   {
                     mend_positions(points);
                     here = PassSums();
@@ -288,14 +295,13 @@ namespace geocone
               fade_points(points);
             if (what.gives == Gives::nothing)
               continue;
-            kernels->prepare_scatter(what.gives != Gives::force,
-                                     what.gives == Gives::force ||
-                                       what.gives == Gives::all,
-                                     points,
-                                     scratch);
+            if (axisymmetric && gives_force)
+              force_around_axis(points);
+            kernels->prepare_scatter(
+              what.gives != Gives::force, gives_force, points, scratch);
             const bool with_mass = what.gives == Gives::momentum_and_mass ||
                                    what.gives == Gives::all;
-            if (what.gives == Gives::force || what.gives == Gives::all)
+            if (gives_force)
               transfer->scatter(points, scratch, with_mass);
             else
               transfer->scatter_values(points, scratch, with_mass);
@@ -307,15 +313,44 @@ namespace geocone
       }
   }
 
+  void
+  ExplicitMPM::strain_around_axis(const Pass          &what,
+                                  const double         dt,
+                                  const TransferBlock &points)
+  {
+    for (unsigned int k = 0; k < points.n; ++k)
+      {
+        const double moved =
+          dt * scratch.gathered[BlockScratch::n_gathered * k];
+        const double r  = points.x[0][k] - (what.update.position ? moved : 0.);
+        scratch.l_zz[k] = moved / std::max(r, least_radius);
+      }
+  }
+
+  void
+  ExplicitMPM::force_around_axis(const TransferBlock &points)
+  {
+    const PointArrays     &group = groups[points.group];
+    const ConstitutiveLaw &law   = scene->materials.law(group.material);
+    for (unsigned int k = 0; k < points.n; ++k)
+      {
+        group.copy_history(points.first + k, point_history.data());
+        const double s_zz = law.stress_zz(
+          group.stress_components(points.first + k), point_history.data());
+        scratch.hoop_force[k] =
+          -points.volume[k] * s_zz / std::max(points.x[0][k], least_radius);
+        hoop_force += scratch.hoop_force[k];
+      }
+  }
+
   std::string
   ExplicitMPM::has_left(const PointArrays &group, const unsigned int p) const
   {
-    return format("point %u has left the background mesh at (%g, %g)\n"
+    return format("point %u has left the background mesh at (%s)\n"
                   "  remedy:  enlarge 'Mesh/Box', hold the side, or set "
                   "'Particles/Outflow' = count",
                   group.id[p],
-                  group[Field::x][p],
-                  group[Field::y][p]);
+                  text_of_place(group.position(p)).c_str());
   }
 
   void
@@ -327,14 +362,13 @@ namespace geocone
     const double tolerance = 1e-6 * transfer->cell_size();
     for (unsigned int p = points.first; p < points.first + points.n; ++p)
       {
-        const Point<dim> place = group.position(p);
-        if (std::isfinite(place.square()) &&
-            std::isfinite(group[Field::vx][p] + group[Field::vy][p]) &&
-            transfer->reaches(place))
+        const Point<dim> place     = group.position(p);
+        const bool       is_finite = std::isfinite(place.square()) &&
+                               std::isfinite(group.velocity(p).norm_square());
+        if (is_finite && transfer->reaches(place))
           continue;
         Point<dim> nearest;
-        if (!std::isfinite(place.square()) ||
-            !std::isfinite(group[Field::vx][p] + group[Field::vy][p]))
+        if (!is_finite)
           {
             if (obstacle.empty() && p < end)
               obstacle =
@@ -342,10 +376,12 @@ namespace geocone
                        "  remedy:  take a smaller 'Explicit/Courant number' "
                        "or 'Explicit/Time step', splines, or the order MUSL",
                        group.id[p]);
-            group[Field::vx][p] = group[Field::vy][p] = 0.;
             nearest = transfer->stored_place();
             for (unsigned int d = 0; d < dim; ++d)
-              group[Field::x + d][p] = nearest[d];
+              {
+                group[Field::v + d][p] = 0.;
+                group[Field::x + d][p] = nearest[d];
+              }
             continue;
           }
         nearest            = transfer->nearest_in_domain(place);
@@ -354,13 +390,12 @@ namespace geocone
           {
             if (obstacle.empty() && p < end)
               obstacle =
-                format("point %u at (%g, %g) moved through more than a cell "
+                format("point %u at (%s) moved through more than a cell "
                        "in one step\n"
                        "  remedy:  take a smaller 'Explicit/Courant number' "
                        "or 'Explicit/Time step'",
                        group.id[p],
-                       place[0],
-                       place[1]);
+                       text_of_place(place).c_str());
             nearest = transfer->stored_place(); // the run ends anyhow
           }
         else if (outside && p < end)
@@ -446,6 +481,7 @@ namespace geocone
     };
     const auto accelerate = [&](const bool velocity_is_read, const bool moves) {
       const Stopwatch watch(clock.grid);
+      sum.impulse[0] += dt * hoop_force;
       nodes->accelerate(at_nodes, velocity_is_read, moves);
     };
     // A transfer that must be refreshed before the next step would be given what
@@ -505,13 +541,12 @@ namespace geocone
       for (const PointArrays &group : groups)
         for (unsigned int p = 0; p < group.n_points() && obstacle.empty(); ++p)
           if (!(group[Field::volume][p] > 0.) && group[Field::mass][p] > 0.)
-            obstacle = format("the volume of point %u at (%g, %g) has become "
+            obstacle = format("the volume of point %u at (%s) has become "
                               "zero or negative\n"
                               "  remedy:  take a smaller 'Explicit/Courant "
                               "number' or 'Explicit/Time step', or splines",
                               group.id[p],
-                              group[Field::x][p],
-                              group[Field::y][p]);
+                              text_of_place(group.position(p)).c_str());
     double largest[6] = {
       sums.wave_speed2,
       sums.speed2,

@@ -79,26 +79,23 @@ namespace geocone
         {
           values[Field::x + d]       = seed.position[d];
           values[Field::x_start + d] = seed.position[d];
-          values[Field::vx + d]      = seed.velocity[d];
+          values[Field::v + d]       = seed.velocity[d];
         }
-      values[Field::s_xx]   = seed.stress[0];
-      values[Field::s_yy]   = seed.stress[1];
-      values[Field::s_xy]   = seed.stress[2] / sqrt2;
+      const auto components = components_of(seed.stress);
+      for (int i = 0; i < n_mandel; ++i)
+        values[Field::stress + i] = components[i];
       values[Field::volume] = seed.volume;
       values[Field::mass]   = seed.volume * law.density();
       largest_mass          = std::max(largest_mass, values[Field::mass]);
-      const ConstitutiveLaw::Stress stress = {{seed.stress[0],
-                                               seed.stress[1],
-                                               seed.stress_zz,
-                                               seed.stress[2] / sqrt2}};
+      const ConstitutiveLaw::Stress stress =
+        stress_of(extended(seed.stress, seed.stress_zz));
       for (unsigned int k = 0; k < group.first_history(); ++k)
         if (!std::isfinite(values[k]))
-          start.refuse(format("the initial stress or velocity at (%g, %g) is "
+          start.refuse(format("the initial stress or velocity at (%s) is "
                               "not a finite number\n  remedy:  check the "
                               "formulas in 'Initial stress' and 'Initial "
                               "velocity'",
-                              seed.position[0],
-                              seed.position[1]));
+                              text_of_place(seed.position).c_str()));
       if (start.is_refused())
         return;
       start.set(law,
@@ -114,7 +111,7 @@ namespace geocone
       if (affine)
         {
           const Tensor<2, dim> gradient = scene->initial_velocity.gradient(
-            seed.position, std::sqrt(seed.volume));
+            seed.position, length_of(seed.volume));
           for (unsigned int c = 0; c < dim; ++c)
             for (unsigned int d = 0; d < dim; ++d)
               values[group.first_affine() + dim * c + d] = gradient[c][d];
@@ -137,8 +134,9 @@ namespace geocone
     if (stage.reset_displacement)
       for (PointArrays &group : groups)
         {
-          std::copy_n(group[Field::x], group.n_padded(), group[Field::x_start]);
-          std::copy_n(group[Field::y], group.n_padded(), group[Field::y_start]);
+          for (unsigned int d = 0; d < dim; ++d)
+            std::copy_n(
+              group[Field::x + d], group.n_padded(), group[Field::x_start + d]);
           std::fill_n(group[Field::plastic_strain], group.n_padded(), 0.);
         }
     if (stage.reset_velocity)
@@ -158,7 +156,7 @@ namespace geocone
               {
                 group.copy_history(p, values.data());
                 start.set(law,
-                          stress_of(group, p, values.data()),
+                          law.whole(group.stress_components(p), values.data()),
                           law.size(values.data()),
                           group.position(p),
                           values.data());
@@ -170,8 +168,8 @@ namespace geocone
         start.check<StepFailure>(comm);
         start.remark(comm, remarks);
       }
-    if (!stage.removed_polygon.empty())
-      remarks.push_back(remove_polygon(stage, t));
+    if (stage.removes())
+      remarks.push_back(remove_points(stage, t));
     energy_n    = 0.;
     rising      = false;
     stage_start = balance();
@@ -179,7 +177,7 @@ namespace geocone
   }
 
   std::string
-  ExplicitMPM::remove_polygon(const Stage &stage, const double t)
+  ExplicitMPM::remove_points(const Stage &stage, const double t)
   {
     if (fade_end > 0.)
       end_removal(); // of an earlier stage, up to rounding
@@ -188,16 +186,17 @@ namespace geocone
       for (unsigned int p = 0; p < group.n_points(); ++p)
         {
           ++n_all;
-          n_removed += contains(stage.removed_polygon, group.position(p));
+          n_removed += stage.removes(group.position(p));
         }
     n_removed = Utilities::MPI::sum(n_removed, comm);
     n_all     = Utilities::MPI::sum(n_all, comm);
     if (n_removed == 0 || n_removed == n_all)
-      throw StepFailure("'Loading/" + stage.name + "/Removed polygon' holds " +
-                        (n_removed == 0 ? "no point" : "all points") +
-                        " of the body\n  allowed: a part of it\n"
-                        "  remedy:  compare its vertices with where the points "
-                        "are now");
+      throw StepFailure(
+        "'Loading/" + stage.name + "/" +
+        (stage.removed_polygon.empty() ? "Removed where" : "Removed polygon") +
+        "' holds " + (n_removed == 0 ? "no point" : "all points") +
+        " of the body\n  allowed: a part of it\n"
+        "  remedy:  compare it with where the points are now");
 
     double                   removed_mass = 0.;
     Tensor<1, dim>           momentum;
@@ -211,14 +210,14 @@ namespace geocone
         std::vector<double> values(group.n_fields());
         for (unsigned int p = 0; p < group.n_points(); ++p)
           {
-            if (!contains(stage.removed_polygon, group.position(p)))
+            if (!stage.removes(group.position(p)))
               {
                 staying.push_back(p);
                 continue;
               }
             removed_mass += group[Field::mass][p];
             for (unsigned int d = 0; d < dim; ++d)
-              momentum[d] += group[Field::mass][p] * group[Field::vx + d][p];
+              momentum[d] += group[Field::mass][p] * group[Field::v + d][p];
             if (at_once)
               take_away(group, p);
             else
@@ -244,14 +243,14 @@ namespace geocone
       }
     must_refresh = true;
     return format(
-      "removed %lu of %lu points%s: %.6g kg/m, momentum (%.3g, "
-      "%.3g) N s/m",
+      "removed %lu of %lu points%s: %.6g %s, momentum (%s) %s",
       n_removed,
       n_all,
       at_once ? "" : format(" within %g s", stage.removal_duration).c_str(),
       removed_mass,
-      momentum[0],
-      momentum[1]);
+      unit("kg/m").c_str(),
+      text_of_vector(momentum, "%.3g").c_str(),
+      unit("N s/m").c_str());
   }
 
   void
@@ -260,7 +259,7 @@ namespace geocone
     const double m = group[Field::mass][p];
     sum.removed_mass += m;
     for (unsigned int d = 0; d < dim; ++d)
-      sum.removed_momentum[d] += m * group[Field::vx + d][p];
+      sum.removed_momentum[d] += m * group[Field::v + d][p];
     sum.removed_energy += kinetic_energy(group, p);
     sum.removed_potential -=
       m * (scene->gravity.at(1e300) * (group.position(p) - datum));
@@ -283,7 +282,7 @@ namespace geocone
           (scene->gravity.at(1e300) * (group.position(p) - datum));
         sum.removed_mass += (1. - fade) * m;
         for (unsigned int d = 0; d < dim; ++d)
-          sum.removed_momentum[d] += (1. - fade) * m * group[Field::vx + d][p];
+          sum.removed_momentum[d] += (1. - fade) * m * group[Field::v + d][p];
         group[Field::mass][p] *= fade;
         group[Field::volume][p] *= fade;
       }
@@ -298,10 +297,10 @@ namespace geocone
           {
             sum.stopped_energy += kinetic_energy(group, p);
             for (unsigned int d = 0; d < dim; ++d)
-              sum.impulse[d] -= group[Field::mass][p] * group[Field::vx + d][p];
+              sum.impulse[d] -= group[Field::mass][p] * group[Field::v + d][p];
           }
-        std::fill_n(group[Field::vx], group.n_padded(), 0.);
-        std::fill_n(group[Field::vy], group.n_padded(), 0.);
+        for (unsigned int d = 0; d < dim; ++d)
+          std::fill_n(group[Field::v + d], group.n_padded(), 0.);
         if (affine)
           for (unsigned int i = 0; i < dim * dim; ++i)
             std::fill_n(group[group.first_affine() + i], group.n_padded(), 0.);

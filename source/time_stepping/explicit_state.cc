@@ -19,26 +19,11 @@ namespace geocone
     using Field = PointArrays::Field;
   }
 
-  ConstitutiveLaw::Stress
-  ExplicitMPM::stress_of(const PointArrays &group,
-                         const unsigned int p,
-                         const double      *history) const
-  {
-    const double xx = group[Field::s_xx][p], yy = group[Field::s_yy][p],
-                 xy = group[Field::s_xy][p];
-    return {
-      {xx,
-       yy,
-       scene->materials.law(group.material).stress_zz({{xx, yy, xy}}, history),
-       xy}};
-  }
-
   double
   ExplicitMPM::kinetic_energy(const PointArrays &group,
                               const unsigned int p) const
   {
-    const double vx = group[Field::vx][p], vy = group[Field::vy][p];
-    return group[Field::mass][p] * (vx * vx + vy * vy) / 2.;
+    return group[Field::mass][p] * group.velocity(p).norm_square() / 2.;
   }
 
   double
@@ -56,9 +41,10 @@ namespace geocone
   {
     ExplicitState s;
     // Of the whole gravity, also while it grows.
-    const Tensor<1, dim> g         = scene->gravity.at(1e300);
-    double               bounds[4] = {1e300, 1e300, 1e300, 1e300};
-    double               fastest   = -1.;
+    const Tensor<1, dim> g = scene->gravity.at(1e300);
+    double               bounds[2 * dim];
+    std::fill_n(bounds, 2 * dim, 1e300);
+    double fastest = -1.;
     for (const PointArrays &group : groups)
       {
         const ConstitutiveLaw &law = scene->materials.law(group.material);
@@ -70,15 +56,17 @@ namespace geocone
             if (!(m > 0.))
               continue; // it has left
             ++s.n_points;
-            Tensor<1, dim> v;
-            v[0] = group[Field::vx][p];
-            v[1] = group[Field::vy][p];
+            const Tensor<1, dim> v = group.velocity(p);
             s.mass += m;
             s.volume += group[Field::volume][p];
             s.kinetic += m * v.norm_square() / 2.;
             s.potential -= m * (g * (x - datum));
             s.momentum += m * v;
-            s.angular_momentum += m * (x[0] * v[1] - x[1] * v[0]);
+            for (unsigned int i = 0; i < n_rotations; ++i)
+              {
+                const auto [a, b] = plane_of_rotation[i];
+                s.angular_momentum[i] += m * (x[a] * v[b] - x[b] * v[a]);
+              }
             for (unsigned int d = 0; d < dim; ++d)
               {
                 bounds[d]       = std::min(bounds[d], x[d]);
@@ -89,8 +77,9 @@ namespace geocone
               s.largest_plastic_strain, group[Field::plastic_strain][p]);
             group.copy_history(p, values.data());
             const double c2 =
-              law.wave_modulus(stress_of(group, p, values.data()),
-                               values.data()) *
+              law.wave_modulus(
+                law.whole(group.stress_components(p), values.data()),
+                values.data()) *
               group[Field::volume][p] / m;
             if (c2 > fastest)
               {
@@ -111,21 +100,22 @@ namespace geocone
     s.largest_plastic_strain =
       Utilities::MPI::max(s.largest_plastic_strain, comm);
     Utilities::MPI::min(bounds, comm, bounds);
-    s.lower = {bounds[0], bounds[1]};
-    s.upper = {-bounds[2], -bounds[3]};
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        s.lower[d] = bounds[d];
+        s.upper[d] = -bounds[dim + d];
+      }
 
-    const auto where =
-      Utilities::MPI::all_gather(comm,
-                                 std::array<double, 4>{{fastest,
-                                                        double(s.limiting_id),
-                                                        s.limiting_place[0],
-                                                        s.limiting_place[1]}});
-    for (const auto &w : where)
+    std::array<double, 2 + dim> limit = {{fastest, double(s.limiting_id)}};
+    for (unsigned int d = 0; d < dim; ++d)
+      limit[2 + d] = s.limiting_place[d];
+    for (const auto &w : Utilities::MPI::all_gather(comm, limit))
       if (w[0] >= fastest)
         {
-          fastest          = w[0];
-          s.limiting_id    = static_cast<unsigned int>(w[1]);
-          s.limiting_place = {w[2], w[3]};
+          fastest       = w[0];
+          s.limiting_id = static_cast<unsigned int>(w[1]);
+          for (unsigned int d = 0; d < dim; ++d)
+            s.limiting_place[d] = w[2 + d];
         }
     s.limiting_wave_speed = std::sqrt(std::max(fastest, 0.));
 

@@ -42,19 +42,8 @@ namespace geocone
             Eigen::Vector3d(angle[1], angle[2], angle[0]) / size;
           const Eigen::Matrix3d Q =
             Eigen::AngleAxisd(size, axis).toRotationMatrix();
-          Eigen::Matrix3d tensor;
-          for (int d = 0; d < 3; ++d)
-            tensor(d, d) = t[place_of_normal[d]];
-          for (const auto [place, a, b] : shears)
-            if (place < n_mandel)
-              tensor(a, b) = tensor(b, a) = t[place] / sqrt2;
-          tensor = (Q * tensor * Q.transpose()).eval();
-          Mandel turned;
-          for (int d = 0; d < 3; ++d)
-            turned[place_of_normal[d]] = tensor(d, d);
-          for (const auto [place, a, b] : shears)
-            turned[place] = sqrt2 * tensor(a, b);
-          return turned;
+          return spatial_mandel(Q * spatial_tensor(extended(t, 0.)) *
+                                Q.transpose());
         }
     }
   } // namespace

@@ -70,9 +70,11 @@ namespace geocone
     for (unsigned int i = 0; i < transfer.n_nodes(); ++i)
       {
         const double per_mass = mass[i] > least_mass ? 1. / mass[i] : 0.;
-        read[4 * i]           = write[4 * i] * per_mass;
-        read[4 * i + 1]       = write[4 * i + 1] * per_mass;
-        read[4 * i + 2] = read[4 * i + 3] = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            read[node_size * i + d] = write[node_size * i + d] * per_mass;
+            read[node_size * i + change_of_node + d] = 0.;
+          }
       }
   }
 
@@ -80,7 +82,7 @@ namespace geocone
   NodalUpdate::clear(const bool keep_mass)
   {
     const std::size_t n = transfer.n_nodes();
-    std::fill_n(transfer.write.data(), 4 * n, 0.);
+    std::fill_n(transfer.write.data(), node_size * n, 0.);
     if (!keep_mass)
       std::fill_n(transfer.mass.data(), n, 0.);
   }
@@ -94,7 +96,7 @@ namespace geocone
         const double m = transfer.mass[node.node];
         if (!(m > least_mass))
           continue;
-        double      &v      = transfer.read[4 * node.node + node.component];
+        double      &v = transfer.read[node_size * node.node + node.component];
         const double before = v;
         v                   = prescribed_velocity(node, t);
         if (!node.mine)
@@ -113,7 +115,7 @@ namespace geocone
     divide_momentum();
     for (const PrescribedNode &node : transfer.prescribed)
       if (transfer.mass[node.node] > least_mass)
-        transfer.read[4 * node.node + node.component] =
+        transfer.read[node_size * node.node + node.component] =
           prescribed_velocity(node, step.t + step.dt);
     count_gravity_work(step);
     clear(false);
@@ -128,22 +130,25 @@ namespace geocone
     double            *read  = transfer.read.data();
     double            *write = transfer.write.data();
     const double      *mass  = transfer.mass.data();
-    const double       dt = step.dt, gx = step.gravity[0], gy = step.gravity[1];
+    const double       dt    = step.dt;
+    double             g[dim]; // for the compiler, which need not load it anew
+    for (unsigned int d = 0; d < dim; ++d)
+      g[d] = step.gravity[d];
 
     // Velocities before the step, and the force with gravity and damping.
     for (unsigned int i = 0; i < n; ++i)
       {
-        double      *v = read + 4 * i;
-        double      *f = write + 4 * i;
+        double      *v = read + node_size * i;
+        double      *f = write + node_size * i;
         const double m = mass[i];
         if (!velocity_is_read)
           {
             const double per_mass = m > least_mass ? 1. / m : 0.;
-            v[0]                  = f[0] * per_mass;
-            v[1]                  = f[1] * per_mass;
+            for (unsigned int d = 0; d < dim; ++d)
+              v[d] = f[d] * per_mass;
           }
-        f[2] += m * gx;
-        f[3] += m * gy;
+        for (unsigned int d = 0; d < dim; ++d)
+          f[change_of_node + d] += m * g[d];
       }
     if (step.measures_force)
       measure_unbalanced_force();
@@ -165,8 +170,8 @@ namespace geocone
         if (!node.mine)
           continue;
         const double impulse =
-          m * (after - before) - dt * write[4 * i + 2 + d] +
-          (1. - flip_part) * m * (before - read[4 * i + d]);
+          m * (after - before) - dt * force_at(i, d) +
+          (1. - flip_part) * m * (before - read[node_size * i + d]);
         add_impulse(node, impulse);
         sum.support_work += impulse * (before + after) / 2.;
       }
@@ -176,18 +181,22 @@ namespace geocone
 
     for (unsigned int i = 0; i < n; ++i)
       {
-        double       *v        = read + 4 * i;
-        const double *f        = write + 4 * i;
+        double       *v        = read + node_size * i;
+        const double *f        = write + node_size * i + change_of_node;
+        double       *change   = v + change_of_node;
         const double  per_mass = mass[i] > least_mass ? dt / mass[i] : 0.;
-        v[2]                   = f[2] * per_mass;
-        v[3]                   = f[3] * per_mass;
-        v[0] += v[2];
-        v[1] += v[3];
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            change[d] = f[d] * per_mass;
+            v[d] += change[d];
+          }
       }
     for (const Held &node : held)
       {
-        read[4 * node.node + node.component]     = node.velocity;
-        read[4 * node.node + 2 + node.component] = node.change;
+        double *v = read + node_size * node.node + node.component;
+
+        v[0]              = node.velocity;
+        v[change_of_node] = node.change;
       }
     if (moves)
       count_gravity_work(step);
@@ -202,7 +211,7 @@ namespace geocone
     for (const auto &range : transfer.mine)
       for (unsigned int i = range[0]; i < range[1]; ++i)
         for (unsigned int d = 0; d < dim; ++d)
-          momentum[d] += transfer.mass[i] * transfer.read[4 * i + d];
+          momentum[d] += transfer.mass[i] * transfer.read[node_size * i + d];
     sum.gravity_work += step.dt * (step.gravity * momentum);
   }
 
@@ -213,8 +222,7 @@ namespace geocone
     for (unsigned int i = 0; i < transfer.n_nodes(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
         if (!is_held[dim * i + d])
-          unbalanced =
-            std::max(unbalanced, std::abs(transfer.write[4 * i + 2 + d]));
+          unbalanced = std::max(unbalanced, std::abs(force_at(i, d)));
   }
 
   void
@@ -222,14 +230,14 @@ namespace geocone
   {
     // Not of held components, whose force is a reaction.
     const double *read  = transfer.read.data();
-    double       *write = transfer.write.data();
     const auto    force = [&](const unsigned int i, const unsigned int d) {
-      const double F = std::abs(write[4 * i + 2 + d]);
+      const double F = std::abs(force_at(i, d));
       if (is_held[dim * i + d] || !(transfer.mass[i] > least_mass) || F == 0.)
         return 0.;
       // The sign of the velocity, continuous where it is small against its
       // change in the step: rounding must not decide on a force.
-      const double v = read[4 * i + d] * transfer.mass[i] / (step.dt * F);
+      const double v =
+        read[node_size * i + d] * transfer.mass[i] / (step.dt * F);
       return -step.damping * F * std::max(-1., std::min(1., v));
     };
     for (const auto &range : transfer.mine)
@@ -241,12 +249,12 @@ namespace geocone
               sum.impulse[d] += step.dt * f;
               sum.damping_work -=
                 step.dt * f *
-                (read[4 * i + d] +
-                 step.dt * (write[4 * i + 2 + d] + f) / transfer.mass[i] / 2.);
+                (read[node_size * i + d] +
+                 step.dt * (force_at(i, d) + f) / transfer.mass[i] / 2.);
             }
     for (unsigned int i = 0; i < transfer.n_nodes(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
-        write[4 * i + 2 + d] += force(i, d);
+        force_at(i, d) += force(i, d);
   }
 
   void
@@ -255,7 +263,8 @@ namespace geocone
     const Tensor<1, dim> r = node.place - transfer.centres[node.condition];
     Reaction            &reaction = support_impulse[node.condition];
     reaction.force[node.component] += impulse;
-    reaction.moment += node.component == 0 ? -r[1] * impulse : r[0] * impulse;
+    if (node.component < 2) // about z
+      reaction.moment += node.component == 0 ? -r[1] * impulse : r[0] * impulse;
     sum.impulse[node.component] += impulse;
   }
 

@@ -45,15 +45,10 @@ measure(const std::string &name, const std::string &parameters)
       for (unsigned int k = 0; k < m; ++k)
         history[k].assign(n, one[k]);
       PointBlock block;
-      block.n_points       = n;
-      block.l_xx           = l_xx.data();
-      block.l_xy           = l_xy.data();
-      block.l_yx           = l_yx.data();
-      block.l_yy           = l_yy.data();
-      block.s_xx           = s_xx.data();
-      block.s_yy           = s_yy.data();
-      block.s_xy           = s_xy.data();
-      block.history        = arrays.data();
+      block.n_points = n;
+      block.l        = {{l_xx.data(), l_xy.data(), l_yx.data(), l_yy.data()}};
+      block.s        = {{s_xx.data(), s_yy.data(), s_xy.data()}};
+      block.history  = arrays.data();
       block.plastic_strain = plastic.data();
       block.work           = work.data();
       block.wave_modulus   = modulus.data();

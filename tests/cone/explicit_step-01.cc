@@ -43,13 +43,8 @@ struct Points
   {
     history = constant.data();
     return {n,
-            l_xx.data(),
-            l_xy.data(),
-            l_yx.data(),
-            l_yy.data(),
-            s_xx.data(),
-            s_yy.data(),
-            s_xy.data(),
+            {{l_xx.data(), l_xy.data(), l_yx.data(), l_yy.data()}},
+            {{s_xx.data(), s_yy.data(), s_xy.data()}},
             &history,
             plastic.data(),
             work.data(),

@@ -86,8 +86,7 @@ check_varying(const double fall)
       Mandel       s, s_plus, s_minus;
       MandelMatrix C, differences, *none = nullptr;
       double       slip, other;
-      const Mode   mode =
-        return_map_varying(cone_of, K, two_G, t, s, &C, slip);
+      const Mode   mode = return_map_varying(cone_of, K, two_G, t, s, &C, slip);
       const Mandel z(
         (s[0] - t[0]) / K, (s[1] - t[1]) / two_G, (s[2] - t[2]) / two_G);
       const FlowCone end = cone_of(slip);
@@ -102,22 +101,21 @@ check_varying(const double fall)
           Mandel step = Mandel::Zero();
           step[j]     = 1e-5;
           for (const double side : {50., 1.})
-            smooth =
-              smooth &&
-              return_map_varying(cone_of,
-                                 K,
-                                 two_G,
-                                 Mandel(t + side * step),
-                                 s_plus,
-                                 none,
-                                 other) == mode &&
-              return_map_varying(cone_of,
-                                 K,
-                                 two_G,
-                                 Mandel(t - side * step),
-                                 s_minus,
-                                 none,
-                                 other) == mode;
+            smooth = smooth &&
+                     return_map_varying(cone_of,
+                                        K,
+                                        two_G,
+                                        Mandel(t + side * step),
+                                        s_plus,
+                                        none,
+                                        other) == mode &&
+                     return_map_varying(cone_of,
+                                        K,
+                                        two_G,
+                                        Mandel(t - side * step),
+                                        s_minus,
+                                        none,
+                                        other) == mode;
           differences.col(j) = (s_plus - s_minus) / 2e-5 * (j == 0 ? K : two_G);
         }
       if (smooth)
@@ -152,7 +150,7 @@ shear(const char *name, const double phi, const double theta)
 
   Mandel                stress = Mandel(-20e3, -20e3, 0.);
   std::array<double, 2> history;
-  law.initialise(plane_strain_stress(stress, -20e3), 0., history.data());
+  law.initialise(stress_of(extended(stress, -20e3)), 0., history.data());
 
   // Four lanes, as an explicit step wants them.
   using Lanes = std::array<double, PointBlock::lanes>;
@@ -187,13 +185,8 @@ shear(const char *name, const double phi, const double theta)
       Lanes xy;
       xy.fill(step / 2.);
       law.advance({PointBlock::lanes,
-                   xx.data(),
-                   xy.data(),
-                   xy.data(),
-                   xx.data(),
-                   s_xx.data(),
-                   s_yy.data(),
-                   s_xy.data(),
+                   {{xx.data(), xy.data(), xy.data(), xx.data()}},
+                   {{s_xx.data(), s_yy.data(), s_xy.data()}},
                    arrays,
                    plastic.data(),
                    work.data(),

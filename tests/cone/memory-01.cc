@@ -57,7 +57,7 @@ struct Point
     , stress(start)
     , history(law.n_history())
   {
-    law.initialise(plane_strain_stress(start, 0.), 0., history.data());
+    law.initialise(stress_of(extended(start, 0.)), 0., history.data());
   }
 
   void
@@ -165,20 +165,16 @@ paths(const std::string &name,
               Lanes   histories[2] = {lanes(before.history[0]),
                                       lanes(before.history[1])};
               double *arrays[2]    = {histories[0].data(), histories[1].data()};
-              const PointBlock block = {PointBlock::lanes,
-                                        xx.data(),
-                                        xy.data(),
-                                        xy.data(),
-                                        yy.data(),
-                                        s_xx.data(),
-                                        s_yy.data(),
-                                        s_xy.data(),
-                                        arrays,
-                                        plastic.data(),
-                                        work.data(),
-                                        wave.data(),
-                                        h};
-              LawCounts        counts;
+              const PointBlock block = {
+                PointBlock::lanes,
+                {{xx.data(), xy.data(), xy.data(), yy.data()}},
+                {{s_xx.data(), s_yy.data(), s_xy.data()}},
+                arrays,
+                plastic.data(),
+                work.data(),
+                wave.data(),
+                h};
+              LawCounts counts;
               if (kernel)
                 law.advance(block, counts);
               else

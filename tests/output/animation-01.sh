@@ -22,7 +22,7 @@ run = geocone.read("cut")
 film = Image.open("cut/points.gif")
 assert film.n_frames == len(run.times("points")), film.n_frames
 cut = taken_away_at(run)
-times = [field.time for field in snapshots_of(run, None)[0]]
+times = [field.time for field in snapshots_of(run, None)]
 assert sum(time < cut for time in times) == 1 and len(times) == 6, (cut, times)
 assert times[-1] == run.times("points")[-1], times
 PYTHON

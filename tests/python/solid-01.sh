@@ -11,6 +11,14 @@ for cells in "hexahedra" "tetra --set Mesh/Type=unstructured"; do
   grep -qx "${cells%% *}/plastic_strain_rate.png" said
   grep -q 'points.png is not drawn: points that stay are drawn in the plane only' said
 done
+# Points that move are balls, seen from where the flow is, in pictures, film and page.
+"$program" "$root/tests/three/explicit_layer-01.prm" --quiet --output points \
+  --set 'Output/Fields = true' --set 'Loading/collapse/Output every = 1' \
+  --set 'Output/Report for tests = none'
+"$root/scripts/plot" points --animation > said
+for picture in energy.png runout.png points.png points.gif report.html; do
+  grep -qx "points/$picture" said
+done
 PYTHONPATH=$root/python /usr/bin/python3 -B - <<'PYTHON'
 import struct
 import numpy as np
@@ -32,4 +40,10 @@ for name, kind in (("hexahedra", "hexahedron"), ("tetra", "tetra")):
     assert np.allclose(np.abs(normals).max(axis=1), 1., atol=1e-6)
     centre = np.mean([a, b, c, d], axis=0) - 0.05
     assert np.all(np.sum(centre * normals, axis=1) > 0.)
+# The heap runs along x, away from the wall: it is seen from there.
+run = geocone.read("points")
+assert run.per_metre("J") == "J"
+last, = run.states("points")
+look = solid.SolidLook([last], [last.points[:, 0]], lambda size: size)
+assert look.view.signs[0] == 1. and np.ptp(look.box, axis=0).min() > 0.
 PYTHON

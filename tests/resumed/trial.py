@@ -61,7 +61,10 @@ METHODS = {
     "slope": ("mpm/slope-dilatancy_free-01.prm", {}),
     # Three dimensions.
     "three": ("three/column_layer-01.prm", {
-        "Mesh/Cell size": "0.125", "Loading/collapse/Output every": "3"})}
+        "Mesh/Cell size": "0.125", "Loading/collapse/Output every": "3"}),
+    "three explicit": ("three/explicit_layer-01.prm", {
+        "Mesh/Cell size": "0.0625", "Loading/collapse/Step size": "0.02",
+        "Loading/collapse/Output every": "3"})}
 ALWAYS = {"Output/Expectations": "", "Output/Report for tests": "none",
           "Output/Pictures": "false", "Output/Fields": "true"}
 DEEDS = ("kill", "terminate", "truncate", "ranks")

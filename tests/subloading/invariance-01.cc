@@ -145,13 +145,8 @@ main()
   const auto step = [&](Point &x, const Eigen::Matrix2d &l) {
     PointBlock block;
     block.n_points       = 1;
-    block.l_xx           = &l(0, 0);
-    block.l_xy           = &l(0, 1);
-    block.l_yx           = &l(1, 0);
-    block.l_yy           = &l(1, 1);
-    block.s_xx           = x.stress;
-    block.s_yy           = x.stress + 1;
-    block.s_xy           = x.stress + 2;
+    block.l              = {{&l(0, 0), &l(0, 1), &l(1, 0), &l(1, 1)}};
+    block.s              = {{x.stress, x.stress + 1, x.stress + 2}};
     block.history        = x.arrays;
     block.plastic_strain = &x.plastic;
     block.work           = &x.work;

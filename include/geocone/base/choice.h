@@ -47,6 +47,15 @@ namespace geocone
       return *this;
     }
 
+    /** Takes one of the words. */
+    void
+    set(const std::string &given)
+    {
+      for (const auto &[word, meant] : words)
+        if (given == word)
+          value = meant;
+    }
+
     /** What the file calls it. */
     std::string
     word() const
@@ -76,11 +85,7 @@ namespace geocone
                         word(),
                         dealii::Patterns::Selection(selection),
                         list + documentation);
-      prm.add_action(entry, [this](const std::string &given) {
-        for (const auto &[word, meant] : words)
-          if (given == word)
-            value = meant;
-      });
+      prm.add_action(entry, [this](const std::string &given) { set(given); });
       acceptor.leave_my_subsection(prm);
     }
 

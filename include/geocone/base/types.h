@@ -6,7 +6,9 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cmath>
+#include <string>
 
 /**
  * The space dimension of a scene, which the build gives: all that depends on it is
@@ -66,6 +68,9 @@ namespace geocone
   constexpr ShearPlace shears[3] = {{2, 0, 1}, {4, 1, 2}, {5, 2, 0}};
   constexpr int        n_shears  = dim == 2 ? 1 : 3;
 
+  /** The place of t_ij in all that is in the order of Mandel vectors. */
+  constexpr int place_of_component[3][3] = {{0, 2, 5}, {2, 1, 4}, {5, 4, 3}};
+
   /** The sum of the normal components of a Mandel vector, of the plane or spatial. */
   template <int n>
   double
@@ -94,6 +99,14 @@ namespace geocone
   constexpr unsigned int n_rotations             = dim == 2 ? 1 : 3;
   constexpr unsigned int plane_of_rotation[3][2] = {{0, 1}, {1, 2}, {2, 0}};
 
+  /** The axis of a rotation. */
+  inline std::string
+  axis_of_rotation(const unsigned int rotation)
+  {
+    const auto [a, b] = plane_of_rotation[rotation];
+    return std::string(1, "xyz"[3 - a - b]);
+  }
+
   /** The side of a square, or of a cube, of a volume (m). */
   inline double
   length_of(const double volume)
@@ -104,6 +117,75 @@ namespace geocone
   /** Names of the coordinates, one by one and in texts. */
   constexpr char        coordinate[3] = {'x', 'y', 'z'};
   constexpr const char *coordinates   = dim == 2 ? "x, y" : "x, y, z";
+
+  /** Names of the components in the order of Mandel vectors. */
+  constexpr const char *tensor_component[6] = {
+    "xx", "yy", "xy", "zz", "yz", "zx"};
+
+  /** Whether one of these is a shear component, which has a factor of sqrt(2). */
+  constexpr bool
+  is_shear(const int component)
+  {
+    return component == 2 || component > 3;
+  }
+
+  /** The Mandel vector of components in this order. */
+  inline Mandel
+  mandel_of_components(const std::array<double, n_mandel> &values)
+  {
+    Mandel t;
+    for (int i = 0; i < n_mandel; ++i)
+      t[i] = is_shear(i) ? sqrt2 * values[i] : values[i];
+    return t;
+  }
+
+  /** The components of a Mandel vector in this order. */
+  inline std::array<double, n_mandel>
+  components_of(const Mandel &t)
+  {
+    std::array<double, n_mandel> values;
+    for (int i = 0; i < n_mandel; ++i)
+      values[i] = is_shear(i) ? t[i] / sqrt2 : t[i];
+    return values;
+  }
+
+  /** The strain sym(l) of a gradient l_ij at dim i + j. */
+  inline Mandel
+  symmetric_part(const std::array<double, dim * dim> &l)
+  {
+    Mandel t;
+    for (unsigned int d = 0; d < dim; ++d)
+      t[place_of_normal[d]] = l[(dim + 1) * d];
+    for (int i = 0; i < n_shears; ++i)
+      {
+        const auto [place, a, b] = shears[i];
+        t[place] = sqrt2 * ((l[dim * a + b] + l[dim * b + a]) / 2.);
+      }
+    return t;
+  }
+
+  /** A tensor of three dimensions, and its Mandel vector. */
+  inline Eigen::Matrix3d
+  spatial_tensor(const Eigen::Matrix<double, 6, 1> &t)
+  {
+    Eigen::Matrix3d tensor;
+    for (int d = 0; d < 3; ++d)
+      tensor(d, d) = t[place_of_normal[d]];
+    for (const auto &[place, a, b] : shears)
+      tensor(a, b) = tensor(b, a) = t[place] / sqrt2;
+    return tensor;
+  }
+
+  inline Eigen::Matrix<double, 6, 1>
+  spatial_mandel(const Eigen::Matrix3d &tensor)
+  {
+    Eigen::Matrix<double, 6, 1> t;
+    for (int d = 0; d < 3; ++d)
+      t[place_of_normal[d]] = tensor(d, d);
+    for (const auto &[place, a, b] : shears)
+      t[place] = (tensor(a, b) + tensor(b, a)) / sqrt2;
+    return t;
+  }
 
   /** The Mandel vector of a tensor in the plane. */
   inline Mandel

@@ -5,7 +5,6 @@
 #define geocone_discretisation_background_mesh_h
 
 #include <geocone/base/choice.h>
-#include <geocone/discretisation/coarse_mesh.h>
 #include <geocone/discretisation/fitted_mesh.h>
 #include <geocone/scene/scene.h>
 
@@ -81,8 +80,7 @@ namespace geocone
     {
       const bool   is_simplex = cell->n_vertices() == dim + 1;
       const double parts      = !is_simplex ? 1. : dim == 2 ? 2. : 6.;
-      const double whole      = cell->measure() * parts;
-      return dim == 2 ? std::sqrt(whole) : std::cbrt(whole);
+      return length_of(cell->measure() * parts);
     }
 
     /** The cells of this rank, one after another. */

@@ -15,10 +15,10 @@
 namespace geocone
 {
   /**
-   * A uniform grid of rectangles over a box, with the splines of degree 1 (hats,
+   * A uniform grid of rectangles, or cuboids, over a box, with the splines of degree 1 (hats,
    * that is Q1), 2 or 3 on it, of clamped knots: the same functions as those of
    * Space on such a mesh, without a triangulation. Cells and functions are counted
-   * by column and row.
+   * by column, all those of one place in the first direction, and within it.
    */
   class CartesianGrid
   {
@@ -65,18 +65,32 @@ namespace geocone
     unsigned int          degree = 1;
     std::array<Axis, dim> axes;
 
-    /** The smaller side of a cell (m). */
+    /** The smallest side of a cell (m). */
     double
     cell_size() const
     {
-      return std::min(axes[0].size, axes[1].size);
+      double least = axes[0].size;
+      for (const Axis &axis : axes)
+        least = std::min(least, axis.size);
+      return least;
     }
 
     unsigned long
     n_cells() const
     {
-      return static_cast<unsigned long>(axes[0].n_intervals) *
-             axes[1].n_intervals;
+      unsigned long n = 1;
+      for (const Axis &axis : axes)
+        n *= axis.n_intervals;
+      return n;
+    }
+
+    unsigned long
+    n_functions() const
+    {
+      unsigned long n = 1;
+      for (const Axis &axis : axes)
+        n *= axis.n_functions;
+      return n;
     }
 
     /**

@@ -4,7 +4,7 @@
 #ifndef geocone_discretisation_fitted_mesh_h
 #define geocone_discretisation_fitted_mesh_h
 
-#include <geocone/discretisation/coarse_mesh.h>
+#include <geocone/discretisation/gmsh_mesh.h>
 #include <geocone/scene/scene.h>
 
 #include <array>
@@ -13,14 +13,6 @@
 
 namespace geocone
 {
-  /** Sizes that an unstructured mesh is to have, linear on triangles that cover
-   *  the domain (m). */
-  struct CellSizes
-  {
-    std::vector<std::array<dealii::Point<dim>, 3>> triangles;
-    std::vector<std::array<double, 3>>             sizes; ///< at the corners
-  };
-
   /**
    * The mesh of a scene, with the materials of its cells and the sides of its
    * boundary. Collective.
@@ -44,14 +36,6 @@ namespace geocone
   side_ids(const BoundaryCondition                                 &condition,
            const std::map<std::string, dealii::types::boundary_id> &sides,
            const std::vector<dealii::types::boundary_id>           &all);
-
-  /** As unstructured_mesh(), with these sizes. Collective. */
-  CoarseMesh
-  mesh_with_sizes(const MeshParameters &parameters,
-                  const Regions        &regions,
-                  const MeshLines      &lines,
-                  const CellSizes      &sizes,
-                  const MPI_Comm        comm);
 } // namespace geocone
 
 #endif

@@ -4,6 +4,8 @@
 #ifndef geocone_discretisation_msh_file_h
 #define geocone_discretisation_msh_file_h
 
+#include <geocone/base/types.h>
+
 #include <boost/serialization/array.hpp>
 #include <boost/serialization/map.hpp>
 #include <boost/serialization/set.hpp>
@@ -104,6 +106,9 @@ namespace geocone
   /** How a damaged file is mended. */
   inline const std::string msh_remedy =
     "write it anew, e.g.: gmsh OLD.msh -save -format msh41 -o NEW.msh";
+
+  /** What gmsh calls the faces of cells. */
+  const std::string face_word = dim == 2 ? "curve" : "surface";
 
   /** The number of nodes of an element of one of MshData's types, and its
    *  dimension. */

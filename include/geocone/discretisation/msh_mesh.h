@@ -6,6 +6,7 @@
 
 #include <geocone/discretisation/coarse_mesh.h>
 #include <geocone/discretisation/msh_file.h>
+#include <geocone/scene/geometry.h>
 
 #include <string>
 

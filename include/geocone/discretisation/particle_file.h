@@ -32,7 +32,8 @@ namespace geocone
    * A table of particles, read in parts: a .csv file whose first line names its
    * columns, or an .h5 file with an array for each: x, y (m), volume (m^2), and,
    * if given, material (name in .csv, or number from 0), vx and vy (m/s), sxx and
-   * syy and sxy (Pa). In three dimensions z, vz, szz, syz, szx, too, and m^3. A .csv file may begin with a byte-order mark, have lines that
+   * syy and sxy (Pa). In three dimensions z, vz, szz, syz, szx, too, and m^3.
+   * A .csv file may begin with a byte-order mark, have lines that
    * end in any way, names in double quotes, and blank lines at its end.
    * @throws InputError naming the parameter, the file, the place, and what is wrong
    * there; the same on all ranks that read the file

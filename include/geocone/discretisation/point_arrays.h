@@ -8,6 +8,7 @@
 
 #include <deal.II/base/point.h>
 
+#include <array>
 #include <vector>
 
 namespace geocone
@@ -21,28 +22,24 @@ namespace geocone
   class PointArrays
   {
   public:
-    /** The arrays; tensor components, tension positive, SI units. */
+    /** The arrays, of vectors and tensors the first of them; components of tensors in
+     *  the order of tensor_component, tension positive, SI units. */
     enum Field : unsigned int
     {
-      x,
-      y,
-      vx,
-      vy,
-      s_xx,
-      s_yy,
-      s_xy,
-      volume, ///< per unit thickness (m^2)
-      mass,   ///< (kg/m)
+      x      = 0,
+      v      = x + dim,
+      stress = v + dim,
+      volume = stress + n_mandel, ///< in the plane per unit thickness (m^2)
+      mass,                       ///< (kg/m)
       plastic_strain,
       x_start, ///< where displacements count from
-      y_start,
-      n_common
+      n_common = x_start + dim
     };
 
     /**
      * @param material index of the material
      * @param n_history history variables of its law
-     * @param affine whether there are the four components of APIC
+     * @param affine whether there are the components of APIC
      */
     PointArrays(const unsigned int material,
                 const unsigned int n_history,
@@ -72,7 +69,7 @@ namespace geocone
       return data[field].data();
     }
 
-    /** The first of the history arrays, and of C_xx, C_xy, C_yx, C_yy. */
+    /** The first of the history arrays, and of C_xx, C_xy, ... */
     unsigned int
     first_history() const
     {
@@ -121,7 +118,29 @@ namespace geocone
     dealii::Point<dim>
     position(const unsigned int p) const
     {
-      return {data[x][p], data[y][p]};
+      dealii::Point<dim> place;
+      for (unsigned int d = 0; d < dim; ++d)
+        place[d] = data[x + d][p];
+      return place;
+    }
+
+    dealii::Tensor<1, dim>
+    velocity(const unsigned int p) const
+    {
+      dealii::Tensor<1, dim> value;
+      for (unsigned int d = 0; d < dim; ++d)
+        value[d] = data[v + d][p];
+      return value;
+    }
+
+    /** In the order of tensor_component (Pa). */
+    std::array<double, n_mandel>
+    stress_components(const unsigned int p) const
+    {
+      std::array<double, n_mandel> s;
+      for (int i = 0; i < n_mandel; ++i)
+        s[i] = data[stress + i][p];
+      return s;
     }
 
     /** Bytes of the arrays. */

@@ -61,6 +61,12 @@ namespace geocone
                    const bool    has_grid,
                    const Method &method);
 
+    /** The name of what 'automatic' stands for. */
+    static std::string
+    automatic_element(const bool    simplicial,
+                      const bool    has_grid,
+                      const Method &method);
+
     using Cell = BackgroundMesh::Cell;
 
     /** Name of the element: P1 ... Q3, B-spline 2, B-spline 3. */
@@ -96,7 +102,7 @@ namespace geocone
       return p == 1 || is_spline() || basis == Basis::bernstein;
     }
 
-    /** Whether volumetric strains are averaged over each cell (B-bar). */
+    /** Whether volumetric strains are projected in each cell (B-bar). */
     bool
     has_b_bar() const
     {

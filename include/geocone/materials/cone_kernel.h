@@ -14,7 +14,8 @@ namespace geocone
    * An explicit step of a linear elastic material with a cone, for a block of
    * points: return_map() of the turned stress plus D e, free of branches. With
    * the mean m = (s_xx + s_yy)/2, the half difference d = (s_xx - s_yy)/2 and
-   * tau = sqrt(d^2 + s_xy^2), the cone is tau <= -a m + k/sqrt2.
+   * tau = sqrt(d^2 + s_xy^2), the cone is tau <= -a m + k/sqrt2. In three dimensions
+   * it is the same with m = tr(s)/3, tau = |dev s|/sqrt3 and k/sqrt3.
    * A cut-off of the cone in tension is not looked at.
    */
   void

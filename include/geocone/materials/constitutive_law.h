@@ -27,8 +27,13 @@ namespace geocone
   class ConstitutiveLaw : public dealii::ParameterAcceptor
   {
   public:
-    /** Plane-strain stress (xx, yy, zz, xy), tension positive (Pa). */
-    using Stress = std::array<double, 4>;
+    /** A whole stress, tension positive (Pa): xx, yy, zz, xy, which are all in
+     *  plane strain, and in three dimensions yz, zx. */
+    using Stress = std::array<double, n_spatial>;
+
+    /** Stress components in the order of tensor_component, in the plane without
+     *  zz (Pa). */
+    using Components = std::array<double, n_mandel>;
 
     /** @param section e.g. "Materials/soil" */
     explicit ConstitutiveLaw(const std::string &section);
@@ -60,6 +65,14 @@ namespace geocone
     plane_strain_strength() const
     {
       return std::nullopt;
+    }
+
+    /** Says that there will be strain out of the plane. @return whether the law
+     *  knows it */
+    virtual bool
+    set_axisymmetric()
+    {
+      return false;
     }
 
     /** @name Explicit steps */
@@ -97,16 +110,19 @@ namespace geocone
       return 0.;
     }
 
-    /** Out-of-plane stress s_zz (Pa). @param in_plane s_xx, s_yy, s_xy */
+    /** Out-of-plane stress s_zz of plane scenes (Pa). */
     virtual double
-    stress_zz(const std::array<double, 3> &in_plane,
-              const double                *history) const = 0;
+    stress_zz(const Components &stress, const double *history) const = 0;
+
+    /** All of the stress of a point. */
+    Stress
+    whole(const Components &stress, const double *history) const;
 
     /** Modulus M of the elastic pressure wave, c = sqrt(M/rho) (Pa). */
     virtual double
     wave_modulus(const Stress &stress, const double *history) const = 0;
 
-    /** What can be shown of the state beyond the in-plane stress. */
+    /** What can be shown of the state beyond the components of the stress. */
     struct Shown
     {
       std::string name;  ///< of a field, e.g. "stress_zz"
@@ -115,11 +131,11 @@ namespace geocone
     virtual std::vector<Shown>
     shown() const = 0;
 
-    /** The values for shown(). @param in_plane s_xx, s_yy, s_xy */
+    /** The values for shown(). */
     virtual void
-    show(const std::array<double, 3> &in_plane,
-         const double                *history,
-         double                      *values) const = 0;
+    show(const Components &stress,
+         const double     *history,
+         double           *values) const = 0;
     /** @} */
 
   protected:
@@ -139,7 +155,8 @@ namespace geocone
 
     /** As ConstitutiveLaw::show(). */
     double
-    operator()(const std::array<double, 3> &in_plane, const double *history);
+    operator()(const ConstitutiveLaw::Components &stress,
+               const double                      *history);
 
   private:
     const ConstitutiveLaw *law;
@@ -147,11 +164,14 @@ namespace geocone
     std::size_t            place = 0;
   };
 
-  /** The four components of plane strain (Pa). */
+  /** The components of a stress that is given as a Mandel vector (Pa). */
   inline ConstitutiveLaw::Stress
-  plane_strain_stress(const Mandel &in_plane, const double zz)
+  stress_of(const SpatialMandel &t)
   {
-    return {{in_plane[0], in_plane[1], zz, in_plane[2] / sqrt2}};
+    ConstitutiveLaw::Stress s = {{t[0], t[1], t[3], t[2] / sqrt2}};
+    for (int i = 4; i < n_spatial; ++i)
+      s[i] = t[i] / sqrt2;
+    return s;
   }
 } // namespace geocone
 

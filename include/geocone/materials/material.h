@@ -121,8 +121,7 @@ namespace geocone
                double       *history) const override;
 
     double
-    stress_zz(const std::array<double, 3> &in_plane,
-              const double                *history) const override;
+    stress_zz(const Components &stress, const double *history) const override;
 
     std::vector<Shown>
     shown() const override
@@ -133,12 +132,12 @@ namespace geocone
     }
 
     void
-    show(const std::array<double, 3> &in_plane,
-         const double                *history,
-         double                      *values) const override
+    show(const Components &stress,
+         const double     *history,
+         double           *values) const override
     {
       if (dim == 2)
-        values[0] = stress_zz(in_plane, history);
+        values[0] = stress_zz(stress, history);
     }
 
     /** Whether steps change the history. */
@@ -155,17 +154,15 @@ namespace geocone
       return false;
     }
 
-    /** Says that there will be strain out of the plane. @return whether the law
-     *  knows it */
-    virtual bool
-    set_axisymmetric()
+    bool
+    set_axisymmetric() override
     {
       return is_spatial();
     }
 
     /** (s_xx, s_yy, s_xy, s_zz) of a stress in the plane. @param history of the point */
     SpatialMandel
-    whole_stress(const Mandel &in_plane, const double *history) const;
+    whole_stress(const Mandel &stress, const double *history) const;
 
     /** What of the strain is elastic. Laws of the plane have no elastic strain along z,
      *  and s_zz does no work. */

@@ -69,9 +69,9 @@ namespace geocone
     shown() const override;
 
     void
-    show(const std::array<double, 3> &in_plane,
-         const double                *history,
-         double                      *values) const override;
+    show(const Components &stress,
+         const double     *history,
+         double           *values) const override;
 
     double
     friction_memory() const override

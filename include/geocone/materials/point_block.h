@@ -4,6 +4,10 @@
 #ifndef geocone_materials_point_block_h
 #define geocone_materials_point_block_h
 
+#include <geocone/base/types.h>
+
+#include <array>
+
 namespace geocone
 {
   /**
@@ -25,22 +29,17 @@ namespace geocone
 
     unsigned int n_points = 0;
 
-    /** @name dt grad v: increments of the displacement gradient, dt dv_i/dx_j */
-    /** @{ */
-    const double *l_xx = nullptr;
-    const double *l_xy = nullptr;
-    const double *l_yx = nullptr;
-    const double *l_yy = nullptr;
-    /** @} */
+    /** dt grad v, the increment of the displacement gradient: dt dv_i/dx_j at
+     *  dim i + j. */
+    std::array<const double *, dim *dim> l = {};
 
-    /** @name State, updated in place: in-plane stress (Pa), history, and the
-     *  integral of the norm of the plastic strain rate */
+    /** @name State, updated in place: stress (Pa) in the order of
+     *  tensor_component, in the plane without zz; history, and the integral of the
+     *  norm of the plastic strain rate */
     /** @{ */
-    double        *s_xx           = nullptr;
-    double        *s_yy           = nullptr;
-    double        *s_xy           = nullptr;
-    double *const *history        = nullptr; ///< n_history() arrays
-    double        *plastic_strain = nullptr;
+    std::array<double *, n_mandel> s       = {};
+    double *const                 *history = nullptr; ///< n_history() arrays
+    double                        *plastic_strain = nullptr;
     /** @} */
 
     /** @name Answers */
@@ -54,6 +53,36 @@ namespace geocone
     /** @} */
 
     double step = 0.; ///< dt (s), for laws that depend on time
+
+    /** Strain increments out of the plane, of axisymmetric scenes; null: none. */
+    const double *l_zz = nullptr;
+
+    /** @name Those of a point */
+    /** @{ */
+    std::array<double, dim * dim>
+    gradient(const unsigned int p) const
+    {
+      std::array<double, dim * dim> values;
+      for (unsigned int i = 0; i < dim * dim; ++i)
+        values[i] = l[i][p];
+      return values;
+    }
+    std::array<double, n_mandel>
+    stress(const unsigned int p) const
+    {
+      std::array<double, n_mandel> values;
+      for (int i = 0; i < n_mandel; ++i)
+        values[i] = s[i][p];
+      return values;
+    }
+    void
+    set_stress(const unsigned int                  p,
+               const std::array<double, n_mandel> &values) const
+    {
+      for (int i = 0; i < n_mandel; ++i)
+        s[i][p] = values[i];
+    }
+    /** @} */
   };
 
   /** What laws count while they work; sums and extremes over all points. */

@@ -4,18 +4,24 @@
 #ifndef geocone_materials_spin_h
 #define geocone_materials_spin_h
 
+#include <geocone/base/types.h>
+
+#include <array>
+#include <type_traits>
+
 namespace geocone
 {
   /**
    * The rotation of a spin increment w = (l_yx - l_xy)/2 by Cayley's transform,
    * tan(angle/2) = w/2: orthogonal exactly, so that invariants stay.
    */
-  class Spin
+  class PlaneSpin
   {
   public:
-    Spin(const double l_xy, const double l_yx)
+    /** @param l the gradient, l_ij at 2 i + j */
+    explicit PlaneSpin(const std::array<double, 4> &l)
     {
-      const double tan_half = (l_yx - l_xy) / 4.;
+      const double tan_half = (l[2] - l[1]) / 4.;
       const double t2       = tan_half * tan_half;
       const double cosine   = (1. - t2) / (1. + t2);
       const double sine     = 2. * tan_half / (1. + t2);
@@ -23,10 +29,11 @@ namespace geocone
       sin2                  = 2. * sine * cosine;
     }
 
-    /** Turns the in-plane components of a symmetric tensor. */
+    /** Turns the in-plane components xx, yy, xy of a symmetric tensor. */
     void
-    turn(double &xx, double &yy, double &xy) const
+    turn(std::array<double, 3> &s) const
     {
+      auto &[xx, yy, xy] = s;
       const double mean = (xx + yy) / 2., half = (xx - yy) / 2.;
       const double turned = cos2 * half - sin2 * xy;
       xy                  = sin2 * half + cos2 * xy;
@@ -37,6 +44,58 @@ namespace geocone
   private:
     double cos2, sin2; ///< of the angle, doubled
   };
+
+  /**
+   * The same in three dimensions: with half the axial vector g of the spin increment,
+   *   Q = c 1 + s (g g' + [g x]),  s = 2/(1 + g.g),  c = 1 - s g.g.
+   * @tparam T a number, or several at once
+   */
+  template <typename T>
+  class SpatialSpin
+  {
+  public:
+    /** @param l the gradient, l_ij at 3 i + j */
+    explicit SpatialSpin(const std::array<T, 9> &l)
+    {
+      const T quarter(0.25), one(1.);
+      const T g[3] = {quarter * (l[7] - l[5]),
+                      quarter * (l[2] - l[6]),
+                      quarter * (l[3] - l[1])};
+      const T g2   = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
+      const T s = T(2.) / (one + g2), c = one - s * g2;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          Q[i][j] = s * g[i] * g[j];
+      for (int i = 0; i < 3; ++i)
+        {
+          const int j = (i + 1) % 3, k = (i + 2) % 3;
+          Q[i][i] = Q[i][i] + c;
+          Q[k][j] = Q[k][j] + s * g[i];
+          Q[j][k] = Q[j][k] - s * g[i];
+        }
+    }
+
+    /** Turns the components xx, yy, xy, zz, yz, zx of a symmetric tensor. */
+    void
+    turn(std::array<T, 6> &s) const
+    {
+      constexpr auto &place = place_of_component;
+      T               Qs[3][3];
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          Qs[i][j] = Q[i][0] * s[place[0][j]] + Q[i][1] * s[place[1][j]] +
+                     Q[i][2] * s[place[2][j]];
+      for (int i = 0; i < 3; ++i)
+        for (int j = i; j < 3; ++j)
+          s[place[i][j]] =
+            Qs[i][0] * Q[j][0] + Qs[i][1] * Q[j][1] + Qs[i][2] * Q[j][2];
+    }
+
+  private:
+    T Q[3][3];
+  };
+
+  using Spin = std::conditional_t<dim == 2, PlaneSpin, SpatialSpin<double>>;
 } // namespace geocone
 
 #endif

@@ -19,9 +19,9 @@ namespace geocone
    * defaults it is Modified Cam Clay with a subloading surface. Its face turns
    * the sign: tension is positive outside, compression in the model.
    *
-   * History of a point, components without Mandel factors: stress_zz; the
-   * similarity centre a (xx, yy, zz, xy), tension positive; beta (xx, yy, zz,
-   * xy); the size pcb; the structure ratio Rb.
+   * History of a point, components without Mandel factors: stress_zz, in the
+   * plane only; the similarity centre a (xx, yy, zz, xy, in three dimensions also
+   * yz, zx), tension positive; beta likewise; the size pcb; the structure ratio Rb.
    */
   class Subloading : public ConstitutiveLaw
   {
@@ -32,13 +32,19 @@ namespace geocone
     void
     prepare() override;
 
+    bool
+    set_axisymmetric() override
+    {
+      return true;
+    }
+
     void
     advance(const PointBlock &block, LawCounts &counts) const override;
 
     unsigned int
     n_history() const override
     {
-      return 11;
+      return (dim == 2) + 2 * n_spatial + 2;
     }
 
     std::string
@@ -57,8 +63,7 @@ namespace geocone
     }
 
     double
-    stress_zz(const std::array<double, 3> &,
-              const double *history) const override
+    stress_zz(const Components &, const double *history) const override
     {
       return history[0];
     }
@@ -67,9 +72,9 @@ namespace geocone
     shown() const override;
 
     void
-    show(const std::array<double, 3> &stress,
-         const double                *history,
-         double                      *values) const override;
+    show(const Components &stress,
+         const double     *history,
+         double           *values) const override;
 
     /** @name One point with n = 4 or 6 components, compression positive */
     /** @{ */
@@ -94,9 +99,9 @@ namespace geocone
     initial_state(const typename SubloadingModel<n>::Vector &stress,
                   SubloadingState<n>                        &state) const;
 
-    /** The state of a point. @param stress s_xx, s_yy, s_xy, tension positive */
-    SubloadingState<4>
-    state(const std::array<double, 3> &stress, const double *history) const;
+    /** The state of a point. @param stress tension positive */
+    SubloadingState<n_spatial>
+    state(const Components &stress, const double *history) const;
     /** @} */
 
   private:

@@ -12,7 +12,7 @@ namespace geocone
   /**
    * The transfer on a uniform grid, which finds cells by a multiplication. Ranks
    * own slabs of columns, cut such that each has about the same number of points,
-   * anew in each sort(). Columns of nodes are contiguous, so that what two
+   * anew in each sort(); in space, of slices. Columns of nodes are contiguous, so that what two
    * ranks share is one piece of memory. Only the nodes around the points are
    * stored.
    */
@@ -67,8 +67,7 @@ namespace geocone
     unsigned long
     n_all_nodes() const override
     {
-      return static_cast<unsigned long>(grid.axes[0].n_functions) *
-             grid.axes[1].n_functions;
+      return grid.n_functions();
     }
     unsigned long
     n_cells() const override
@@ -81,7 +80,7 @@ namespace geocone
     description() const override;
 
   private:
-    /** A half-open range of columns, rows or functions. */
+    /** A half-open range of cells or functions in a direction. */
     struct Range
     {
       int begin = 0, end = 0;
@@ -107,6 +106,14 @@ namespace geocone
     void
     store_nodes();
 
+    /** Functions stored of a column. */
+    std::size_t
+    column_size() const;
+
+    /** The place of a function among the stored ones. @pre it is one of them */
+    std::size_t
+    stored_place_of(const std::array<unsigned int, dim> &function) const;
+
     GridView
     view(const bool with_mass);
 
@@ -115,7 +122,7 @@ namespace geocone
     const CartesianGrid    grid;
     const TransferKernels &kernels;
 
-    /** A prescribed component of a function, by column and row. */
+    /** A prescribed component of a function. */
     struct Prescribed
     {
       std::array<unsigned int, dim> function;

@@ -22,8 +22,8 @@ namespace geocone
   /** A component of a node's velocity that a condition prescribes. */
   struct PrescribedNode
   {
-    unsigned int       node;      ///< among the stored ones
-    unsigned int       component; ///< 0 or 1
+    unsigned int       node; ///< among the stored ones
+    unsigned int       component;
     unsigned int       condition; ///< index in Scene::dirichlet
     dealii::Point<dim> place;
     bool               mine; ///< whether this rank counts it in sums
@@ -31,8 +31,8 @@ namespace geocone
 
   /**
    * The nodes of an explicit step, and how points give to them and take from
-   * them. A node has four doubles to read, four to write, and a mass, at the same
-   * place of three arrays:
+   * them. A node has node_size doubles to read, as many to write, and a mass, at the
+   * same place of three arrays:
    *   read:  velocity and its change in the step, for the points;
    *   write: momentum and force, from the points;
    *   mass.
@@ -151,7 +151,7 @@ namespace geocone
     unsigned int
     n_nodes() const
     {
-      return read.size() / 4;
+      return read.size() / node_size;
     }
   };
 } // namespace geocone

@@ -126,6 +126,9 @@ namespace geocone
 
     template <bool with_gradients>
     void
+    gather_any(const TransferBlock &points, BlockScratch &scratch) const;
+    template <bool with_gradients>
+    void
     scatter_any(const TransferBlock &points,
                 const BlockScratch  &scratch,
                 const bool           with_mass);

@@ -32,15 +32,16 @@ namespace geocone
     using Positions = std::vector<dealii::Point<dim>>; ///< of the local nodes
 
     /** G2P. @param[out] at_point sum N_i f_i of the m values, then, with gradients,
-     *  sum f_i dN_i/dx, sum f_i dN_i/dy, ... */
-    template <unsigned int m, bool with_gradients>
+     *  sum f_i dN_i/dx, sum f_i dN_i/dy, ...
+     *  @tparam stride values per node, of which there can be more than these */
+    template <unsigned int m, bool with_gradients, unsigned int stride = m>
     void
     gather(const double *at_nodes, double *at_point) const
     {
       std::fill_n(at_point, with_gradients ? (1 + dim) * m : m, 0.);
       for (unsigned int i = 0; i < n; ++i)
         {
-          const double *f = at_nodes + m * nodes[i];
+          const double *f = at_nodes + stride * nodes[i];
           for (unsigned int c = 0; c < m; ++c)
             {
               at_point[c] += N[i] * f[c];
@@ -52,13 +53,13 @@ namespace geocone
     }
 
     /** P2G, its transpose: adds to the nodes. */
-    template <unsigned int m, bool with_gradients>
+    template <unsigned int m, bool with_gradients, unsigned int stride = m>
     void
     scatter(const double *at_point, double *at_nodes) const
     {
       for (unsigned int i = 0; i < n; ++i)
         {
-          double *f = at_nodes + m * nodes[i];
+          double *f = at_nodes + stride * nodes[i];
           for (unsigned int c = 0; c < m; ++c)
             {
               f[c] += N[i] * at_point[c];

@@ -27,50 +27,74 @@ namespace geocone
   };
 
   /**
-   * The stored part of a grid: functions x.first, ... and y.first, ..., those of
-   * a column one after another. A node has four doubles, and its mass.
+   * The doubles of a node, for vectors of four: in the plane (v_x, v_y, dv_x, dv_y)
+   * to read and (m v, force) to write; in space (v, 0) and (dv, 0), (m v, 0) and
+   * (force, 0). The second quantity begins at change_of_node.
+   */
+  constexpr unsigned int node_size      = 4 * (dim - 1);
+  constexpr unsigned int change_of_node = node_size / 2;
+
+  /**
+   * The stored part of a grid: functions axes[d].first, ... per direction, those of
+   * the last direction one after another. A node has node_size doubles, and its mass.
    */
   struct GridView
   {
-    GridAxis      x, y;
-    int           stride = 0; ///< functions stored of a column
-    const double *read   = nullptr;
-    double       *write  = nullptr;
-    double       *mass   = nullptr;
+    GridAxis              axes[dim];
+    std::array<long, dim> stride = {}; ///< between the functions of a direction
+    const double         *read   = nullptr;
+    double               *write  = nullptr;
+    double               *mass   = nullptr;
   };
 
   /** What a block of points holds between the parts of a pass; in cache. */
   struct BlockScratch
   {
     static constexpr unsigned int size = PointBlock::capacity;
-    /** What nodes gave: v (4 values), dv/dx (4), dv/dy (4) of each point. */
-    alignas(32) double gathered[12 * size];
-    /** What nodes get, a, b, c (4 each): (m v, 0), (0, -V s_x), (0, -V s_y). */
-    alignas(32) double given[12 * size];
-    alignas(32) double l_xx[size], l_xy[size], l_yx[size], l_yy[size];
+
+    /** What nodes gave to each point: the doubles of a node, then for each direction
+     *  the slopes of the first four, which begin with those of v. */
+    static constexpr unsigned int n_gathered = node_size + 4 * dim;
+    alignas(32) double gathered[n_gathered * size];
+
+    /** What nodes get: (m v, 0, ...) times N, then for each direction d times dN/dx_d
+     *  the last four, which end or begin with -V s_d as those of a node do. */
+    static constexpr unsigned int n_given = 4 + 4 * dim;
+    alignas(32) double given[n_given * size];
+
+    alignas(32) double l[dim * dim][size];
+
+    /** Around an axis: the strain increment out of the plane, and the force that
+     *  the stress there exerts along x, -V s_zz/r (N). */
+    alignas(32) double l_zz[size];
+    alignas(32) double hoop_force[size];
     alignas(32) double work[size], wave_modulus[size];
   };
 
   /** The arrays of a block of points, and of their affine velocities (APIC). */
   struct TransferBlock
   {
-    unsigned int n;     ///< a multiple of PointBlock::lanes
-    unsigned int group; ///< the arrays that they are part of
-    unsigned int first; ///< and the place of the first one there
-    double      *x, *y, *vx, *vy, *s_xx, *s_yy, *s_xy, *volume, *mass;
-    double      *c_xx, *c_xy, *c_yx, *c_yy; ///< null without APIC
+    unsigned int              n;     ///< a multiple of PointBlock::lanes
+    unsigned int              group; ///< the arrays that they are part of
+    unsigned int              first; ///< and the place of the first one there
+    std::array<double *, dim> x, v;
+    std::array<double *, n_mandel>  s; ///< in the order of tensor_component
+    double                         *volume, *mass;
+    std::array<double *, dim * dim> c; ///< C_ij at dim i + j; null without APIC
   };
 
   /** Sums and extremes of a pass, which the time stepper reads. */
   struct PassSums
   {
-    double work         = 0.;             ///< stress work (J/m)
-    double wave_speed2  = 0.;             ///< largest M V/m ((m/s)^2)
-    double speed2       = 0.;             ///< largest v^2 ((m/s)^2)
-    double strain       = 0.;             ///< largest |dt dv_i/dx_j|
-    double least_volume = 1.;             ///< least det(I + dt grad v)
-    double lower[2]     = {1e300, 1e300}; ///< of the positions (m)
-    double upper[2]     = {-1e300, -1e300};
+    double work         = 0.; ///< stress work (J/m)
+    double wave_speed2  = 0.; ///< largest M V/m ((m/s)^2)
+    double speed2       = 0.; ///< largest v^2 ((m/s)^2)
+    double strain       = 0.; ///< largest |dt dv_i/dx_j|
+    double least_volume = 1.; ///< least det(I + dt grad v)
+    /** Bounds of the positions, of which there are dim (m). */
+    double lower[3] = {1e300, 1e300, 1e300};
+    double upper[3] = {-1e300, -1e300, -1e300};
+
     /** Sum of values that are not finite if one of the points is not. */
     double check = 0.;
 
@@ -80,7 +104,7 @@ namespace geocone
     state(Row &row)
     {
       row(work, wave_speed2, speed2, strain, least_volume, check);
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
         row(lower[d], upper[d]);
     }
 
@@ -107,10 +131,10 @@ namespace geocone
     /** @name By the degree of the functions, 1 to 3 */
     /** @{ */
 
-    /** v, dv/dx, dv/dy from the nodes: sum_i q_i (N_i, dN_i/dx, dN_i/dy). */
+    /** Values and slopes from the nodes: sum_i q_i (N_i, dN_i/dx, ...). */
     void (*gather[4])(const GridView &, const TransferBlock &, BlockScratch &);
 
-    /** The same of v only. */
+    /** The values only. */
     void (*gather_values[4])(const GridView &,
                              const TransferBlock &,
                              BlockScratch &);
@@ -127,8 +151,8 @@ namespace geocone
                              BlockScratch &);
 
     /**
-     * To the nodes, of the given values (a | b | c):
-     *   node += N (a) + dN/dx (b) + dN/dy (c),
+     * To the nodes, of what is given (a | b_x | b_y ...), see BlockScratch:
+     *   node += N a + sum_d dN/dx_d b_d,
      * and N m to the masses unless they are null.
      */
     void (*scatter[4])(const GridView &, const TransferBlock &, BlockScratch &);
@@ -156,13 +180,15 @@ namespace geocone
                           const TransferBlock &,
                           BlockScratch &);
 
-    /** V <- det(I + l) V, the stress work, and the extremes. */
+    /** V <- det(I + l) V, times 1 + l_zz around an axis, the stress work, and the
+     *  extremes. */
     void (*finish)(const TransferBlock &, BlockScratch &, PassSums &);
 
     /** Bounds of positions and velocities. */
     void (*bound)(const TransferBlock &, PassSums &);
 
-    /** The values that scatter() takes: (m v, -V s); parts of it, or all. */
+    /** The values that scatter() takes: (m v, -V s), and the hoop force; parts of
+     *  it, or all. */
     void (*prepare_scatter)(const bool momentum,
                             const bool force,
                             const TransferBlock &,

@@ -22,49 +22,103 @@ namespace geocone
   {
     using P = Pack<Arch>;
 
-    /** The functions that live at a place on an axis. */
-    template <int p>
-    struct Functions
-    {
-      int    first; ///< the lowest one, among those that are stored
-      P      value, slope;
-      double N[4], dN[4];
-
-      Functions(const GridAxis &axis, const double x)
-      {
-        const double u = (x - axis.origin) * axis.inverse_size;
-        int          i = static_cast<int>(u);
-        i              = i < 0 ? 0 : i;
-        i              = i < axis.n_intervals ? i : axis.n_intervals - 1;
-        const P       xi(u - i);
-        const double *c = axis.coefficients + 4 * (2 * p + 1) * axis.type[i];
-        value           = P::load(c + 4 * p);
-        slope           = P::load(c + 4 * (2 * p));
-        for (int k = p - 1; k >= 0; --k)
-          value = value * xi + P::load(c + 4 * k);
-        for (int k = 2 * p - 1; k >= p + 1; --k)
-          slope = slope * xi + P::load(c + 4 * k);
-        value.store(N);
-        slope.store(dN);
-        first = i - axis.first;
-      }
-    };
-
-    /** The functions at a point, and the first of its (p + 1)^2 nodes. */
+    /** The functions that live at a point, the first of its (p + 1)^dim nodes, and
+     *  the values of the last direction as they are added to masses. */
     template <int p>
     struct Nodes
     {
-      const Functions<p> X, Y;
-      const long         first;
+      long   first = 0;   ///< among those that are stored
+      int    lowest[dim]; ///< functions of the directions, among all
+      double N[dim][4], dN[dim][4];
+      P      last;
 
-      Nodes(const GridView &grid, const double x, const double y)
-        : X(grid.x, x)
-        , Y(grid.y, y)
-        , first(static_cast<long>(X.first) * grid.stride + Y.first)
-      {}
+      Nodes(const GridView &grid, const TransferBlock &points, const unsigned k)
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const GridAxis &axis = grid.axes[d];
+            const double u = (points.x[d][k] - axis.origin) * axis.inverse_size;
+            int          i = static_cast<int>(u);
+            i              = i < 0 ? 0 : i;
+            i              = i < axis.n_intervals ? i : axis.n_intervals - 1;
+            const P       xi(u - i);
+            const double *c =
+              axis.coefficients + 4 * (2 * p + 1) * axis.type[i];
+            P value = P::load(c + 4 * p);
+            P slope = P::load(c + 4 * (2 * p));
+            for (int power = p - 1; power >= 0; --power)
+              value = value * xi + P::load(c + 4 * power);
+            for (int power = 2 * p - 1; power >= p + 1; --power)
+              slope = slope * xi + P::load(c + 4 * power);
+            value.store(N[d]);
+            slope.store(dN[d]);
+            first += (i - axis.first) * grid.stride[d];
+            lowest[d] = i;
+            last      = value;
+          }
+      }
+
+      /** Where the first node has its doubles. */
+      const double *
+      read(const GridView &grid) const
+      {
+        return grid.read + node_size * first;
+      }
+      double *
+      write(const GridView &grid) const
+      {
+        return grid.write + node_size * first;
+      }
     };
 
-    template <int p, bool with_gradients>
+    /** A sum over the functions of the directions 0 ... d, and its slopes. */
+    template <int d>
+    struct Sum
+    {
+      P value = P(0.);
+      P slope[d + 1];
+      Sum()
+      {
+        for (P &s : slope)
+          s = P(0.);
+      }
+    };
+
+    /**
+     * sum q N over the functions of the directions 0 ... d, q four doubles of a
+     * node, and the same with dN in place of N for one direction after the other.
+     */
+    template <int p, int d, bool with_slopes>
+    static Sum<d>
+    sum(const GridView &grid,
+        const double (&N)[dim][4],
+        const double (&dN)[dim][4],
+        const double *node)
+    {
+      Sum<d> all;
+      for (int i = 0; i <= p; ++i)
+        {
+          const double *at = node + node_size * i * grid.stride[d];
+          const P       N_i(N[d][i]);
+          P             below;
+          if constexpr (d == 0)
+            below = P::load(at);
+          else
+            {
+              const auto part = sum<p, d - 1, with_slopes>(grid, N, dN, at);
+              below           = part.value;
+              if constexpr (with_slopes)
+                for (int e = 0; e < d; ++e)
+                  all.slope[e] += part.slope[e] * N_i;
+            }
+          all.value += below * N_i;
+          if constexpr (with_slopes)
+            all.slope[d] += below * P(dN[d][i]);
+        }
+      return all;
+    }
+
+    template <int p, bool with_slopes>
     static void
     gather(const GridView      &view,
            const TransferBlock &points,
@@ -73,33 +127,18 @@ namespace geocone
       const GridView grid = view; // a copy: stores cannot change it
       for (unsigned int k = 0; k < points.n; ++k)
         {
-          const Nodes<p> at(grid, points.x[k], points.y[k]);
-          const double  *node = grid.read + 4 * at.first;
-          P              v(0.), v_x(0.), v_y(0.);
-          for (int j = 0; j <= p; ++j)
-            {
-              P row(0.), slope(0.);
-              for (int i = 0; i <= p; ++i)
-                {
-                  const P q = P::load(node + 4 * (i * grid.stride + j));
-                  row += q * P(at.X.N[i]);
-                  if constexpr (with_gradients)
-                    slope += q * P(at.X.dN[i]);
-                }
-              v += row * P(at.Y.N[j]);
-              if constexpr (with_gradients)
-                {
-                  v_x += slope * P(at.Y.N[j]);
-                  v_y += row * P(at.Y.dN[j]);
-                }
-            }
-          double *out = scratch.gathered + 12 * k;
-          v.store(out);
-          if constexpr (with_gradients)
-            {
-              v_x.store(out + 4);
-              v_y.store(out + 8);
-            }
+          const Nodes<p> at(grid, points, k);
+          const double  *node = at.read(grid);
+          double        *out  = scratch.gathered + BlockScratch::n_gathered * k;
+          const auto     first =
+            sum<p, dim - 1, with_slopes>(grid, at.N, at.dN, node);
+          first.value.store(out);
+          if constexpr (dim == 3)
+            sum<p, dim - 1, false>(grid, at.N, at.dN, node + 4)
+              .value.store(out + 4);
+          if constexpr (with_slopes)
+            for (unsigned int d = 0; d < dim; ++d)
+              first.slope[d].store(out + node_size + 4 * d);
         }
     }
 
@@ -112,57 +151,86 @@ namespace geocone
       const GridView grid = view; // a copy: stores cannot change it
       for (unsigned int k = 0; k < points.n; ++k)
         {
-          const Nodes<p> at(grid, points.x[k], points.y[k]);
-          const double  *node = grid.read + 4 * at.first;
-          double         wx[p + 1], wy[p + 1];
-          moments(grid.x, at.X, points.x[k], wx);
-          moments(grid.y, at.Y, points.y[k], wy);
-          P c_x(0.), c_y(0.);
-          for (int j = 0; j <= p; ++j)
+          const Nodes<p> at(grid, points, k);
+          double         weights[dim][4];
+          for (unsigned int d = 0; d < dim; ++d)
+            moments(grid, at, d, points.x[d][k], weights[d]);
+          const auto all =
+            sum<p, dim - 1, true>(grid, at.N, weights, at.read(grid));
+          for (unsigned int d = 0; d < dim; ++d)
             {
-              P row(0.), slope(0.);
-              for (int i = 0; i <= p; ++i)
-                {
-                  const P q = P::load(node + 4 * (i * grid.stride + j));
-                  row += q * P(at.X.N[i]);
-                  slope += q * P(wx[i]);
-                }
-              c_x += slope * P(at.Y.N[j]);
-              c_y += row * P(wy[j]);
+              double column[4];
+              all.slope[d].store(column);
+              for (unsigned int c = 0; c < dim; ++c)
+                points.c[dim * c + d][k] = column[c];
             }
-          double column[4];
-          c_x.store(column);
-          points.c_xx[k] = column[0];
-          points.c_yx[k] = column[1];
-          c_y.store(column);
-          points.c_xy[k] = column[0];
-          points.c_yy[k] = column[1];
         }
     }
 
     /** N_i (x_i - x)/sum_i N_i (x_i - x)^2, or dN_i/dx where that is 0/0. */
     template <int p>
     static void
-    moments(const GridAxis     &axis,
-            const Functions<p> &functions,
-            const double        x,
-            double             *weights)
+    moments(const GridView    &grid,
+            const Nodes<p>    &at,
+            const unsigned int d,
+            const double       x,
+            double            *weights)
     {
-      const double *places = axis.places + axis.first + functions.first;
+      const double *x_i    = grid.axes[d].places + at.lowest[d];
+      const double  size   = grid.axes[d].inverse_size;
       double        second = 0.;
       for (int i = 0; i <= p; ++i)
         {
-          const double r = places[i] - x;
-          weights[i]     = functions.N[i] * r;
+          const double r = x_i[i] - x;
+          weights[i]     = at.N[d][i] * r;
           second += weights[i] * r;
         }
-      const bool vanishes =
-        second * axis.inverse_size * axis.inverse_size < vanishing_moment;
+      const bool vanishes = second * size * size < vanishing_moment;
       for (int i = 0; i <= p; ++i)
-        weights[i] = vanishes ? functions.dN[i] : weights[i] / second;
+        weights[i] = vanishes ? at.dN[d][i] : weights[i] / second;
     }
 
-    template <int p, bool with_gradients>
+    /** Adds a N to the functions of the directions 0 ... d, unless there is no a,
+     *  and b_e dN for each direction. */
+    template <int p, int d, bool has_a, bool has_b>
+    static void
+    add(const GridView &grid,
+        const Nodes<p> &at,
+        const P        &a,
+        const P        *b,
+        double         *node)
+    {
+      for (int i = 0; i <= p; ++i)
+        {
+          double *const to = node + node_size * i * grid.stride[d];
+          const P       N(at.N[d][i]), dN(at.dN[d][i]);
+          if constexpr (d == 0)
+            {
+              P all = P::load(to);
+              if constexpr (has_a)
+                all += a * N;
+              if constexpr (has_b)
+                all += b[0] * dN;
+              all.store(to);
+            }
+          else
+            {
+              P next, slope[d];
+              if constexpr (has_a)
+                next = a * N;
+              if constexpr (has_a && has_b)
+                next += b[d] * dN;
+              else if constexpr (has_b)
+                next = b[d] * dN;
+              if constexpr (has_b)
+                for (int e = 0; e < d; ++e)
+                  slope[e] = b[e] * N;
+              add<p, d - 1, has_a || has_b, has_b>(grid, at, next, slope, to);
+            }
+        }
+    }
+
+    template <int p, bool with_slopes>
     static void
     scatter(const GridView      &view,
             const TransferBlock &points,
@@ -171,45 +239,42 @@ namespace geocone
       const GridView grid = view; // a copy: stores cannot change it
       for (unsigned int k = 0; k < points.n; ++k)
         {
-          const Nodes<p> at(grid, points.x[k], points.y[k]);
-          const double  *in = scratch.given + 12 * k;
-          const P a = P::load(in), b = P::load(in + 4), c = P::load(in + 8);
-          P       row[p + 1], slope[p + 1];
-          for (int j = 0; j <= p; ++j)
+          const Nodes<p> at(grid, points, k);
+          const double  *in   = scratch.given + BlockScratch::n_given * k;
+          double        *node = at.write(grid);
+          const P        a    = P::load(in);
+          P              b[dim];
+          for (unsigned int d = 0; d < dim; ++d)
+            b[d] = P::load(in + 4 + 4 * d);
+          if constexpr (dim == 2)
+            add<p, dim - 1, true, with_slopes>(grid, at, a, b, node);
+          else
             {
-              row[j] = a * P(at.Y.N[j]);
-              if constexpr (with_gradients)
-                {
-                  row[j] += c * P(at.Y.dN[j]);
-                  slope[j] = b * P(at.Y.N[j]);
-                }
+              add<p, dim - 1, true, false>(grid, at, a, b, node);
+              if constexpr (with_slopes)
+                add<p, dim - 1, false, true>(grid, at, a, b, node + 4);
             }
-          for (int i = 0; i <= p; ++i)
-            for (int j = 0; j <= p; ++j)
-              {
-                double *node =
-                  grid.write + 4 * (at.first + i * grid.stride + j);
-                P sum = P::load(node) + row[j] * P(at.X.N[i]);
-                if constexpr (with_gradients)
-                  sum += slope[j] * P(at.X.dN[i]);
-                sum.store(node);
-              }
           if (grid.mass != nullptr)
-            scatter_mass(grid, at, points.mass[k]);
+            add_mass<p, 0>(
+              grid, at, at.last * P(points.mass[k]), grid.mass + at.first);
         }
     }
 
-    /** Columns of four functions: beyond the p + 1st, zeros are added. */
-    template <int p>
+    /** Functions of the last direction by four: beyond the p + 1st, zeros are
+     *  added. */
+    template <int p, int d>
     static void
-    scatter_mass(const GridView &grid, const Nodes<p> &at, const double m)
+    add_mass(const GridView &grid,
+             const Nodes<p> &at,
+             const P        &column,
+             double         *mass)
     {
-      const P column = at.Y.value * P(m);
-      for (int i = 0; i <= p; ++i)
-        {
-          double *mass = grid.mass + at.first + i * grid.stride;
-          (P::load(mass) + column * P(at.X.N[i])).store(mass);
-        }
+      if constexpr (d == dim - 1)
+        (P::load(mass) + column).store(mass);
+      else
+        for (int i = 0; i <= p; ++i)
+          add_mass<p, d + 1>(
+            grid, at, column * P(at.N[d][i]), mass + i * grid.stride[d]);
     }
 
     template <int p>
@@ -221,20 +286,32 @@ namespace geocone
       const GridView grid = view; // a copy: stores cannot change it
       for (unsigned int k = 0; k < points.n; ++k)
         {
-          const Nodes<p> at(grid, points.x[k], points.y[k]);
-          const double  *places_x = grid.x.places + grid.x.first + at.X.first;
-          const double  *places_y = grid.y.places + grid.y.first + at.Y.first;
-          const double   m        = points.mass[k];
+          const Nodes<p> at(grid, points, k);
+          double         C[dim * dim], r[dim][p + 1];
+          for (unsigned int i = 0; i < dim * dim; ++i)
+            C[i] = points.c[i][k];
+          for (unsigned int d = 0; d < dim; ++d)
+            for (int i = 0; i <= p; ++i)
+              r[d][i] = grid.axes[d].places[at.lowest[d] + i] - points.x[d][k];
+          const double  m    = points.mass[k];
+          double *const node = at.write(grid);
           for (int i = 0; i <= p; ++i)
             for (int j = 0; j <= p; ++j)
               {
-                const double mN = m * at.X.N[i] * at.Y.N[j];
-                const double rx = places_x[i] - points.x[k];
-                const double ry = places_y[j] - points.y[k];
-                double      *node =
-                  grid.write + 4 * (at.first + i * grid.stride + j);
-                node[0] += mN * (points.c_xx[k] * rx + points.c_xy[k] * ry);
-                node[1] += mN * (points.c_yx[k] * rx + points.c_yy[k] * ry);
+                const double mN = m * at.N[0][i] * at.N[1][j];
+                double      *to =
+                  node + node_size * (i * grid.stride[0] + j * grid.stride[1]);
+                if constexpr (dim == 2)
+                  for (unsigned int c = 0; c < dim; ++c)
+                    to[c] +=
+                      mN * (C[dim * c] * r[0][i] + C[dim * c + 1] * r[1][j]);
+                else
+                  for (int l = 0; l <= p; ++l, to += node_size)
+                    for (unsigned int c = 0; c < dim; ++c)
+                      to[c] +=
+                        mN * at.N[2][l] *
+                        (C[dim * c] * r[0][i] + C[dim * c + 1] * r[1][j] +
+                         C[dim * c + 2] * r[2][l]);
               }
         }
     }
@@ -246,41 +323,57 @@ namespace geocone
                   const TransferBlock &points,
                   BlockScratch        &scratch)
     {
-      const P h(dt), f(flip_part), pic(1. - flip_part);
+      constexpr unsigned int next = BlockScratch::n_gathered;
+      const P                h(dt), f(flip_part), pic(1. - flip_part);
       for (unsigned int k = 0; k < points.n; k += 4)
         {
-          const double *in = scratch.gathered + 12 * k;
+          const double *in = scratch.gathered + next * k;
+          // Four doubles of four points, as four points of each.
+          const auto load = [&](const unsigned int place, P *values) {
+            for (unsigned int i = 0; i < 4; ++i)
+              values[i] = P::load(in + next * i + place);
+            transpose(values[0], values[1], values[2], values[3]);
+          };
           if (update.velocity || update.position)
             {
-              P vx = P::load(in), vy = P::load(in + 12), dvx = P::load(in + 24),
-                dvy = P::load(in + 36);
-              transpose(vx, vy, dvx, dvy);
-              if (update.velocity)
+              P v[node_size];
+              for (unsigned int place = 0; place < node_size; place += 4)
+                load(place, v + place);
+              for (unsigned int d = 0; d < dim; ++d)
                 {
-                  (f * (P::load(points.vx + k) + dvx) + pic * vx)
-                    .store(points.vx + k);
-                  (f * (P::load(points.vy + k) + dvy) + pic * vy)
-                    .store(points.vy + k);
-                }
-              if (update.position)
-                {
-                  (P::load(points.x + k) + h * vx).store(points.x + k);
-                  (P::load(points.y + k) + h * vy).store(points.y + k);
+                  if (update.velocity)
+                    (f * (P::load(points.v[d] + k) + v[change_of_node + d]) +
+                     pic * v[d])
+                      .store(points.v[d] + k);
+                  if (update.position)
+                    (P::load(points.x[d] + k) + h * v[d])
+                      .store(points.x[d] + k);
                 }
             }
           if (update.strain)
-            {
-              P a = P::load(in + 4), b = P::load(in + 16), c = P::load(in + 28),
-                d = P::load(in + 40);
-              transpose(a, b, c, d);
-              (h * a).store(scratch.l_xx + k);
-              (h * b).store(scratch.l_yx + k);
-              a = P::load(in + 8), b = P::load(in + 20), c = P::load(in + 32),
-              d = P::load(in + 44);
-              transpose(a, b, c, d);
-              (h * a).store(scratch.l_xy + k);
-              (h * b).store(scratch.l_yy + k);
-            }
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                P slope[4];
+                load(node_size + 4 * d, slope);
+                for (unsigned int c = 0; c < dim; ++c)
+                  (h * slope[c]).store(scratch.l[dim * c + d] + k);
+              }
+        }
+    }
+
+    /** det(I + l) of four points. */
+    static P
+    volume_ratio(const P (&l)[dim * dim])
+    {
+      const P one(1.);
+      if constexpr (dim == 2)
+        return (one + l[0]) * (one + l[3]) - l[1] * l[2];
+      else
+        {
+          const P xx = one + l[0], yy = one + l[4], zz = one + l[8];
+          return xx * (yy * zz - l[5] * l[7]) -
+                 l[1] * (l[3] * zz - l[5] * l[6]) +
+                 l[2] * (l[3] * l[7] - yy * l[6]);
         }
     }
 
@@ -290,11 +383,16 @@ namespace geocone
       P work(0.), speed2(0.), strain(0.), least(1e300);
       for (unsigned int k = 0; k < points.n; k += 4)
         {
-          const P xx = P::load(scratch.l_xx + k),
-                  xy = P::load(scratch.l_xy + k),
-                  yx = P::load(scratch.l_yx + k),
-                  yy = P::load(scratch.l_yy + k);
-          const P J  = (P(1.) + xx) * (P(1.) + yy) - xy * yx;
+          P l[dim * dim];
+          for (unsigned int i = 0; i < dim * dim; ++i)
+            {
+              l[i]   = P::load(scratch.l[i] + k);
+              strain = max(strain, abs(l[i]));
+            }
+          // Nothing, unless around an axis.
+          const P zz = P::load(scratch.l_zz + k);
+          strain     = max(strain, abs(zz));
+          const P J  = volume_ratio(l) * (P(1.) + zz);
           const P V  = P::load(points.volume + k);
           const P V1 = J * V;
           V1.store(points.volume + k);
@@ -303,9 +401,7 @@ namespace geocone
           speed2 = max(speed2,
                        P::load(scratch.wave_modulus + k) * V1 /
                          max(P::load(points.mass + k), P(1e-300)));
-          strain =
-            max(strain, max(max(abs(xx), abs(xy)), max(abs(yx), abs(yy))));
-          least = min(least, J);
+          least  = min(least, J);
         }
       sums.work += work.sum();
       keep_larger(sums.wave_speed2, speed2.largest());
@@ -316,23 +412,34 @@ namespace geocone
     static void
     bound(const TransferBlock &points, PassSums &sums)
     {
-      P speed2(0.), check(0.), x0(1e300), x1(-1e300), y0(1e300), y1(-1e300);
+      P speed2(0.), check(0.), lower[dim], upper[dim];
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          lower[d] = P(1e300);
+          upper[d] = P(-1e300);
+        }
       for (unsigned int k = 0; k < points.n; k += 4)
         {
-          const P x = P::load(points.x + k), y = P::load(points.y + k);
-          const P vx = P::load(points.vx + k), vy = P::load(points.vy + k);
-          const P v2 = vx * vx + vy * vy;
-          speed2     = max(speed2, v2);
-          check += v2 + (x + y);
-          x0 = min(x0, x), x1 = max(x1, x);
-          y0 = min(y0, y), y1 = max(y1, y);
+          P v2, sum_x;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              const P x = P::load(points.x[d] + k);
+              const P v = P::load(points.v[d] + k);
+              v2        = d == 0 ? v * v : v2 + v * v;
+              sum_x     = d == 0 ? x : sum_x + x;
+              lower[d]  = min(lower[d], x);
+              upper[d]  = max(upper[d], x);
+            }
+          speed2 = max(speed2, v2);
+          check += v2 + sum_x;
         }
       keep_larger(sums.speed2, speed2.largest());
       sums.check += check.sum();
-      keep_smaller(sums.lower[0], x0.least());
-      keep_smaller(sums.lower[1], y0.least());
-      keep_larger(sums.upper[0], x1.largest());
-      keep_larger(sums.upper[1], y1.largest());
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          keep_smaller(sums.lower[d], lower[d].least());
+          keep_larger(sums.upper[d], upper[d].largest());
+        }
     }
 
     static void
@@ -352,17 +459,22 @@ namespace geocone
                     const TransferBlock &points,
                     BlockScratch        &scratch)
     {
+      // Of the four doubles that slopes are added to, in which forces are.
+      constexpr unsigned int forces = change_of_node % 4;
       for (unsigned int k = 0; k < points.n; ++k)
         {
-          double      *out = scratch.given + 12 * k;
+          double      *out = scratch.given + BlockScratch::n_given * k;
           const double m   = momentum ? points.mass[k] : 0.;
           const double V   = force ? points.volume[k] : 0.;
-          out[0]           = m * points.vx[k];
-          out[1]           = m * points.vy[k];
-          out[6]           = -V * points.s_xx[k];
-          out[7]           = -V * points.s_xy[k];
-          out[10]          = out[7];
-          out[11]          = -V * points.s_yy[k];
+          if constexpr (dim == 2)
+            out[forces] = force ? scratch.hoop_force[k] : 0.;
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              out[c] = m * points.v[c][k];
+              for (unsigned int d = 0; d < dim; ++d)
+                out[4 + 4 * d + forces + c] =
+                  -V * points.s[place_of_component[c][d]][k];
+            }
         }
     }
   };

@@ -93,6 +93,13 @@ namespace geocone
     /** @} */
 
   private:
+    /** As Geometry::unit(). */
+    std::string
+    unit(const std::string &in_plane_strain) const
+    {
+      return scene->geometry.unit(in_plane_strain);
+    }
+
     /** One of the values that laws show, of the points of a group; not a number
      *  where its law does not know it. */
     void

@@ -31,6 +31,10 @@ namespace geocone
   outline_of_box(const dealii::Point<dim> &lower,
                  const dealii::Point<dim> &upper);
 
+  /** Names of the sides of a box, by direction and end, the lower one first. */
+  constexpr const char *side_of_box[3][2] = {
+    {"left", "right"}, {"bottom", "top"}, {"back", "front"}};
+
   /** The number of each side: those at the least and largest x are called left and
    *  right, y bottom and top, z back and front. */
   std::map<std::string, dealii::types::boundary_id>
@@ -39,6 +43,10 @@ namespace geocone
   /** The coordinates, e.g. "0.5, -2". */
   std::string
   text_of_place(const dealii::Point<dim> &x);
+
+  /** The components, each written by this format. */
+  std::string
+  text_of_vector(const dealii::Tensor<1, dim> &x, const char *number);
 
   /**
    * What double precision resolves with room for a solution: coordinates up to

@@ -71,15 +71,28 @@ namespace geocone
     bool reset_velocity = false;
     bool reset_history  = false;
 
-    /** The points in this polygon are taken away, over this time (s). */
+    /** The points in this polygon, or box, and of it where a formula is positive, are
+     *  taken away, over this time (s). */
     std::vector<dealii::Point<dim>> removed_polygon;
     double                          removal_duration = 0.;
+
+    /** Whether points are removed, and whether one at x is. */
+    bool
+    removes() const
+    {
+      return !removed_polygon.empty() || removed_where;
+    }
+    bool
+    removes(const dealii::Point<dim> &x) const;
     /** @} */
 
   private:
     double step_size       = 0.01;
     double first_step_size = 0.;
     double growth          = 1.;
+
+    std::string               removed_where_text;
+    std::optional<Expression> removed_where;
   };
 
   /** The stages of "Loading/Stages", one after another from t = 0. */

@@ -33,8 +33,9 @@ namespace geocone
     double                 kinetic   = 0.; ///< (J/m)
     double                 potential = 0.; ///< from the lower corner (J/m)
     dealii::Tensor<1, dim> momentum;       ///< (N s/m)
-    double                 angular_momentum = 0.; ///< about the origin
-    dealii::Point<dim>     lower, upper; ///< bounds of the positions (m)
+    /** About the axes of n_rotations through the origin. */
+    dealii::Tensor<1, n_rotations> angular_momentum;
+    dealii::Point<dim> lower, upper; ///< bounds of the positions (m)
     /** 1 and 99 % of the mass lie left of these (m). */
     double left_front = 0., right_front = 0.;
     double largest_speed          = 0.;
@@ -121,7 +122,7 @@ namespace geocone
     /**
      * What a stage does before its first step: resets, and points to be removed.
      * @return remarks
-     * @throws StepFailure if its polygon holds no point, or all of them
+     * @throws StepFailure if it removes no point, or all of them
      */
     std::vector<std::string>
     begin_stage(const Stage &stage, const double t);
@@ -261,24 +262,29 @@ namespace geocone
                 const std::function<void(const Seeding::Take &)> &for_each,
                 std::vector<std::string>                         &remarks);
 
-    /** Takes the points in a stage's polygon away, or begins to. */
+    /** Takes the points that a stage removes away, or begins to. */
     std::string
-    remove_polygon(const Stage &stage, const double t);
+    remove_points(const Stage &stage, const double t);
 
     void
     end_removal();
-
-    /** The plane-strain stress of a point with this history (Pa). */
-    ConstitutiveLaw::Stress
-    stress_of(const PointArrays &group,
-              const unsigned int p,
-              const double      *history) const;
 
     TransferBlock
     block(const unsigned int group, const unsigned int first);
 
     void
     pass(const Pass &what, const double dt);
+
+    /** @name Around an axis: what the strain out of the plane is, in a pass after
+     *  points may have moved, and the force by the stress there */
+    /** @{ */
+    void
+    strain_around_axis(const Pass          &what,
+                       const double         dt,
+                       const TransferBlock &points);
+    void
+    force_around_axis(const TransferBlock &points);
+    /** @} */
 
     /** Takes a part of the weight of a block of fading points. */
     void
@@ -341,6 +347,13 @@ namespace geocone
     double
     kinetic_energy(const PointArrays &group, const unsigned int p) const;
 
+    /** As Geometry::unit(). */
+    std::string
+    unit(const std::string &in_plane_strain) const
+    {
+      return scene->geometry.unit(in_plane_strain);
+    }
+
     const MPI_Comm comm;
     BackgroundMesh mesh;
     Space          space;
@@ -359,22 +372,26 @@ namespace geocone
     bool         fast_path      = true;
     unsigned int sort_every     = 50;
 
-    const Scene                  *scene   = nullptr;
-    bool                          affine  = false;
-    const TransferKernels        *kernels = nullptr;
+    const Scene                  *scene        = nullptr;
+    bool                          affine       = false;
+    bool                          axisymmetric = false;
+    const TransferKernels        *kernels      = nullptr;
     std::unique_ptr<GridTransfer> transfer;
     std::unique_ptr<NodalUpdate>  nodes;
     std::vector<PointArrays>      groups;
     BlockScratch                  scratch = {};
-    std::vector<double *>         history; ///< pointers for the law
+    std::vector<double *>         history;       ///< pointers for the law
+    std::vector<double>           point_history; ///< of one point
 
     dealii::Point<dim>     datum;
     dealii::Tensor<1, dim> gravity; ///< in the last step
-    double                 least_mass = 0.;
-    double                 body_mass  = 0.; ///< of this rank's points (kg/m)
-    double                 fade       = 1.; ///< of the last pass of this step
-    double                 fade_end   = 0.;
-    double                 last_step  = 0.;
+    double                 least_mass   = 0.;
+    double                 body_mass    = 0.; ///< of this rank's points (kg/m)
+    double                 hoop_force   = 0.; ///< given last, of this rank (N)
+    double                 least_radius = 0.;
+    double                 fade         = 1.; ///< of the last pass of this step
+    double                 fade_end     = 0.;
+    double                 last_step    = 0.;
     PassSums     sums; ///< of the last pass; after gather_sums() of all
     bool         must_refresh  = true;
     unsigned int since_refresh = 0;

@@ -26,7 +26,7 @@ namespace geocone
     double support_work = 0.;       ///< of prescribed velocities (J/m)
     dealii::Tensor<1, dim> impulse; ///< of gravity, supports, damping (N s/m)
 
-    /** What was taken away (Stage::removed_polygon), or left the grid. */
+    /** What was taken away (Stage::removes()), or left the grid. */
     double                 removed_mass = 0.;      ///< (kg/m)
     dealii::Tensor<1, dim> removed_momentum;       ///< (N s/m)
     double                 removed_energy    = 0.; ///< kinetic (J/m)
@@ -128,6 +128,13 @@ namespace geocone
     }
 
   private:
+    /** A force that the points have written (N/m). */
+    double &
+    force_at(const unsigned int node, const unsigned int component)
+    {
+      return transfer.write[node_size * node + change_of_node + component];
+    }
+
     /** read = write/mass, and no change. */
     void
     divide_momentum();

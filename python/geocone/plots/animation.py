@@ -9,8 +9,8 @@ import numpy as np
 from PIL import Image
 
 from geocone.files import add_to_list, write_whole
-from geocone.plots.points import strain_or_shear, view_of
-from geocone.style import STRAINS, Skipped, disks, panels, plain
+from geocone.plots.points import look_at, strain_or_shear
+from geocone.style import STRAINS, Skipped, panels, plain
 
 SECONDS = 8.  # that a film takes
 MOST = 200  # pictures
@@ -24,10 +24,12 @@ def draw(run, path):
     chosen = np.unique(np.linspace(0, len(series) - 1, min(MOST, len(series))).astype(int))
     fields = run.states("points", tuple(chosen))
     values, label, norm, extend = strain_or_shear(fields)
-    figure, (axes,) = panels(1, view_of(fields, lambda size: 0.1 * np.max(size)))
+    look = look_at(fields, values, lambda size: 0.1 * np.max(size))
+    figure, (axes,) = panels(1, look.box)
+    look.finish(axes)
     bar, frames = None, []
     for field, value in zip(fields, values):
-        drawn = disks(axes, field, value)
+        drawn = look.collection(axes, field, value)
         drawn.set(cmap=STRAINS, norm=norm)
         axes.add_collection(drawn)
         bar = bar or figure.colorbar(drawn, ax=axes, label=label, aspect=40,

@@ -85,7 +85,8 @@ def draw_implicit(run, path):
 def draw_explicit(run, path):
     """Draws the energies of an explicit run, and its numerical loss."""
     time, energies = run.statistics["time (s)"], energies_of(run, EXPLICIT)
-    loss = run.statistics.get("numerical loss (J/m)", np.zeros_like(time))
+    loss = run.statistics.get(f"numerical loss ({run.per_metre('J')})",
+                              np.zeros_like(time))
     largest = max(np.max(np.abs(values)) for values in energies.values())
     energies = {name: values for name, values in energies.items()
                 if np.max(np.abs(values)) > 1e-4 * largest}

@@ -15,8 +15,8 @@ import numpy as np
 from matplotlib.colors import Normalize
 
 from geocone.plots.energy import draw_explicit
-from geocone.plots.points import (draw_panels, states_at, strain_or_shear, values_of,
-                                  view_of)
+from geocone.plots.points import (draw_panels, look_at, states_at, strain_or_shear,
+                                  values_of)
 from geocone.reader import Missing, ReadError
 from geocone.style import BESIDE, COLORS, RATIOS, Skipped, plain, save, subplots
 
@@ -56,7 +56,7 @@ def draw_slide(run, path):
     fields = run.states("points", tuple(range(len(series))))
     if not fields or any("displacement" not in field.data for field in fields):
         raise Skipped("its points have no displacements")
-    moved = [np.linalg.norm(field.data["displacement"][:, :2], axis=1) for field in fields]
+    moved = [np.linalg.norm(field.data["displacement"], axis=1) for field in fields]
     farthest = np.array([np.max(distance) for distance in moved])
     # Displacements may be counted from the start of a stage: from the last one on.
     first = max(np.flatnonzero(np.diff(farthest) < 0.) + 1, default=0)
@@ -83,13 +83,13 @@ def taken_away_at(run):
         table = run.statistics
     except Missing:
         return None
-    removed = table.get("removed mass (kg/m)", np.zeros(1))
+    removed = table.get(f"removed mass ({run.per_metre('kg')})", np.zeros(1))
     return table["time (s)"][np.argmax(removed > 0.)] if np.any(removed > 0.) else None
 
 
 def snapshots_of(run, times):
-    """The fields at the wanted times or at up to six, and the box of their points. Of
-    a body of which a part is taken away one is before that, and the others follow."""
+    """The fields at the wanted times or at up to six. Of a body of which a part is taken
+    away one is before that, and the others follow."""
     series = run.times("points")
     if not len(series):
         raise Skipped("there are no points")
@@ -99,25 +99,30 @@ def snapshots_of(run, times):
         after = series[series >= cut] if cut is not None else series
         times = [*before, *np.linspace(*after[[0, -1]], 6 - len(before))] \
             if len(after) else series
-    fields = states_at(run, times)
-    return fields, view_of(fields, lambda size: 0.1 * np.max(size))
+    return states_at(run, times)
+
+
+def look_of(fields, values):
+    """How the points of a body that moves are looked at."""
+    return look_at(fields, values, lambda size: 0.1 * np.max(size))
 
 
 def draw_points(run, path, times=None):
     """Draws plastic strain or, of an elastic body, shear stress."""
-    fields, view = snapshots_of(run, times)
+    fields = snapshots_of(run, times)
     values, label, norm, extend = strain_or_shear(fields)
-    draw_panels(run, path, fields, view, values, norm, label, extend=extend)
+    draw_panels(run, path, fields, look_of(fields, values), values, norm, label,
+                extend=extend)
 
 
 def draw_ratio(run, path, names, label, least, times=None):
     """Draws a ratio, between a least value and one or more, that some soils show."""
-    fields, view = snapshots_of(run, times)
+    fields = snapshots_of(run, times)
     values = values_of(fields, *names)
     if values is None or not np.any(np.isfinite(np.concatenate(values))):
         raise Skipped(f"its points have no {names[0]}")
     most = np.nanquantile(np.concatenate(values), 0.995)
-    draw_panels(run, path, fields, view, values,
+    draw_panels(run, path, fields, look_of(fields, values), values,
                 Normalize(least, max(1., most) if most > least + 1e-3 else least + 1.),
                 label, RATIOS, extend="max" if most > 1. else "neither")
 
@@ -129,7 +134,7 @@ def pictures(run, times=None):
     try:
         if taken_away_at(run) is not None:
             found["slide.png"] = draw_slide
-        known = set(snapshots_of(run, times)[0][0].data)
+        known = set(snapshots_of(run, times)[0].data)
     except (ReadError, Skipped):  # told where points.png is drawn
         known = set()
     for name, (names, label, least) in SOILS.items():

@@ -13,7 +13,7 @@ import numpy as np
 from geocone.files import add_to_list, write_whole
 from geocone.plots import points
 from geocone.reader import Missing, ReadError
-from geocone.style import STRAINS, PlotError, Skipped, draw_water, in_plane
+from geocone.style import STRAINS, PlotError, Skipped, draw_water
 
 TEMPLATE = Path(__file__).with_name("run.html")
 MOST_FRAMES = 16
@@ -62,10 +62,11 @@ def as_data(content):
     return "data:image/png;base64," + base64.b64encode(content).decode()
 
 
-def frame_of(run, field, view, values, norm):
+def frame_of(run, field, look, values, norm):
     """A small picture of the points at a time."""
-    figure, (axes,) = points.panels(1, view)
-    drawn = points.disks(axes, field, values)
+    figure, (axes,) = points.panels(1, look.box)
+    look.finish(axes)
+    drawn = look.collection(axes, field, values)
     drawn.set(cmap=STRAINS, norm=norm)
     axes.add_collection(drawn)
     draw_water(axes, run)
@@ -87,13 +88,12 @@ def frames_of(run):
         chosen = np.unique(np.linspace(0, len(times) - 1,
                                        min(len(times), MOST_FRAMES)).astype(int))
         fields = run.states("points", tuple(int(i) for i in chosen))
-        in_plane(fields[0])
         values, label, norm, _ = points.strain_or_shear(fields)
-        view = points.view_of(fields, lambda size: 0.5 * size)
+        look = points.look_at(fields, values, lambda size: 0.5 * size)
     except (Missing, Skipped):
         return [], ""
     return [{"time": f"{field.time:.4g} s",
-             "data": as_data(frame_of(run, field, view, value, norm))}
+             "data": as_data(frame_of(run, field, look, value, norm))}
             for field, value in zip(fields, values)], label
 
 

@@ -63,20 +63,46 @@ def view_of(fields, reach):
     return near.min(axis=0) - margin, near.max(axis=0) + margin
 
 
-def draw_panels(run, path, fields, view, values, norm, label, colors=STRAINS,
+class Look:
+    """How the points of some fields are looked at: in the plane as disks.
+
+    box  that of the picture; words  that tell from where it is seen"""
+
+    words = ""
+
+    def __init__(self, fields, reach):
+        self.box = view_of(fields, reach)
+
+    def collection(self, axes, field, values):
+        """The points of a field, in the colours of their values."""
+        return disks(axes, field, values)
+
+    def finish(self, axes):
+        """What the axes need besides."""
+        if np.ptp(self.box, axis=0)[0] > 5. * np.ptp(self.box, axis=0)[1]:  # flat
+            axes.yaxis.set_major_locator(MaxNLocator(2))
+
+
+def look_at(fields, values, reach):
+    """The look of fields in the plane or in space; `reach` as in view_of()."""
+    if fields[0].points.shape[1] == 3:
+        from geocone.plots import solid
+        return solid.SolidLook(fields, values, reach)
+    return Look(fields, reach)
+
+
+def draw_panels(run, path, fields, look, values, norm, label, colors=STRAINS,
                 extend="neither"):
     """Draws the points at some times, coloured by values, with one colour bar."""
-    figure, axes = panels(len(fields), view)
-    if np.ptp(view, axis=0)[0] > 5. * np.ptp(view, axis=0)[1]:  # flat
-        for ax in axes:
-            ax.yaxis.set_major_locator(MaxNLocator(2))
+    figure, axes = panels(len(fields), look.box)
     for ax, field, value in zip(axes, fields, values):
-        drawn = disks(ax, field, value)
+        drawn = look.collection(ax, field, value)
         drawn.set(cmap=colors, norm=norm)
         ax.add_collection(drawn)
         ax.set_title(f"t = {field.time:.4g} s")
+        look.finish(ax)
         ax.label_outer()
-    title = f"{plain(run.name)}: {label.rsplit(' (', 1)[0]}"
+    title = f"{plain(run.name)}: {label.rsplit(' (', 1)[0]}{look.words}"
     if len(fields) == 1:
         axes[0].set_title(f"{title}, {axes[0].get_title()}")
     else:
@@ -103,9 +129,5 @@ def draw_strains(run, path, times=None):
         values, label = shear_stress(fields), SHEAR
         path = path.with_name("shear_stress.png")
     norm = Normalize(0., max(np.max(np.concatenate(values)), np.finfo(float).tiny))
-    if fields[0].points.shape[1] == 3:
-        from geocone.plots import solid
-        solid.draw_points(run, path, fields, values, norm, label)
-        return
-    draw_panels(run, path, fields, view_of(fields, lambda size: size / 2.), values, norm,
-                label)
+    draw_panels(run, path, fields, look_at(fields, values, lambda size: size / 2.),
+                values, norm, label)

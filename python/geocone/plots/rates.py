@@ -43,32 +43,40 @@ def add_rates(axes, collection, most, shown=SHOWN):
     add_bar(axes, collection, "plastic strain rate (1/s)", extend="min")
 
 
+def motion_of(run, data):
+    """How far or how fast the nodes of a field move.
+
+    @return name and unit, the magnitudes, and the greatest that is shown"""
+    # The mesh of points that move has no displacement.
+    name, unit, factor = (("displacement", "mm", 1e3) if "displacement" in data else
+                          ("velocity", "m/s", 1.))
+    size = factor * np.linalg.norm(data[name], axis=1)
+    most = np.inf
+    if name == "velocity":
+        # Nodes with hardly any mass may be much faster than all particles.
+        particles, = run.states("points")
+        most = np.linalg.norm(particles.data[name], axis=1).max()
+    return name, unit, size, most
+
+
 def draw_cells(run, path):
     """Draws the rate in each cell, and the displacement."""
     field, rates, title = rates_of(run, "cells")
     points, cells, data, _ = field
     if points.shape[1] == 3:
         from geocone.plots import solid
-        solid.draw_cells(run, path, field, rates, title)
+        solid.draw_cells(run, path, field, rates, motion_of(run, data), title)
         return
     view = view_of(run)
     figure, (first, second) = panels(2, view)
     add_rates(first, cells_of(field, rates), rates.max())
     first.set_title(title)
-    # The mesh of points that move has none.
-    name, unit, factor = (("displacement", "mm", 1e3) if "displacement" in data else
-                          ("velocity", "m/s", 1.))
-    size = factor * np.linalg.norm(data[name], axis=1)
+    name, unit, size, most = motion_of(run, data)
     inside = np.all((points >= view[0]) & (points <= view[1]), axis=1)
     triangles = np.concatenate([cells[:, [0, i, i + 1]]
                                 for i in range(1, cells.shape[1] - 1)])
-    most = size[inside].max()
-    if name == "velocity":
-        # Nodes with hardly any mass may be much faster than all particles.
-        particles, = run.states("points")
-        most = min(most, np.linalg.norm(particles.data[name], axis=1).max())
     drawn = second.tripcolor(*points.T, triangles, size, shading="gouraud",
-                             vmin=0., vmax=most)
+                             vmin=0., vmax=min(most, size[inside].max()))
     second.set_title(f"magnitude of the {name}")
     add_bar(second, drawn, f"{name} ({unit})")
     for axes in (first, second):

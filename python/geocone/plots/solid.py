@@ -10,8 +10,8 @@ from matplotlib.collections import EllipseCollection, PolyCollection
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.patheffects import withStroke
 
-from geocone.plots.points import view_of
-from geocone.style import RATES, SHOWN, STEPS, STRAINS, add_bar, panels, plain, save
+from geocone.plots.points import STRAIN, values_of, view_of
+from geocone.style import RATES, SHOWN, STEPS, add_bar, panels, save
 
 # Corners of the faces of cells, in VTK's order; triangles tell one corner twice.
 FACES = {4: [(0, 1, 2, 2), (0, 1, 3, 3), (1, 2, 3, 3), (0, 2, 3, 3)],
@@ -72,27 +72,33 @@ class View:
                          for sign, axis in zip(self.signs, "xz"))
 
 
+def facing(faces, normals, view):
+    """Those of the faces that a view shows, and their normals."""
+    shown = normals @ view.towards > 1e-6
+    return faces[shown], normals[shown]
+
+
 def chosen_view(points, cells, rates):
-    """From where most of the flow is seen, and the cells that are left of the body if it
-    has to be opened: those in front of the cell of the greatest rate are taken away."""
+    """From where most of the flow is seen. If it is hidden, the body is opened: cells in
+    front of that of the greatest rate are taken away.
+
+    @return the view, the faces that it shows, their normals, and whether it was opened"""
     vertices = vertices_of(points)
     views = [View(x, z) for x in (1., -1.) for z in (1., -1.)]
-    centres, of_cell = points[cells].mean(axis=1), rates[cells[:, 0]]
+    outer = outer_faces(points, cells, vertices)
 
-    def shown(view, left):
-        faces, normals = outer_faces(points, cells[left], vertices)
-        facing = normals @ view.towards > 1e-6
-        return rates[faces[facing, 0]] if np.any(facing) else np.zeros(1)
+    def seen(view):
+        shown = rates[facing(*outer, view)[0][:, 0]]
+        return (shown.max(), shown.sum()) if len(shown) else (0., 0.)
 
-    whole = np.ones(len(cells), bool)
-    seen = [shown(view, whole) for view in views]
-    best = max(range(4), key=lambda i: (seen[i].max(), seen[i].sum()))
-    if seen[best].max() >= HIDDEN * rates.max():
-        return views[best], whole, vertices
-    fastest = centres[np.argmax(of_cell)]
+    best = max(views, key=seen)
+    if seen(best)[0] >= HIDDEN * rates.max():
+        return best, *facing(*outer, best), False
+    centres = points[cells].mean(axis=1)
+    fastest = centres[np.argmax(rates[cells[:, 0]])]
     view = max(views, key=lambda view: -np.sum(view.signs * fastest[[0, 2]]))
     in_front = np.all((centres - fastest)[:, [0, 2]] * view.signs > 0., axis=1)
-    return view, ~in_front, vertices
+    return view, *facing(*outer_faces(points, cells[~in_front], vertices), view), True
 
 
 def add_faces(axes, view, points, faces, normals, values, colors, norm, label, **bar):
@@ -132,21 +138,14 @@ def add_directions(axes, view, box):
               ha="center", va="bottom", zorder=5, path_effects=ON_DARK)
 
 
-def draw_cells(run, path, field, rates, title):
-    """Draws the rate of each cell that is seen, and the displacement of its faces."""
-    points, cells, data, _ = field
-    view, left, vertices = chosen_view(points, cells, rates)
-    faces, normals = outer_faces(points, cells[left], vertices)
-    facing = normals @ view.towards > 1e-6
-    faces, normals = faces[facing], normals[facing]
-    name, unit, factor = (("displacement", "mm", 1e3) if "displacement" in data else
-                          ("velocity", "m/s", 1.))
-    size = factor * np.linalg.norm(data[name], axis=1)[faces].mean(axis=1)
-    most = size.max()
-    if name == "velocity":
-        # Nodes with hardly any mass may be much faster than all particles.
-        particles, = run.states("points")
-        most = min(most, np.linalg.norm(particles.data[name], axis=1).max())
+def draw_cells(run, path, field, rates, motion, title):
+    """Draws the rate of each cell that is seen, and the motion of its faces.
+
+    @param motion what rates.motion_of() says"""
+    points = field.points
+    view, faces, normals, opened = chosen_view(points, field.cells, rates)
+    name, unit, size, most = motion
+    size = size[faces].mean(axis=1)
     # What is seen is where something moves, with a margin.
     moving = np.concatenate([rates[faces[:, 0]] > 1e-3 * rates.max(),
                              size > 0.02 * size.max()]).reshape(2, -1).any(axis=0)
@@ -160,37 +159,56 @@ def draw_cells(run, path, field, rates, title):
               LogNorm(SHOWN * rates.max(), rates.max()), "plastic strain rate (1/s)",
               extend="min")
     add_faces(second, view, points, faces, normals, size, STEPS,
-              Normalize(0., max(most, np.finfo(float).tiny)), f"{name} ({unit})")
-    opened = "" if left.all() else ", cut open"
-    first.set_title(f"{title}\nseen from {view.name()}{opened}")
+              Normalize(0., max(min(most, size.max()), np.finfo(float).tiny)),
+              f"{name} ({unit})")
+    first.set_title(f"{title}\nseen from {view.name()}{', cut open' * opened}")
     second.set_title(f"magnitude of the {name}")
     for axes in (first, second):
         add_directions(axes, view, box)
     save(figure, run, path, cropped=True)
 
 
-def draw_points(run, path, fields, values, norm, label):
-    """Draws material points at some times, coloured by values, with one colour bar."""
-    view = View(1., 1.)
-    box = view_of([field._replace(points=view.seen(field.points)) for field in fields],
-                  lambda size: size / 2.)
-    figure, axes = panels(len(fields), box)
-    for ax, field, value in zip(axes, fields, values):
-        order = np.argsort(field.points @ view.towards)
+def seen_values(view, field, values):
+    """The values of the points that no other one hides, about."""
+    places = view.seen(field.points)
+    size = np.ptp(places, axis=0).max() / 100.
+    columns, rows = np.floor(places / size).astype(np.int64).T
+    nearest = np.argsort(-(field.points @ view.towards))
+    pixels = (rows - rows.min()) * (np.ptp(columns) + 1) + columns - columns.min()
+    _, first = np.unique(pixels[nearest], return_index=True)
+    return values[nearest[first]]
+
+
+class SolidLook:
+    """How points in space are looked at (points.Look): as balls, the nearest in front,
+    from the corner of the horizon from which most of the greatest plastic strains are
+    seen at the end, or without them of the greatest values."""
+
+    def __init__(self, fields, values, reach):
+        strains = values_of(fields, STRAIN)
+        if strains is not None and np.any(strains[-1] > 0.):
+            values = strains
+        last = np.nan_to_num(values[-1])
+        great = last >= np.quantile(last, 0.95)
+        self.view = max((View(x, z) for x in (1., -1.) for z in (1., -1.)),
+                        key=lambda view: seen_values(view, fields[-1], great).sum())
+        # The corners of a body are few of its points: farther than in the plane.
+        self.box = view_of([field._replace(points=self.view.seen(field.points))
+                            for field in fields], lambda size: 3. * reach(size))
+        self.words = f", seen from {self.view.name()}"
+
+    def collection(self, axes, field, values):
+        """The points of a field, in the colours of their values."""
+        order = np.argsort(field.points @ self.view.towards)
         size = (np.cbrt(field.data["volume"][order, 0]) if "volume" in field.data else
-                np.full(len(order), np.ptp(box, axis=0).max() / 100.))
-        drawn = EllipseCollection(1.3 * size, 1.3 * size, 0. * size, units="xy",
-                                  offsets=view.seen(field.points)[order],
-                                  array=value[order], cmap=STRAINS, norm=norm,
-                                  edgecolors="#40404080", linewidths=0.2,
-                                  offset_transform=ax.transData)
-        ax.add_collection(drawn)
-        ax.set_title(f"t = {field.time:.4g} s")
-        add_directions(ax, view, box)
-    title = f"{plain(run.name)}: {label.rsplit(' (', 1)[0]}, seen from {view.name()}"
-    if len(fields) == 1:
-        axes[0].set_title(f"{title}, {axes[0].get_title()}")
-    else:
-        figure.suptitle(title, fontsize=13)
-    figure.colorbar(drawn, ax=list(axes), label=label, aspect=40, pad=0.02)
-    save(figure, run, path, cropped=True)
+                np.full(len(order), np.ptp(self.box, axis=0).max() / 100.))
+        # Points that fly may have grown without limit.
+        size = 1.3 * np.minimum(size, np.quantile(size, 0.98))
+        return EllipseCollection(size, size, 0. * size, units="xy",
+                                 offsets=self.view.seen(field.points)[order],
+                                 array=values[order], edgecolors="#40404080",
+                                 linewidths=0.2, offset_transform=axes.transData)
+
+    def finish(self, axes):
+        """What the axes need besides."""
+        add_directions(axes, self.view, self.box)
