@@ -95,7 +95,7 @@ namespace geocone
       IncrementalProblem &problem = thawed.problem();
       newton.check(problem);
       LinearSystem system(
-        newton.linear_solver_name(), MPI_COMM_SELF, problem.is_symmetric());
+        newton.linear_solver(), MPI_COMM_SELF, problem.is_symmetric());
       dealii::TimerOutput timer(
         std::cout, dealii::TimerOutput::never, dealii::TimerOutput::cpu_times);
       dealii::Timer clock;

@@ -18,7 +18,7 @@ namespace geocone
   namespace
   {
     // Five million nodes in ASCII; the solvers end long before.
-    constexpr std::uintmax_t largest_file = 512ULL << 20;
+    constexpr std::uintmax_t largest_msh_file = 512ULL << 20;
 
     /** Reads one file, section by section. */
     class Reader
@@ -500,12 +500,12 @@ namespace geocone
       throw InputError(what + " is no regular file\n  allowed: " +
                        msh_versions + "\n  remedy:  check its name");
     const std::uintmax_t size = std::filesystem::file_size(file_name, error);
-    if (!error && size > largest_file)
+    if (!error && size > largest_msh_file)
       throw InputError(
         what +
         format(" has %.0f MB\n  allowed: files up to %.0f MB\n",
                size / 1048576.,
-               largest_file / 1048576.) +
+               largest_msh_file / 1048576.) +
         "  remedy:  mesh with fewer cells, or write the file in binary: "
         "Mesh.Binary = 1");
     std::string   text(error ? 0 : size, '\0');

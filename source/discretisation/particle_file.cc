@@ -1,9 +1,10 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/base/csv_file.h>
+#include <geocone/base/csv_reader.h>
 #include <geocone/base/exceptions.h>
 #include <geocone/base/hdf5_file.h>
+#include <geocone/base/largest_quantity.h>
 #include <geocone/base/log.h>
 #include <geocone/discretisation/particle_file.h>
 
@@ -44,10 +45,7 @@ namespace geocone
     }
 
     /** Some 10^9 rows, more than a run can have points. */
-    constexpr std::uintmax_t largest_file = 1ULL << 37;
-
-    /** No quantity in SI units is larger; squares of it are still numbers. */
-    constexpr double largest = 1e30;
+    constexpr std::uintmax_t largest_particle_file = 1ULL << 37;
 
     constexpr const char *unit = dim == 2 ? "m^2" : "m^3"; ///< of volumes
 
@@ -115,10 +113,10 @@ namespace geocone
                                       value != std::floor(value)))
         what = "is no material: they are counted from 0 to " +
                std::to_string(materials.size() - 1);
-      else if (std::abs(value) > largest)
+      else if (std::abs(value) > largest_quantity)
         what = std::string("is larger than 1e30; give it in m, ") + unit +
                ", m/s or Pa";
-      else if (column == volume && value < 1. / largest)
+      else if (column == volume && value < 1. / largest_quantity)
         what =
           std::string("is smaller than 1e-30 ") + unit + "; give it in " + unit;
       if (!what.empty())
@@ -131,10 +129,10 @@ namespace geocone
 
   namespace
   {
-    class CsvReader : public ParticleFile::Reader
+    class CsvParticles : public ParticleFile::Reader
     {
     public:
-      CsvReader(const std::string &file, const Materials &materials)
+      CsvParticles(const std::string &file, const Materials &materials)
         : Reader(file, materials)
         , in(file)
       {
@@ -184,15 +182,15 @@ namespace geocone
         return values;
       }
 
-      CsvFile                       in;
+      CsvReader                     in;
       std::map<std::string, double> number_of_material;
       std::vector<Column>           columns;
     };
 
-    class Hdf5Reader : public ParticleFile::Reader
+    class Hdf5Particles : public ParticleFile::Reader
     {
     public:
-      Hdf5Reader(const std::string &file_name, const Materials &materials)
+      Hdf5Particles(const std::string &file_name, const Materials &materials)
         : Reader(file_name, materials)
         , in(file_name, Hdf5File::Access::read)
       {
@@ -249,14 +247,14 @@ namespace geocone
     std::error_code error;
     if (!std::filesystem::is_regular_file(file_name, error))
       throw refused(file_name, "it is no regular file");
-    if (std::filesystem::file_size(file_name, error) > largest_file)
+    if (std::filesystem::file_size(file_name, error) > largest_particle_file)
       throw refused(file_name, "it is larger than 128 GB: is it a table?");
     try
       {
         if (is_hdf5(file_name))
-          reader = std::make_unique<Hdf5Reader>(file_name, materials);
+          reader = std::make_unique<Hdf5Particles>(file_name, materials);
         else
-          reader = std::make_unique<CsvReader>(file_name, materials);
+          reader = std::make_unique<CsvParticles>(file_name, materials);
       }
     catch (const RunError &error)
       {

@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/gather.h>
 #include <geocone/base/hdf5_file.h>
+#include <geocone/base/largest_quantity.h>
 #include <geocone/discretisation/spline_basis.h>
 #include <geocone/mechanics/frozen_problem.h>
 
@@ -50,10 +51,7 @@ namespace geocone
     }
 
     /** What a frozen file says that it is. */
-    const std::string format_name = "geocone-1";
-
-    /** No quantity in SI units is larger; squares of it are still numbers. */
-    constexpr double largest = 1e30;
+    const std::string frozen_format = "geocone-1";
 
     /** What is wrong with the text of a section Materials; empty: nothing. */
     std::string
@@ -181,7 +179,7 @@ namespace geocone
   FrozenProblem::write(const std::string &file_name) const
   {
     Hdf5File file(file_name, Hdf5File::Access::create);
-    file.write("format", format_name);
+    file.write("format", frozen_format);
     file.write("materials", materials);
     file.write("step", std::vector<double>{h, consistent_part});
     file.write("particles", std::vector<int>{particles});
@@ -232,13 +230,13 @@ namespace geocone
     const auto doubles = [&](const std::string &name) {
       const std::vector<double> values = file.read_doubles(name);
       for (const double value : values)
-        check(std::abs(value) <= largest,
+        check(std::abs(value) <= largest_quantity,
               "numbers in '" + name + "' that are not finite, or beyond 1e30");
       return values;
     };
 
-    check(file.read_text("format") == format_name,
-          "its format is another one than '" + format_name + "'");
+    check(file.read_text("format") == frozen_format,
+          "its format is another one than '" + frozen_format + "'");
     FrozenProblem frozen;
     frozen.materials            = file.read_text("materials");
     const std::string objection = objection_to_materials(frozen.materials);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/largest_quantity.h>
 #include <geocone/mechanics/reduced_problem.h>
 
 #include <algorithm>
@@ -94,11 +95,8 @@ namespace geocone
   namespace
   {
     /** Beyond a million cones, or some gigabytes, a text has no meaning. */
-    constexpr double         most_cones   = 1e6;
-    constexpr std::uintmax_t largest_file = 1ULL << 32;
-
-    /** No quantity in SI units is larger; squares of it are still numbers. */
-    constexpr double largest = 1e30;
+    constexpr double         most_cones           = 1e6;
+    constexpr std::uintmax_t largest_problem_file = 1ULL << 32;
 
     /** The numbers of a text file one after the other. */
     class Numbers
@@ -114,7 +112,7 @@ namespace geocone
         std::ifstream in(file_name);
         if (!in)
           fail("cannot be opened");
-        if (std::filesystem::file_size(file_name, error) > largest_file)
+        if (std::filesystem::file_size(file_name, error) > largest_problem_file)
           fail("is larger than 4 GB");
         text.assign(std::istreambuf_iterator<char>(in), {});
         place = text.c_str();
@@ -152,7 +150,7 @@ namespace geocone
           fail("ends within " + what);
         char        *end;
         const double x = std::strtod(place, &end);
-        if (end == place || !(std::abs(x) <= largest))
+        if (end == place || !(std::abs(x) <= largest_quantity))
           fail("has '" + word() + "' within " + what +
                ", where a number of at most 1e30 must be");
         place = end;

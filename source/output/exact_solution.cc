@@ -16,7 +16,7 @@ namespace geocone
 {
   namespace
   {
-    const std::vector<std::string> names = [] {
+    const std::vector<std::string> component_names = [] {
       std::vector<std::string> list;
       for (unsigned int d = 0; d < dim; ++d)
         list.push_back(std::string("Displacement ") + coordinate[d]);
@@ -30,9 +30,9 @@ namespace geocone
     : dealii::ParameterAcceptor("/Exact solution")
   {
     texts.fill("none");
-    for (unsigned int i = 0; i < names.size(); ++i)
+    for (unsigned int i = 0; i < component_names.size(); ++i)
       add_parameter(
-        names[i],
+        component_names[i],
         texts[i],
         (std::string("Formula in ") + coordinates +
          " (m) and t (s) for the exact ") +
@@ -53,8 +53,9 @@ namespace geocone
                        "formulas for all fields, or none for all",
                        "complete the section");
     if (given)
-      for (unsigned int i = 0; i < names.size(); ++i)
-        fields[i].prepare(texts[i], std::string("Exact solution/") + names[i]);
+      for (unsigned int i = 0; i < component_names.size(); ++i)
+        fields[i].prepare(texts[i],
+                          std::string("Exact solution/") + component_names[i]);
   }
 
   FieldErrors

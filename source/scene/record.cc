@@ -1,7 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/base/csv_file.h>
+#include <geocone/base/csv_reader.h>
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/scene/record.h>
@@ -19,7 +19,7 @@ namespace geocone
     bool                is_value = false;
     try
       {
-        CsvFile                        in(file);
+        CsvReader                      in(file);
         const std::vector<std::string> names = in.names();
         is_value = names == std::vector<std::string>{"t", "v"};
         if (!is_value && names != std::vector<std::string>{"t", "a"})

@@ -12,10 +12,10 @@ namespace geocone
 {
   using dealii::TimerOutput;
 
-  LinearSystem::LinearSystem(const std::string &solver_name,
-                             const MPI_Comm     comm,
-                             const bool         symmetric)
-    : solver(make_linear_solver(solver_name, comm, symmetric))
+  LinearSystem::LinearSystem(const LinearSolverParameters &parameters,
+                             const MPI_Comm                comm,
+                             const bool                    symmetric)
+    : solver(parameters.make(comm, symmetric))
     , comm(comm)
   {}
 

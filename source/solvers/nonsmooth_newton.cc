@@ -15,18 +15,6 @@ namespace geocone
   using dealii::TimerOutput;
   using dealii::Patterns::Double;
   using dealii::Patterns::Integer;
-  using dealii::Patterns::Selection;
-
-  NonsmoothNewton::SolverName::SolverName()
-    : dealii::ParameterAcceptor("/Linear solver")
-  {
-    add_parameter("Name",
-                  value,
-                  "automatic | Cholmod | Umfpack | Mumps. Automatic: Cholmod "
-                  "for associated flow on one rank, otherwise Mumps.",
-                  prm,
-                  Selection("automatic|Cholmod|Umfpack|Mumps"));
-  }
 
   NonsmoothNewton::Friction::Friction()
     : dealii::ParameterAcceptor("/Time stepping")

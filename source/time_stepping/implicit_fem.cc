@@ -85,7 +85,7 @@ namespace geocone
           scene->initial_velocity.at(space_.node_positions()[node])[c];
 
     system = std::make_unique<LinearSystem>(
-      newton.linear_solver_name(),
+      newton.linear_solver(),
       mesh_.triangulation().get_communicator(),
       scene->materials.symmetric() && !obstacles->exists());
     // Whether obstacles hold the body is not known before they touch.

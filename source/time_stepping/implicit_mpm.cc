@@ -163,7 +163,7 @@ namespace geocone
     obstacles = std::make_unique<ObstacleContact>(*scene, *mesh, *space, false);
     check_obstacles(points);
     system = std::make_unique<LinearSystem>(
-      newton.linear_solver_name(),
+      newton.linear_solver(),
       mesh->triangulation().get_communicator(),
       scene->materials.symmetric() && !obstacles->exists());
     force.reinit(space->partitioner());

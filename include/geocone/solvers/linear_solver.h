@@ -4,7 +4,10 @@
 #ifndef geocone_solvers_linear_solver_h
 #define geocone_solvers_linear_solver_h
 
+#include <geocone/base/choice.h>
 #include <geocone/base/sparse_matrix.h>
+
+#include <deal.II/base/parameter_acceptor.h>
 
 #include <memory>
 #include <string>
@@ -46,21 +49,75 @@ namespace geocone
 
     virtual std::string
     name() const = 0;
+
+    /** Ends the run where a solver cannot do its part. @throws RunError */
+    [[noreturn]] static void
+    fail(const std::string &why);
   };
 
-  /**
-   * Makes a solver by name:
-   *  - Cholmod: supernodal Cholesky of SuiteSparse; one rank, symmetric
-   *    positive definite matrices (associated flow);
-   *  - Umfpack: unsymmetric multifrontal LU of SuiteSparse; one rank;
-   *  - Mumps: distributed multifrontal LU, or LDL' where symmetric;
-   *  - automatic: Cholmod or Umfpack on one rank, Mumps on several.
-   * @throws InputError for a name that this build lacks, or that cannot do it
-   */
+  /** Which solver, and what it keeps where. */
+  class LinearSolverParameters : public dealii::ParameterAcceptor
+  {
+  public:
+    LinearSolverParameters();
+
+    enum class Name
+    {
+      automatic,
+      cholmod,
+      umfpack,
+      mumps
+    };
+    Choice<Name> name = {{{"automatic", Name::automatic},
+                          {"Cholmod", Name::cholmod},
+                          {"Umfpack", Name::umfpack},
+                          {"Mumps", Name::mumps}}};
+
+    /** Of the integers that count the entries of Cholmod's factors. */
+    enum class IndexSize
+    {
+      automatic,
+      bits_32,
+      bits_64
+    };
+    Choice<IndexSize> index_size = {{{"automatic", IndexSize::automatic},
+                                     {"32", IndexSize::bits_32},
+                                     {"64", IndexSize::bits_64}}};
+
+    /** Whether Mumps keeps factors on disk, and where. */
+    bool        out_of_core = false;
+    std::string folder      = "/tmp";
+
+    /**
+     * The solver for a kind of matrices:
+     *  - Cholmod: supernodal Cholesky of SuiteSparse; one rank, symmetric
+     *    positive definite matrices (associated flow);
+     *  - Umfpack: unsymmetric multifrontal LU of SuiteSparse; one rank;
+     *  - Mumps: distributed multifrontal LU, or Cholesky where symmetric;
+     *  - automatic: Cholmod for symmetric matrices on one rank that are kept in
+     *    memory, otherwise Mumps, which is faster than Umfpack (doc/performance.md).
+     * @throws InputError for what it cannot do
+     */
+    std::unique_ptr<LinearSolver>
+    make(const MPI_Comm comm, const bool symmetric) const;
+  };
+
+  /** @name The solvers */
+  /** @{ */
+
+  /** @param size of integers; automatic: the smallest that hold the factors */
   std::unique_ptr<LinearSolver>
-  make_linear_solver(const std::string &name,
-                     const MPI_Comm     comm,
-                     const bool         symmetric);
+  make_cholmod(const LinearSolverParameters::IndexSize size);
+
+  std::unique_ptr<LinearSolver>
+  make_umfpack();
+
+  /** @param folder for factors on disk; empty: in memory */
+  std::unique_ptr<LinearSolver>
+  make_mumps(const MPI_Comm     comm,
+             const bool         symmetric,
+             const std::string &folder);
+  /** @} */
 } // namespace geocone
 
 #endif

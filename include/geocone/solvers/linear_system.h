@@ -26,10 +26,9 @@ namespace geocone
   class LinearSystem
   {
   public:
-    /** @param solver_name as make_linear_solver() takes it */
-    LinearSystem(const std::string &solver_name,
-                 const MPI_Comm     comm,
-                 const bool         symmetric);
+    LinearSystem(const LinearSolverParameters &parameters,
+                 const MPI_Comm                comm,
+                 const bool                    symmetric);
 
     /** Takes the pattern of a problem's Jacobian, and orders the unknowns anew if
      *  it is another one than before. Collective. */

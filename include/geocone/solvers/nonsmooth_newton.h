@@ -6,6 +6,7 @@
 
 #include <geocone/base/choice.h>
 #include <geocone/mechanics/reduced_problem.h>
+#include <geocone/solvers/linear_solver.h>
 #include <geocone/solvers/reduced_report.h>
 #include <geocone/solvers/step_workspace.h>
 
@@ -86,11 +87,11 @@ namespace geocone
              first_iterate == FirstIterate::gauss_seidel;
     }
 
-    /** Name of the linear solver that was asked for. */
-    const std::string &
-    linear_solver_name() const
+    /** The linear solver that is asked for. */
+    const LinearSolverParameters &
+    linear_solver() const
     {
-      return solver_name.value;
+      return linear;
     }
 
   private:
@@ -145,13 +146,7 @@ namespace geocone
     double       rho                  = 0.03;
     unsigned int first_iterate_sweeps = 10;
 
-    /** Has a section of its own. */
-    struct SolverName : dealii::ParameterAcceptor
-    {
-      SolverName();
-      std::string value = "automatic";
-    };
-    SolverName solver_name;
+    LinearSolverParameters linear;
 
     /** Part of the time discretisation, and of its section. */
     struct Friction : dealii::ParameterAcceptor

@@ -1,7 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/base/csv_file.h>
+#include <geocone/base/csv_reader.h>
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 
@@ -46,7 +46,7 @@ namespace geocone
     }
   } // namespace
 
-  CsvFile::CsvFile(const std::string &file)
+  CsvReader::CsvReader(const std::string &file)
   {
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error))
@@ -61,7 +61,7 @@ namespace geocone
   }
 
   bool
-  CsvFile::next_line(std::string &line)
+  CsvReader::next_line(std::string &line)
   {
     char buffer[longest_line + 1];
     in.getline(buffer, sizeof(buffer));
@@ -80,7 +80,7 @@ namespace geocone
   }
 
   bool
-  CsvFile::next_row(std::vector<std::string> &values)
+  CsvReader::next_row(std::vector<std::string> &values)
   {
     std::string line;
     if (!next_line(line))
@@ -102,7 +102,7 @@ namespace geocone
   }
 
   double
-  CsvFile::number(const std::vector<std::string> &values,
+  CsvReader::number(const std::vector<std::string> &values,
                   const std::size_t               column,
                   const char                     *otherwise) const
   {
@@ -119,13 +119,13 @@ namespace geocone
   }
 
   std::string
-  CsvFile::place() const
+  CsvReader::place() const
   {
     return format("line %zu", n_lines);
   }
 
   std::string
-  CsvFile::place(const std::size_t column) const
+  CsvReader::place(const std::size_t column) const
   {
     return place() + ", column '" + columns[column] + "'";
   }

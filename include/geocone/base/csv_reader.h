@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef geocone_base_csv_file_h
-#define geocone_base_csv_file_h
+#ifndef geocone_base_csv_reader_h
+#define geocone_base_csv_reader_h
 
 #include <fstream>
 #include <string>
@@ -15,11 +15,11 @@ namespace geocone
    * begin with a byte-order mark, have lines that end by CR LF, values in quotes, spaces
    * around them, and blank lines at its end. Errors are RunErrors that name the line.
    */
-  class CsvFile
+  class CsvReader
   {
   public:
     /** Reads the names of the columns. */
-    explicit CsvFile(const std::string &file);
+    explicit CsvReader(const std::string &file);
 
     const std::vector<std::string> &
     names() const
