@@ -40,51 +40,6 @@ namespace geocone
     return std::count(is_prescribed.begin(), is_prescribed.end(), false);
   }
 
-  std::vector<Eigen::Vector3d>
-  strain_rates(const BoundProblem                       &problem,
-               const std::vector<BoundProblem::Strains> &strains,
-               const Eigen::VectorXd                    &q)
-  {
-    std::vector<Eigen::Vector3d> all(problem.n_points());
-    with_n_local(problem, [&](const auto size) {
-      constexpr int               n = decltype(size)::value;
-      Eigen::Matrix<double, n, 1> own;
-      for (unsigned int c = 0; c < problem.n_cells(); ++c)
-        {
-          for (unsigned int i = 0; i < n; ++i)
-            own[i] = q[problem.dofs[n * c + i]];
-          const Eigen::Matrix<double, 9, 1> e =
-            fixed<n>(strains[c]).lazyProduct(own);
-          for (unsigned int i = 0; i < 3; ++i)
-            all[3 * c + i] = e.template segment<3>(3 * i);
-        }
-    });
-    return all;
-  }
-
-  Eigen::VectorXd
-  internal_forces(const BoundProblem                       &problem,
-                  const std::vector<BoundProblem::Strains> &strains,
-                  const std::vector<Eigen::Vector3d>       &s)
-  {
-    Eigen::VectorXd f = Eigen::VectorXd::Zero(problem.n_dofs());
-    with_n_local(problem, [&](const auto size) {
-      constexpr int               n = decltype(size)::value;
-      Eigen::Matrix<double, 9, 1> weighted;
-      for (unsigned int c = 0; c < problem.n_cells(); ++c)
-        {
-          for (unsigned int i = 0; i < 3; ++i)
-            weighted.segment<3>(3 * i) =
-              problem.volume[3 * c + i] * s[3 * c + i];
-          const Eigen::Matrix<double, n, 1> own =
-            fixed<n>(strains[c]).transpose().lazyProduct(weighted);
-          for (unsigned int i = 0; i < n; ++i)
-            f[problem.dofs[n * c + i]] += own[i];
-        }
-    });
-    return f;
-  }
-
   namespace
   {
     /** The cone of a point that has no part in anything: its B is zero. */
@@ -100,16 +55,19 @@ namespace geocone
       return to_cone_axes(e);
     }
 
-    /** What all spaces share: points, cones, and room for n dofs. */
+    using Strains = Eigen::Matrix<double, 3, Eigen::Dynamic>;
+
+    /** What all spaces share: points, cones, and room for n dofs.
+     *  @param n_columns the most dofs that a point knows */
     BoundProblem
     begin_problem(const BoundScene  &bound,
-                  const unsigned int n_local,
+                  const unsigned int n_columns,
                   const unsigned int n_dofs)
     {
       const Triangles &triangles = bound.triangles;
       const double     L         = bound.units.length;
       BoundProblem     problem;
-      problem.n_local = n_local;
+      problem.B = PointStrains(n_columns);
       for (unsigned int c = 0; c < triangles.cells.size(); ++c)
         for (unsigned int i = 0; i < 3; ++i)
           {
@@ -329,17 +287,6 @@ namespace geocone
           const Tensor<1, dim> &N = interface.normal, T({-N[1], N[0]});
           for (const Interface::Face &face : interface.faces)
             {
-              // The dofs that any of the points knows, and of the obstacle.
-              std::vector<unsigned int> dofs;
-              const auto                column = [&](const unsigned int dof) {
-                const auto found = std::find(dofs.begin(), dofs.end(), dof);
-                if (found != dofs.end())
-                  return unsigned(found - dofs.begin());
-                dofs.push_back(dof);
-                return unsigned(dofs.size() - 1);
-              };
-              BoundProblem::Strains B =
-                BoundProblem::Strains::Zero(9, problem.n_local);
               for (unsigned int i = 0; i < 3; ++i)
                 {
                   const InterfacePoint &point = points[i];
@@ -350,61 +297,67 @@ namespace geocone
                   problem.cone.push_back(
                     acts ? PointCone{face.a, face.k / bound.units.stress}
                          : nothing);
-                  // The velocity of the body here, for 1 in a dof.
-                  const auto add = [&](const unsigned int    dof,
-                                       const Tensor<1, dim> &G) {
-                    const unsigned int j = column(dof);
-                    if (face.has_normal)
-                      B(3 * i, j) -= G * N;
-                    if (face.has_tangential)
-                      B(3 * i + 1, j) -= G * T;
-                  };
-                  if (!acts)
-                    continue;
-                  for (const auto &[dof, part] : point.nodes)
-                    for (unsigned int d = 0; d < dim; ++d)
-                      add(dof + d, part * Point<dim>::unit_vector(d));
-                  if (const int o = interface.obstacle; o >= 0)
-                    for (unsigned int k = 0; k < n_motions; ++k)
-                      add(first_dof + n_motions * o + k,
-                          -1. *
-                            RigidMotion::of_point(
-                              k,
-                              (point.place - obstacles.list[o]->centre()) / L));
+                  // The velocity of the body here, for 1 in each dof.
+                  std::vector<unsigned int>   dofs;
+                  std::vector<Tensor<1, dim>> G;
+                  if (acts)
+                    {
+                      for (const auto &[dof, part] : point.nodes)
+                        for (unsigned int d = 0; d < dim; ++d)
+                          {
+                            dofs.push_back(dof + d);
+                            G.push_back(part * Point<dim>::unit_vector(d));
+                          }
+                      if (const int o = interface.obstacle; o >= 0)
+                        for (unsigned int k = 0; k < n_motions; ++k)
+                          {
+                            dofs.push_back(first_dof + n_motions * o + k);
+                            G.push_back(-1. * RigidMotion::of_point(
+                                                k,
+                                                (point.place -
+                                                 obstacles.list[o]->centre()) /
+                                                  L));
+                          }
+                    }
+                  Strains B = Strains::Zero(3, dofs.size());
+                  for (unsigned int j = 0; j < dofs.size(); ++j)
+                    {
+                      if (face.has_normal)
+                        B(0, j) = -(G[j] * N);
+                      if (face.has_tangential)
+                        B(1, j) = -(G[j] * T);
+                    }
+                  problem.B.add(B, dofs);
                 }
-              // Unused columns are zero.
-              dofs.resize(problem.n_local, dofs.empty() ? 0 : dofs.front());
-              problem.dofs.insert(problem.dofs.end(), dofs.begin(), dofs.end());
-              problem.B.push_back(B);
               problem.owner.push_back(interface.held.cell);
             }
         }
     }
 
-    /** Strains at the vertices of a cell of quadratic velocities, in cone axes. */
-    BoundProblem::Strains
-    strains_of_quadratic(const Triangles &triangles, const unsigned int cell)
+    /** Strains at vertex i of a cell of quadratic velocities, in cone axes.
+     *  @param g the gradients of its barycentric coordinates */
+    Strains
+    strains_of_quadratic(const std::array<Tensor<1, dim>, 3> &g,
+                         const unsigned int                   i)
     {
-      const auto            g = triangles.gradients(cell);
-      BoundProblem::Strains B = BoundProblem::Strains::Zero(9, 12);
-      for (unsigned int i = 0; i < 3; ++i) // at vertex i
-        for (unsigned int f = 0; f < 6; ++f)
-          {
-            // Of the function of vertex f, or of the edge opposite to vertex f - 3.
-            Tensor<1, dim> gradient;
-            if (f < 3)
-              gradient = f == i ? 3. * g[f] : -1. * g[f];
-            else
-              {
-                const unsigned int j = (f - 3 + 1) % 3, k = (f - 3 + 2) % 3;
-                if (i == j)
-                  gradient = 4. * g[k];
-                else if (i == k)
-                  gradient = 4. * g[j];
-              }
-            for (unsigned int d = 0; d < dim; ++d)
-              B.block<3, 1>(3 * i, dim * f + d) = symmetric_part(d, gradient);
-          }
+      Strains B = Strains::Zero(3, 12);
+      for (unsigned int f = 0; f < 6; ++f)
+        {
+          // Of the function of vertex f, or of the edge opposite to vertex f - 3.
+          Tensor<1, dim> gradient;
+          if (f < 3)
+            gradient = f == i ? 3. * g[f] : -1. * g[f];
+          else
+            {
+              const unsigned int j = (f - 3 + 1) % 3, k = (f - 3 + 2) % 3;
+              if (i == j)
+                gradient = 4. * g[k];
+              else if (i == k)
+                gradient = 4. * g[j];
+            }
+          for (unsigned int d = 0; d < dim; ++d)
+            B.col(dim * f + d) = symmetric_part(d, gradient);
+        }
       return B;
     }
 
@@ -448,7 +401,7 @@ namespace geocone
           if (const unsigned int v = triangles.cells[c][i]; is_apex[v])
             {
               problem.cone[3 * c + i] = nothing;
-              problem.B[c].middleRows<3>(3 * i).setZero();
+              problem.B.remove(3 * c + i);
               for (const unsigned int e : {(i + 1) % 3, (i + 2) % 3})
                 for (unsigned int d = 0; d < dim; ++d)
                   {
@@ -470,17 +423,20 @@ namespace geocone
     const unsigned int n_vertices = triangles.vertices.size();
     const unsigned int n_nodes    = n_vertices + triangles.edges.size();
     BoundProblem       problem =
-      begin_problem(bound, 12, dim * n_nodes + n_dofs_of_obstacles(bound));
+      begin_problem(bound, 10, dim * n_nodes + n_dofs_of_obstacles(bound));
     std::vector<bool> is_used(n_vertices, false);
     for (unsigned int c = 0; c < triangles.cells.size(); ++c)
       {
-        problem.B.push_back(L * strains_of_quadratic(triangles, c));
+        std::vector<unsigned int> dofs;
         for (unsigned int f = 0; f < 6; ++f)
           for (unsigned int d = 0; d < dim; ++d)
-            problem.dofs.push_back(
+            dofs.push_back(
               dim * (f < 3 ? triangles.cells[c][f]
                            : n_vertices + triangles.edges_of_cell[c][f - 3]) +
               d);
+        const auto g = triangles.gradients(c);
+        for (unsigned int i = 0; i < 3; ++i)
+          problem.B.add(L * strains_of_quadratic(g, i), dofs);
         for (const unsigned int v : triangles.cells[c])
           is_used[v] = true;
         // The integral of a vertex function is zero, of an edge function A/3.
@@ -488,8 +444,7 @@ namespace geocone
           problem, bound, c, [&](Eigen::VectorXd &F, const Tensor<1, dim> &w) {
             for (unsigned int f = 3; f < 6; ++f)
               for (unsigned int d = 0; d < dim; ++d)
-                F[problem.dofs[12 * c + dim * f + d]] +=
-                  w[d] * problem.volume[3 * c];
+                F[dofs[dim * f + d]] += w[d] * problem.volume[3 * c];
           });
       }
     for (unsigned int v = 0; v < n_vertices; ++v)
@@ -538,7 +493,7 @@ namespace geocone
     const unsigned int n_cells   = triangles.cells.size();
     const unsigned int n_nodes   = n_cells + 2 * triangles.edges.size();
     BoundProblem       problem =
-      begin_problem(bound, 14, dim * n_nodes + n_dofs_of_obstacles(bound));
+      begin_problem(bound, 6, dim * n_nodes + n_dofs_of_obstacles(bound));
     const auto end_dof = [&](const unsigned int edge,
                              const unsigned int vertex,
                              const unsigned int component) {
@@ -548,28 +503,27 @@ namespace geocone
     };
     for (unsigned int c = 0; c < n_cells; ++c)
       {
-        const auto            g = triangles.gradients(c);
-        BoundProblem::Strains B = BoundProblem::Strains::Zero(9, 14);
-        for (unsigned int d = 0; d < dim; ++d)
+        const auto g = triangles.gradients(c);
+        for (unsigned int i = 0; i < 3; ++i)
           {
-            problem.dofs.push_back(dim * c + d);
-            for (unsigned int i = 0; i < 3; ++i)
-              B.block<3, 1>(3 * i, d) = -3. * symmetric_part(d, g[i]);
-          }
-        // Edge e, opposite to vertex e: L_e n_e = -2 A grad lambda_e.
-        for (unsigned int e = 0; e < 3; ++e)
-          for (unsigned int end = 0; end < 2; ++end)
-            {
-              const unsigned int i = (e + 1 + end) % 3;
+            // The translation, and the ends here of both edges e, opposite to vertex
+            // e: L_e n_e = -2 A grad lambda_e.
+            Strains                   B(3, 6);
+            std::vector<unsigned int> dofs;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                B.col(d) = -3. * symmetric_part(d, g[i]);
+                dofs.push_back(dim * c + d);
+              }
+            for (const unsigned int e : {(i + 1) % 3, (i + 2) % 3})
               for (unsigned int d = 0; d < dim; ++d)
                 {
-                  B.block<3, 1>(3 * i, 2 + 4 * e + 2 * end + d) =
-                    -3. * symmetric_part(d, g[e]);
-                  problem.dofs.push_back(end_dof(
+                  B.col(dofs.size()) = -3. * symmetric_part(d, g[e]);
+                  dofs.push_back(end_dof(
                     triangles.edges_of_cell[c][e], triangles.cells[c][i], d));
                 }
-            }
-        problem.B.push_back(L * B);
+            problem.B.add(L * B, dofs);
+          }
         add_body_forces(
           problem, bound, c, [&](Eigen::VectorXd &F, const Tensor<1, dim> &w) {
             for (unsigned int d = 0; d < dim; ++d)

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/log.h>
-#include <geocone/limit_analysis/cell_matrix.h>
 #include <geocone/limit_analysis/certificate.h>
+#include <geocone/limit_analysis/point_matrix.h>
 #include <geocone/materials/second_order_cone.h>
 
 #include <algorithm>
@@ -75,17 +75,8 @@ namespace geocone
     interface_forces(const BoundProblem          &problem,
                      const std::vector<Vector3d> &s)
     {
-      VectorXd           f = VectorXd::Zero(problem.n_dofs());
-      const unsigned int n = problem.n_local;
-      for (unsigned int c = problem.n_triangles; c < problem.n_cells(); ++c)
-        for (unsigned int i = 0; i < 3; ++i)
-          {
-            const VectorXd own = problem.B[c].middleRows<3>(3 * i).transpose() *
-                                 (problem.volume[3 * c + i] * s[3 * c + i]);
-            for (unsigned int j = 0; j < n; ++j)
-              f[problem.dofs[n * c + j]] += own[j];
-          }
-      return f;
+      return problem.B.forces(
+        problem.volume, s, problem.n_dofs(), 3 * problem.n_triangles);
     }
 
     /** What linear stresses have to do with the loads of a lower problem. */
@@ -164,10 +155,10 @@ namespace geocone
     bool
     make_incompressible(const BoundProblem &problem, VectorXd &q)
     {
-      constexpr double        penalty = 1e8;
-      const unsigned int      n       = problem.n_points();
-      CellMatrix              matrix(problem, problem.B);
-      CellMatrix::PointBlocks blocks(n);
+      constexpr double    penalty = 1e8;
+      const unsigned int  n       = problem.n_points();
+      PointMatrix         matrix(problem.is_prescribed, problem.B);
+      PointMatrix::Blocks blocks(n);
       for (unsigned int p = 0; p < n; ++p)
         {
           blocks[p] = problem.volume[p] * Eigen::Matrix3d::Identity();
@@ -180,13 +171,14 @@ namespace geocone
       VectorXd       multiplier = VectorXd::Zero(n);
       for (unsigned int i = 0; i < 6; ++i)
         {
-          auto       s = strain_rates(problem, problem.B, VectorXd(q - q_0));
-          const auto e = strain_rates(problem, problem.B, q);
+          auto       s = problem.B.rates(q - q_0);
+          const auto e = problem.B.rates(q);
           for (unsigned int p = 0; p < n; ++p)
             if (problem.cone[p].is_cylinder())
               s[p][0] += multiplier[p] + penalty * e[p][0];
-          q -= matrix.solve(internal_forces(problem, problem.B, s));
-          const auto next = strain_rates(problem, problem.B, q);
+          q -=
+            matrix.solve(problem.B.forces(problem.volume, s, problem.n_dofs()));
+          const auto next = problem.B.rates(q);
           for (unsigned int p = 0; p < n; ++p)
             if (problem.cone[p].is_cylinder())
               multiplier[p] += penalty * next[p][0];
@@ -241,10 +233,11 @@ namespace geocone
     Bound  result;
     double largest = std::numeric_limits<double>::min(), theta = 1.;
     result.s = solution.s;
+    result.q = solution.q;
     for (unsigned int p = 0; p < problem.n_points(); ++p)
       {
         const PointCone &cone = problem.cone[p];
-        if (problem.B[p / 3].middleRows<3>(3 * (p % 3)).isZero(0.))
+        if (problem.B.is_removed(p))
           result.s[p].setZero(); // it has no part in anything
         largest = std::max(largest, result.s[p].norm());
         if (const double f = excess(cone, result.s[p]); f > 0.)
@@ -297,7 +290,7 @@ namespace geocone
       result.objection = "incompressible velocities were not found";
 
     double     largest = std::numeric_limits<double>::min();
-    const auto rates   = strain_rates(problem, problem.B, result.q);
+    const auto rates   = problem.B.rates(result.q);
     for (unsigned int p = 0; p < problem.n_points(); ++p)
       {
         largest = std::max(largest, rates[p].norm());
@@ -336,7 +329,7 @@ namespace geocone
             scale = 1. + delta * slope;
           }
       }
-    const auto repaired = strain_rates(problem, problem.B, result.q);
+    const auto repaired = problem.B.rates(result.q);
     double     left = 0., power = -problem.dead.dot(result.q);
     for (unsigned int p = 0; p < problem.n_points(); ++p)
       {
@@ -372,7 +365,7 @@ namespace geocone
                const Bound        &upper,
                const Bound        &lower)
   {
-    const auto          e = strain_rates(problem, problem.B, upper.q);
+    const auto          e = problem.B.rates(upper.q);
     std::vector<double> gap(problem.n_triangles, 0.);
     for (unsigned int c = 0; c < problem.n_triangles; ++c)
       for (unsigned int i = 0; i < 3; ++i)

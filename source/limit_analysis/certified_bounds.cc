@@ -56,7 +56,7 @@ namespace geocone
     side.solution   = InteriorPoint::solve(below, options);
     side.n_unknowns = below.n_unknowns();
     side.bound      = certify_lower(bound, below, side.solution);
-    const auto e    = strain_rates(below, below.B, side.solution.q);
+    const auto e    = below.B.rates(side.solution.q);
     side.power.assign(below.n_triangles, 0.);
     for (unsigned int p = 0; p < below.n_points(); ++p)
       {
@@ -100,6 +100,18 @@ namespace geocone
       std::accumulate(bounds.gap.begin(), bounds.gap.end(), 0.) /
       ((bounds.upper.bound.load - bounds.lower.bound.load) * work);
     return bounds;
+  }
+
+  std::array<double, 2>
+  davis_estimate(const BoundedLoad &load,
+                 const Scene       &scene,
+                 const Triangles   &triangles,
+                 const double       tolerance)
+  {
+    const BoundScene davis = load.by_davis(scene, triangles, 1.);
+    return {
+      {load.value_of_unit() * certified_lower(davis, tolerance).bound.load,
+       load.value_of_unit() * certified_upper(davis, tolerance).bound.load}};
   }
 
   CellSizes

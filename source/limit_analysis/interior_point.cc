@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/log.h>
-#include <geocone/limit_analysis/cell_matrix.h>
 #include <geocone/limit_analysis/cone_algebra.h>
 #include <geocone/limit_analysis/interior_point.h>
+#include <geocone/limit_analysis/point_matrix.h>
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +36,7 @@ namespace geocone
         , options(options)
         , n(problem.n_points())
         , strains(scaled_strains(problem))
-        , matrix(problem, strains)
+        , matrix(problem.is_prescribed, strains)
       {
         const double mean =
           std::accumulate(problem.volume.begin(), problem.volume.end(), 0.) / n;
@@ -48,26 +48,26 @@ namespace geocone
       solve();
 
     private:
-      static std::vector<BoundProblem::Strains>
+      static PointStrains
       scaled_strains(const BoundProblem &problem)
       {
-        std::vector<BoundProblem::Strains> all = problem.B;
+        PointStrains all = problem.B;
         for (unsigned int p = 0; p < problem.n_points(); ++p)
           if (!problem.cone[p].is_cylinder())
-            all[p / 3].row(3 * (p % 3)) /= problem.cone[p].a;
+            all.divide_normal(p, problem.cone[p].a);
         return all;
       }
 
       Points
       rates(const VectorXd &velocities) const
       {
-        return strain_rates(problem, strains, velocities);
+        return strains.rates(velocities);
       }
 
       VectorXd
       forces(const Points &s) const
       {
-        return internal_forces(problem, strains, s);
+        return strains.forces(problem.volume, s, problem.n_dofs());
       }
 
       /** x - o, or of a cylinder s_n and s_t: stresses with Bs. */
@@ -108,6 +108,7 @@ namespace geocone
       struct Direction
       {
         Points                x, z;
+        Points                scaled_x, scaled_z; ///< W^-1 dx, W dz
         VectorXd              s_n, q;
         double                lambda = 0.;
         std::array<double, 2> steps;
@@ -159,13 +160,13 @@ namespace geocone
       void
       keep_stresses();
 
-      const BoundProblem                &problem;
-      const InteriorPoint::Options       options;
-      const unsigned int                 n;
-      std::vector<BoundProblem::Strains> strains; ///< Bs
-      CellMatrix                         matrix;
-      std::vector<double>                omega;
-      double                             margin = 0.; ///< of the rates of cones
+      const BoundProblem          &problem;
+      const InteriorPoint::Options options;
+      const unsigned int           n;
+      const PointStrains           strains; ///< Bs
+      PointMatrix                  matrix;
+      std::vector<double>          omega;
+      double                       margin = 0.; ///< of the rates of cones
 
       Points   x, z;
       VectorXd s_n, q;
@@ -186,7 +187,7 @@ namespace geocone
     void
     Solver::start()
     {
-      CellMatrix::PointBlocks blocks(n);
+      PointMatrix::Blocks blocks(n);
       for (unsigned int p = 0; p < n; ++p)
         {
           blocks[p] = problem.volume[p] * Matrix3d::Identity();
@@ -280,7 +281,7 @@ namespace geocone
       Points    rhs(n), r_c(n);
       for (unsigned int p = 0; p < n; ++p)
         {
-          r_c[p] = scaling[p].W * d[p];
+          r_c[p] = scaling[p].times(d[p]);
           if (problem.cone[p].is_cylinder())
             {
               const Eigen::Matrix2d S = scaling[p].tangential();
@@ -289,7 +290,7 @@ namespace geocone
                 scaling[p].eliminated(r_c[p]) + S * r_p[p].tail<2>();
             }
           else
-            rhs[p] = r_c[p] + scaling[p].square * r_p[p];
+            rhs[p] = r_c[p] + scaling[p].square_times(r_p[p]);
         }
       along.q = matrix.solve(-r_d - forces(rhs));
       if (problem.has_factor())
@@ -301,6 +302,8 @@ namespace geocone
       const Points e = rates(along.q);
       along.x.resize(n);
       along.z.resize(n);
+      along.scaled_x.resize(n);
+      along.scaled_z.resize(n);
       along.s_n.setZero(n);
       along.steps = {{1. / 0.99, 1. / 0.99}};
       for (unsigned int p = 0; p < n; ++p)
@@ -314,16 +317,17 @@ namespace geocone
               dx[0]               = 0.;
               dx.tail<2>() =
                 scale.eliminated(r_c[p]) - scale.tangential() * dz_t;
-              dz[0] = (r_c[p][0] - scale.square.block<1, 2>(0, 1) * dz_t) /
-                      scale.square(0, 0);
+              dz[0]        = scale.first_rate(r_c[p][0], dz_t);
               along.s_n[p] = bulk * (rate[p][0] + e[p][0]);
             }
           else
-            dx = r_c[p] - scale.square * dz;
-          along.steps[0] = std::min(
-            along.steps[0], step_in_cone(scaled[p], scale.inverse * dx));
-          along.steps[1] =
-            std::min(along.steps[1], step_in_cone(scaled[p], scale.W * dz));
+            dx = r_c[p] - scale.square_times(dz);
+          along.scaled_x[p] = scale.inverse_times(dx);
+          along.scaled_z[p] = scale.times(dz);
+          along.steps[0]    = std::min(along.steps[0],
+                                    step_in_cone(scaled[p], along.scaled_x[p]));
+          along.steps[1]    = std::min(along.steps[1],
+                                    step_in_cone(scaled[p], along.scaled_z[p]));
         }
       return along;
     }
@@ -333,12 +337,12 @@ namespace geocone
     {
       scaling.clear();
       scaled.resize(n);
-      CellMatrix::PointBlocks blocks(n);
+      PointMatrix::Blocks blocks(n);
       for (unsigned int p = 0; p < n; ++p)
         {
           scaling.emplace_back(x[p], z[p]);
-          scaled[p] = scaling[p].W * z[p];
-          blocks[p] = omega[p] * scaling[p].square;
+          scaled[p] = scaling[p].times(z[p]);
+          blocks[p] = omega[p] * scaling[p].square();
           if (problem.cone[p].is_cylinder())
             {
               blocks[p].setZero();
@@ -370,8 +374,7 @@ namespace geocone
                                      last_step < 0.15 ? 0.8 : 0.);
       for (unsigned int p = 0; p < n; ++p)
         {
-          Vector3d c = -product(scaling[p].inverse * along.x[p],
-                                scaling[p].W * along.z[p]);
+          Vector3d c = -product(along.scaled_x[p], along.scaled_z[p]);
           c[0] += centre * mu;
           d[p] = -scaled[p] + divide(scaled[p], c);
         }
@@ -395,10 +398,9 @@ namespace geocone
       Points d_new     = d;
       for (unsigned int p = 0; p < n; ++p)
         {
-          const Vector3d v =
-            product(scaled[p] + t_x * (scaling[p].inverse * along.x[p]),
-                    scaled[p] + t_z * (scaling[p].W * along.z[p]));
-          const double T = v.tail<2>().norm();
+          const Vector3d v = product(scaled[p] + t_x * along.scaled_x[p],
+                                     scaled[p] + t_z * along.scaled_z[p]);
+          const double   T = v.tail<2>().norm();
           // Its eigenvalues, moved to the neighbourhood of the target.
           const auto moved = [&](const double x) {
             return std::max(std::clamp(x, near * target, target / near) - x,
@@ -437,7 +439,7 @@ namespace geocone
                   scaling[p].tangential() * omega[p] * e[p].tail<2>();
               }
             else
-              x[p] += scaling[p].square * omega[p] * e[p];
+              x[p] += scaling[p].square_times(omega[p] * e[p]);
           evaluate();
         }
     }

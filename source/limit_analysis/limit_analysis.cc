@@ -319,7 +319,7 @@ namespace geocone
     levels.push_back(level);
     place.time = levels.size();
 
-    const auto best      = Bracket(levels).gap();
+    const auto best      = best_of(levels).gap();
     const bool is_narrow = best && *best < gap_tolerance;
     const bool is_last   = is_narrow ||
                          growth * level.cells > 1.15 * most_cells ||
@@ -383,33 +383,39 @@ namespace geocone
                         {"unit", bounded_load.unit()}};
     else
       {
-        const Bracket best(levels);
-        Json          safety = {{"factor", nullptr},
-                                {"lower", nullptr},
-                                {"upper", nullptr},
-                                {"criterion", "certified bounds"}};
-        if (best.lower)
-          safety["lower"] = *best.lower;
-        if (best.upper)
-          safety["upper"] = *best.upper;
-        if (best.gap())
-          safety["factor"] = (*best.lower + *best.upper) / 2.;
-        topics["safety"] = safety;
+        const Json bounds = bracket().bounds();
+        topics["safety"]  = {{"factor", bounds["middle"]},
+                             {"lower", bounds["lower"]},
+                             {"upper", bounds["upper"]},
+                             {"criterion", "certified bounds"}};
       }
     if (bounded_load.non_associated())
-      topics["non_associated"] = {{"upper_is_certified", true},
-                                  {"lower_is_certified", false},
-                                  {"davis", davis}};
+      topics["non_associated"] = bracket().non_associated();
     topics["cost"] = {{"total_s", total.wall_time()},
                       {"cpu_s", total.cpu_time()}};
-    limit_output.write_summary(status, levels, topics);
+    limit_output.write_summary(status, levels, bracket(), topics);
+  }
+
+  LoadBracket
+  LimitAnalysis::bracket() const
+  {
+    LoadBracket best   = best_of(levels);
+    best.name          = bounded();
+    best.unit          = reduces_strength() || bounded_load.unit() == "-"
+                           ? ""
+                           : bounded_load.unit();
+    best.is_associated = !bounded_load.non_associated();
+    best.davis         = davis;
+    return best;
   }
 
   void
   LimitAnalysis::finish(const double)
   {
-    const Bracket best(levels);
-    const auto    gap = best.gap();
+    if (bounded_load.non_associated())
+      davis = estimate_by_davis();
+    const LoadBracket best = bracket();
+    const auto        gap  = best.gap();
     if (!gap)
       log.warn(std::string("not certified: ") +
                (best.lower
@@ -419,47 +425,27 @@ namespace geocone
       log.warn(format("the gap is %.3g %%, more than 'Analysis/Gap tolerance'; "
                       "raise 'Analysis/Maximum cells' or 'Maximum levels'",
                       100. * *gap));
-    if (bounded_load.non_associated())
-      estimate_by_davis();
     write_summary("finished");
-    if (gap)
-      log.print(format("%.6g <= ", *best.lower) + bounded() +
-                format(" <= %.6g", *best.upper) +
-                (reduces_strength() ? "" : bounded_load.after_number()) +
-                format(", certified; middle %.6g, gap %.3g %%",
-                       (*best.lower + *best.upper) / 2.,
-                       100. * *gap));
+    if (best.lower || best.upper)
+      log.print(best.text());
+    if (!best.is_associated)
+      log.print("for the incremental load beside both: 'Analysis/Kind' = steps "
+                "with 'Mesh/Type' = from the bounds");
     limit_output.report();
   }
 
-  void
-  LimitAnalysis::estimate_by_davis()
+  std::array<double, 2>
+  LimitAnalysis::estimate_by_davis() const
   {
-    const auto reduced = [&](const double F) {
-      return bounded_load.by_davis(scene, *triangles, F);
-    };
-    if (reduces_strength())
-      {
-        const StrengthReduction::Level estimate =
-          StrengthReduction(reduction).on_mesh(reduced, inner_tolerance());
-        davis = {{"lower", estimate.lower.value_or(0.)},
-                 {"upper", estimate.upper.value_or(0.)}};
-      }
-    else
-      {
-        const CertifiedBounds estimate =
-          certified_bounds(reduced(1.), inner_tolerance());
-        const double unit = bounded_load.value_of_unit();
-        davis             = {{"lower", unit * estimate.lower.bound.load},
-                             {"upper", unit * estimate.upper.bound.load}};
-      }
-    log.print("flow is not associated: the upper bound holds for any dilatancy "
-              "(Radenkovic 1961), the lower one for theta = phi only; Davis's "
-              "estimate (1968), which is no bound: " +
-              format("%.6g to %.6g",
-                     davis["lower"].get<double>(),
-                     davis["upper"].get<double>()) +
-              (reduces_strength() ? "" : bounded_load.after_number()));
+    if (!reduces_strength())
+      return davis_estimate(bounded_load, scene, *triangles, inner_tolerance());
+    const StrengthReduction::Level estimate =
+      StrengthReduction(reduction).on_mesh(
+        [&](const double F) {
+          return bounded_load.by_davis(scene, *triangles, F);
+        },
+        inner_tolerance());
+    return {{estimate.lower.value_or(0.), estimate.upper.value_or(0.)}};
   }
 
   void

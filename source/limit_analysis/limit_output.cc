@@ -5,6 +5,7 @@
 #include <geocone/materials/second_order_cone.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace geocone
@@ -18,23 +19,43 @@ namespace geocone
     row(gap_share, cpu_seconds, mesh_seconds);
   }
 
-  Bracket::Bracket(const std::vector<BoundLevel> &levels)
+  LoadBracket
+  best_of(const std::vector<BoundLevel> &levels)
   {
+    LoadBracket best;
     for (const BoundLevel &level : levels)
       {
-        if (level.lower_certified && (!lower || level.lower > *lower))
-          lower = level.lower;
-        if (level.upper_certified && (!upper || level.upper < *upper))
-          upper = level.upper;
+        if (level.lower_certified && (!best.lower || level.lower > *best.lower))
+          best.lower = level.lower;
+        if (level.upper_certified && (!best.upper || level.upper < *best.upper))
+          best.upper = level.upper;
+        best.cells = level.cells;
+        best.seconds += level.cpu_seconds + level.mesh_seconds;
       }
+    return best;
   }
 
   std::optional<double>
-  Bracket::gap() const
+  order_of_gap(const std::vector<BoundLevel> &levels)
   {
-    if (!lower || !upper)
+    constexpr unsigned int most = 3;
+    double                 n = 0., x = 0., y = 0., xx = 0., xy = 0.;
+    for (auto level = levels.rbegin(); level != levels.rend() && n < most;
+         ++level)
+      {
+        if (!level->certified() || !(level->gap > 0.))
+          continue;
+        const double cells = std::log(level->cells), gap = std::log(level->gap);
+        ++n;
+        x += cells;
+        y += gap;
+        xx += cells * cells;
+        xy += cells * gap;
+      }
+    const double spread = n * xx - x * x;
+    if (n < 2. || !(spread > 1e-6))
       return std::nullopt;
-    return (*upper - *lower) / std::abs(*lower);
+    return -(n * xy - x * y) / spread;
   }
 
   LimitOutput::LimitOutput(const MPI_Comm comm, Log &log)
@@ -121,6 +142,13 @@ namespace geocone
       {"velocity", dim, vectors([&](const Index, const Index v, const Index d) {
          return upper.q.size() > 0 ? upper.q[dim * v + d] : 0.;
        })});
+    // Of the lower bound's dual: the translation of each triangle.
+    table.columns.push_back(
+      {"velocity_lower", dim, [&](std::vector<double> &to) {
+         for (std::size_t i = 0; i < to.size(); ++i)
+           to[i] =
+             lower.q.size() > 0 ? lower.q[dim * (i / (3 * dim)) + i % dim] : 0.;
+       }});
     const auto stress = [&](const Index p, const Index i) {
       const Mandel s = from_cone_axes(Mandel(lower.s[p]));
       return units.stress * (i == 2 ? s[2] / sqrt2 : s[i]);
@@ -149,6 +177,7 @@ namespace geocone
   void
   LimitOutput::write_summary(const std::string             &status,
                              const std::vector<BoundLevel> &levels,
+                             const LoadBracket             &bracket,
                              const Json                    &others)
   {
     summary = {{"name", name}, {"status", status}};
@@ -157,34 +186,18 @@ namespace geocone
     if (!levels.empty())
       {
         const BoundLevel &last       = levels.back();
-        double            seconds    = 0.;
         unsigned int      iterations = 0, most = 0;
         for (const BoundLevel &level : levels)
           {
-            seconds += level.cpu_seconds + level.mesh_seconds;
             iterations += level.iterations_lower + level.iterations_upper;
             most =
               std::max({most, level.iterations_lower, level.iterations_upper});
           }
-        const Bracket best(levels);
-        Json          bounds = {{"lower", nullptr},
-                                {"upper", nullptr},
-                                {"gap", nullptr},
-                                {"middle", nullptr}};
-        if (best.lower)
-          bounds["lower"] = *best.lower;
-        if (best.upper)
-          bounds["upper"] = *best.upper;
-        if (const auto gap = best.gap())
-          {
-            bounds["gap"]    = *gap;
-            bounds["middle"] = (*best.lower + *best.upper) / 2.;
-          }
-        bounds["certified"]           = best.gap().has_value();
-        bounds["cells"]               = last.cells;
+        const auto order              = order_of_gap(levels);
+        Json       bounds             = bracket.bounds();
+        bounds["order"]               = order ? Json(*order) : Json();
         bounds["iterations"]          = iterations;
         bounds["iterations_max"]      = most;
-        bounds["seconds"]             = seconds;
         bounds["levels"]              = levels.size();
         bounds["unknowns_lower"]      = last.unknowns_lower;
         bounds["unknowns_upper"]      = last.unknowns_upper;

@@ -17,7 +17,24 @@ namespace geocone
 {
   namespace mpi = dealii::Utilities::MPI;
 
-  CellSizes
+  namespace
+  {
+    /** Takes what is better and certified into a bracket. @param unit the load of a
+     *  problem's 1 */
+    void
+    take(const CertifiedBounds &bounds, const double unit, LoadBracket &bracket)
+    {
+      const Bound &lower = bounds.lower.bound, &upper = bounds.upper.bound;
+      if (lower.certified &&
+          (!bracket.lower || unit * lower.load > *bracket.lower))
+        bracket.lower = unit * lower.load;
+      if (upper.certified &&
+          (!bracket.upper || unit * upper.load < *bracket.upper))
+        bracket.upper = unit * upper.load;
+    }
+  } // namespace
+
+  std::pair<CellSizes, LoadBracket>
   sizes_from_bounds(const MeshParameters &parameters,
                     const Scene          &scene,
                     const MPI_Comm        comm,
@@ -28,6 +45,7 @@ namespace geocone
     dealii::Timer            time;
     BoundedLoad              load;
     std::optional<CellSizes> sizes;
+    LoadBracket              bracket;
     unsigned int             n_large = 0;
     double                   n_asked = 0.;
     for (unsigned int level = 0;; ++level)
@@ -60,6 +78,11 @@ namespace geocone
               {
                 next = sizes_by_gap(triangles, bounds.uneven, n_asked);
                 gap  = upper / lower - 1.;
+                take(bounds, load.value_of_unit(), bracket);
+                bracket.cells = triangles.cells.size();
+                if (is_last && load.non_associated())
+                  bracket.davis =
+                    davis_estimate(load, scene, triangles, tolerance);
               }
           }
         fault = mpi::broadcast(comm, fault);
@@ -78,7 +101,10 @@ namespace geocone
                              n_cells,
                              100. * gap,
                              time.wall_time()));
-            return *sizes;
+            bracket.unit          = load.unit() == "-" ? "" : load.unit();
+            bracket.is_associated = !load.non_associated();
+            bracket.seconds       = time.cpu_time();
+            return {*sizes, bracket};
           }
       }
   }

@@ -554,6 +554,17 @@ namespace geocone
     summary.update(results());
     if (scene->loading.reduces_strength())
       summary["safety"] = safety();
+    if (bracket)
+      {
+        summary["bounds"] = bracket->bounds();
+        if (!bracket->is_associated)
+          {
+            Json      &topic     = summary["non_associated"];
+            const auto load      = bracketed_load();
+            topic                = bracket->non_associated();
+            topic["incremental"] = load ? Json(*load) : Json();
+          }
+      }
     if (field_errors)
       {
         // Where the exact field is zero there is no relative error.
@@ -572,6 +583,16 @@ namespace geocone
     summary["size"] = size;
     summary["cost"] = cost;
     write_summary_file();
+  }
+
+  std::optional<double>
+  RunOutput::bracketed_load() const
+  {
+    if (!bracket || bracket->unit != unit("N/m") ||
+        !summary.contains("limit_load") ||
+        summary["limit_load"]["value"].is_null())
+      return std::nullopt;
+    return summary["limit_load"]["value"].get<double>();
   }
 
   void
@@ -647,6 +668,12 @@ namespace geocone
                              100. * limit["relative_error"].get<double>());
             log.print(line);
           }
+      }
+    if (bracket)
+      {
+        log.print(bracket->text());
+        if (const auto load = bracketed_load())
+          log.print(bracket->beside(*load));
       }
     if (field_errors)
       log.print(format("relative L2 errors: displacement %.3e, stress %.3e",

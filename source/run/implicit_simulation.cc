@@ -155,7 +155,9 @@ namespace geocone
       log.print(options.name + ": " + text);
     mesh.take_sizes(
       [&](const MeshParameters &parameters) {
-        return sizes_of_scene(parameters, scene, comm, log);
+        auto [sizes, bracket] = sizes_of_scene(parameters, scene, comm, log);
+        run_output.set_bracket(bracket);
+        return sizes;
       },
       scene,
       method);

@@ -5,12 +5,12 @@
 #define geocone_limit_analysis_bound_problem_h
 
 #include <geocone/limit_analysis/interfaces.h>
+#include <geocone/limit_analysis/point_strains.h>
 #include <geocone/limit_analysis/triangles.h>
 #include <geocone/scene/scene.h>
 
 #include <Eigen/Dense>
 
-#include <type_traits>
 #include <vector>
 
 namespace geocone
@@ -64,13 +64,9 @@ namespace geocone
    */
   struct BoundProblem
   {
-    using Strains = Eigen::Matrix<double, 9, Eigen::Dynamic>;
-
-    unsigned int              n_local = 0; ///< dofs of a cell
-    std::vector<Strains>      B;           ///< of the three points of each cell
-    std::vector<unsigned int> dofs;        ///< n_local per cell
-    std::vector<double>       volume;      ///< of each point
-    std::vector<PointCone>    cone;        ///< of each point
+    PointStrains           B;      ///< three points of each cell
+    std::vector<double>    volume; ///< of each point
+    std::vector<PointCone> cone;   ///< of each point
 
     unsigned int              n_triangles = 0;
     std::vector<unsigned int> owner; ///< the triangle at each later cell
@@ -93,7 +89,7 @@ namespace geocone
     unsigned int
     n_cells() const
     {
-      return B.size();
+      return n_points() / 3;
     }
     bool
     has_factor() const
@@ -150,38 +146,6 @@ namespace geocone
    */
   BoundProblem
   lower_problem(const BoundScene &scene);
-
-  /** Calls f with the number of dofs of a cell as a constant. */
-  template <typename Function>
-  void
-  with_n_local(const BoundProblem &problem, const Function &f)
-  {
-    if (problem.n_local == 12)
-      f(std::integral_constant<int, 12>());
-    else
-      f(std::integral_constant<int, 14>());
-  }
-
-  /** B of a cell as a matrix of a known size. */
-  template <int n>
-  Eigen::Map<const Eigen::Matrix<double, 9, n>>
-  fixed(const BoundProblem::Strains &B)
-  {
-    return Eigen::Map<const Eigen::Matrix<double, 9, n>>(B.data());
-  }
-
-  /** Strain rates B q of all points.
-   *  @param strains B of each cell, or scaled ones */
-  std::vector<Eigen::Vector3d>
-  strain_rates(const BoundProblem                       &problem,
-               const std::vector<BoundProblem::Strains> &strains,
-               const Eigen::VectorXd                    &q);
-
-  /** sum_p V_p B_p' s_p in all dofs. */
-  Eigen::VectorXd
-  internal_forces(const BoundProblem                       &problem,
-                  const std::vector<BoundProblem::Strains> &strains,
-                  const std::vector<Eigen::Vector3d>       &s);
 } // namespace geocone
 
 #endif

@@ -35,7 +35,8 @@ namespace geocone
     double error = 0.;
 
     /** The fields of the bound: stresses at the points in cone axes, scaled, or
-     *  velocities of all dofs, repaired. */
+     *  velocities of all dofs, repaired. A lower bound's velocities are those of its
+     *  dual, which show how it would fail and prove nothing. */
     std::vector<Eigen::Vector3d> s;
     Eigen::VectorXd              q;
   };

@@ -5,8 +5,10 @@
 #define geocone_limit_analysis_certified_bounds_h
 
 #include <geocone/discretisation/fitted_mesh.h>
+#include <geocone/limit_analysis/bounded_load.h>
 #include <geocone/limit_analysis/certificate.h>
 
+#include <array>
 #include <vector>
 
 namespace geocone
@@ -50,6 +52,14 @@ namespace geocone
    *  @param tolerance of the interior-point method, relative to the load */
   CertifiedBounds
   certified_bounds(const BoundScene &bound, const double tolerance);
+
+  /** Both bounds of the load of Davis's soil on a mesh, an estimate for flow that is not
+   *  associated (doc/theory.md, section 20), in the unit of the load. */
+  std::array<double, 2>
+  davis_estimate(const BoundedLoad &load,
+                 const Scene       &scene,
+                 const Triangles   &triangles,
+                 const double       tolerance);
 
   /**
    * Sizes that make the parts of the gap equal on the next mesh, where a part falls

@@ -65,12 +65,13 @@ namespace geocone::cone_algebra
     return step;
   }
 
-  /** Nesterov's and Todd's scaling of a point: W z = W^-1 x. */
+  /** Nesterov's and Todd's scaling of a point: W z = W^-1 x, with
+   *  W = eta (w_0, w_t'; w_t, I + w_t w_t'/(1 + w_0)), w_0^2 = 1 + |w_t|^2. The matrices
+   *  are applied, not stored: loops over the points wait for memory. */
   struct Scaling
   {
-    double          eta2;
+    double          eta;
     Eigen::Vector3d w;
-    Eigen::Matrix3d W, inverse, square;
 
     Scaling(const Eigen::Vector3d &x, const Eigen::Vector3d &z)
     {
@@ -80,24 +81,43 @@ namespace geocone::cone_algebra
       w                           = u + v;
       w.tail<2>()                 = u.tail<2>() - v.tail<2>();
       w /= 2. * gamma;
-      w[0]                = std::sqrt(1. + w.tail<2>().squaredNorm());
-      eta2                = dx / dz;
-      const double    eta = std::sqrt(eta2);
-      Eigen::Matrix3d S;
-      S(0, 0)             = w[0];
-      S.block<1, 2>(0, 1) = w.tail<2>().transpose();
-      S.block<2, 1>(1, 0) = w.tail<2>();
-      S.block<2, 2>(1, 1) = Eigen::Matrix2d::Identity() +
-                            w.tail<2>() * w.tail<2>().transpose() / (1. + w[0]);
-      W = eta * S;
-      S.block<1, 2>(0, 1) *= -1.;
-      S.block<2, 1>(1, 0) *= -1.;
-      inverse = S / eta;
-      square  = 2. * w * w.transpose();
-      square(0, 0) -= 1.;
-      square(1, 1) += 1.;
-      square(2, 2) += 1.;
-      square *= eta2;
+      w[0] = std::sqrt(1. + w.tail<2>().squaredNorm());
+      eta  = std::sqrt(dx / dz);
+    }
+
+    /** W v. */
+    Eigen::Vector3d
+    times(const Eigen::Vector3d &v) const
+    {
+      return eta * turned(w.tail<2>(), v);
+    }
+
+    /** W^-1 v. */
+    Eigen::Vector3d
+    inverse_times(const Eigen::Vector3d &v) const
+    {
+      return turned(-w.tail<2>(), v) / eta;
+    }
+
+    /** W^2 v = eta^2 (2 w w' - J) v. */
+    Eigen::Vector3d
+    square_times(const Eigen::Vector3d &v) const
+    {
+      Eigen::Vector3d r = 2. * w.dot(v) * w;
+      r[0] -= v[0];
+      r.tail<2>() += v.tail<2>();
+      return eta * eta * r;
+    }
+
+    /** W^2. */
+    Eigen::Matrix3d
+    square() const
+    {
+      Eigen::Matrix3d S = 2. * w * w.transpose();
+      S(0, 0) -= 1.;
+      S(1, 1) += 1.;
+      S(2, 2) += 1.;
+      return eta * eta * S;
     }
 
     /** @name Of a cylinder, whose x_0 does not change */
@@ -105,9 +125,10 @@ namespace geocone::cone_algebra
     Eigen::Matrix2d
     tangential() const
     {
-      return eta2 * (Eigen::Matrix2d::Identity() -
-                     2. * w.tail<2>() * w.tail<2>().transpose() /
-                       (1. + 2. * w.tail<2>().squaredNorm()));
+      return eta * eta *
+             (Eigen::Matrix2d::Identity() -
+              2. * w.tail<2>() * w.tail<2>().transpose() /
+                (1. + 2. * w.tail<2>().squaredNorm()));
     }
     Eigen::Vector2d
     eliminated(const Eigen::Vector3d &r) const
@@ -116,7 +137,26 @@ namespace geocone::cone_algebra
                              (1. + 2. * w.tail<2>().squaredNorm()) *
                              w.tail<2>();
     }
+    /** dz_0 with (W^2 dz)_0 = r_0 for a given dz_t. */
+    double
+    first_rate(const double r_0, const Eigen::Vector2d &dz_t) const
+    {
+      return (r_0 / (eta * eta) - 2. * w[0] * w.tail<2>().dot(dz_t)) /
+             (2. * w[0] * w[0] - 1.);
+    }
     /** @} */
+
+  private:
+    /** W v/eta, or its inverse with the other sign of w_t. */
+    Eigen::Vector3d
+    turned(const Eigen::Vector2d &w_t, const Eigen::Vector3d &v) const
+    {
+      const double    along = w_t.dot(v.tail<2>());
+      Eigen::Vector3d r;
+      r[0]        = w[0] * v[0] + along;
+      r.tail<2>() = v.tail<2>() + (v[0] + along / (1. + w[0])) * w_t;
+      return r;
+    }
   };
 } // namespace geocone::cone_algebra
 

@@ -13,6 +13,7 @@
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -88,9 +89,14 @@ namespace geocone
     double
     next_cells(const BoundLevel &level);
 
-    /** Davis's estimate of what is bounded, where flow is not associated. */
-    void
-    estimate_by_davis();
+    /** Davis's estimate of what is bounded, where flow is not associated: both
+     *  bounds on the last mesh. */
+    std::array<double, 2>
+    estimate_by_davis() const;
+
+    /** What the levels have proven, with that estimate. */
+    LoadBracket
+    bracket() const;
 
     std::vector<std::string>
     prepare(const RunOptions &options) override;
@@ -141,11 +147,12 @@ namespace geocone
     double                  asked_cells = 0.; ///< of it, or 0 for the first one
     std::vector<BoundLevel> levels;
 
+    std::optional<std::array<double, 2>> davis; ///< of the last mesh
+
     /** @name The last level */
     /** @{ */
     std::optional<Triangles> triangles;
     CertifiedBounds          bounds;
-    Json                     davis;
     /** @} */
   };
 } // namespace geocone

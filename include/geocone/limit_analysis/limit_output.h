@@ -5,6 +5,7 @@
 #define geocone_limit_analysis_limit_output_h
 
 #include <geocone/limit_analysis/certificate.h>
+#include <geocone/output/load_bracket.h>
 #include <geocone/output/output_base.h>
 
 #include <memory>
@@ -37,18 +38,18 @@ namespace geocone
     state(StateRow &row);
   };
 
-  /** The best certified bounds of some levels: those of every mesh hold for the
-   *  body. What none has certified is nothing. */
-  struct Bracket
-  {
-    explicit Bracket(const std::vector<BoundLevel> &levels);
+  /** The best certified bounds of some levels, those of every mesh hold for the
+   *  body, and what they took. */
+  LoadBracket
+  best_of(const std::vector<BoundLevel> &levels);
 
-    std::optional<double> lower, upper;
-
-    /** upper/lower - 1, if there are both. */
-    std::optional<double>
-    gap() const;
-  };
+  /**
+   * The order of the gap in the number of triangles: minus the slope of log(gap) over
+   * log(triangles) in the last three meshes that have both bounds, by least squares;
+   * nothing where fewer than two have.
+   */
+  std::optional<double>
+  order_of_gap(const std::vector<BoundLevel> &levels);
 
   /** What is written of a limit analysis: bounds.csv, a line per level, the fields
    *  of the levels, and the summary. */
@@ -78,6 +79,7 @@ namespace geocone
     void
     write_summary(const std::string             &status,
                   const std::vector<BoundLevel> &levels,
+                  const LoadBracket             &bracket,
                   const Json                    &others);
 
     /** What the file 'output' of tests has. */

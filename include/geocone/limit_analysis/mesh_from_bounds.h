@@ -6,6 +6,9 @@
 
 #include <geocone/base/log.h>
 #include <geocone/discretisation/fitted_mesh.h>
+#include <geocone/output/load_bracket.h>
+
+#include <utility>
 
 namespace geocone
 {
@@ -15,10 +18,11 @@ namespace geocone
    * in the gap of its strict bounds equal. Meshes grow twofold from that of the
    * other parameters until they have as many triangles, and three more of that size
    * follow: what is singular becomes finer each time. Flow counts as associated.
-   * Collective; the first rank computes.
+   * Collective; the first rank computes, and has the bracket of the load on the way,
+   * with Davis's estimate where flow is not associated.
    * @throws InputError for scenes that have no such bounds
    */
-  CellSizes
+  std::pair<CellSizes, LoadBracket>
   sizes_from_bounds(const MeshParameters &parameters,
                     const Scene          &scene,
                     const MPI_Comm        comm,

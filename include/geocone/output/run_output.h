@@ -8,6 +8,7 @@
 #include <geocone/output/exact_solution.h>
 #include <geocone/output/fields.h>
 #include <geocone/output/limit_load.h>
+#include <geocone/output/load_bracket.h>
 #include <geocone/output/output_base.h>
 #include <geocone/output/statistics_table.h>
 #include <geocone/time_stepping/time_stepper.h>
@@ -126,6 +127,13 @@ namespace geocone
       field_errors = errors;
     }
 
+    /** Adds the strict bounds of the load to the summaries to come. */
+    void
+    set_bracket(const LoadBracket &of_load)
+    {
+      bracket = of_load;
+    }
+
     /** Tells, at once and in the summaries to come, how the run ended. */
     void
     set_failure(const Failure &failure);
@@ -169,6 +177,10 @@ namespace geocone
     Json
     motion() const;
 
+    /** The load that stands beside the bracket, if there are both in one unit. */
+    std::optional<double>
+    bracketed_load() const;
+
     /** Warns if it has changed the result by more than about 1 %. */
     void
     warn_of_memory() const;
@@ -188,6 +200,7 @@ namespace geocone
     std::vector<StepRecord>     records;
     std::optional<FieldErrors>  field_errors;
     std::optional<Failure>      failure;
+    std::optional<LoadBracket>  bracket;
 
     /** Sums since the start (J/m), and the least loss of a step. */
     double work = 0., dissipation = 0., loss = 0., least_loss = 0.,

@@ -11,6 +11,7 @@
 #include <geocone/time_stepping/implicit_mpm.h>
 
 #include <functional>
+#include <utility>
 
 namespace geocone
 {
@@ -38,9 +39,9 @@ namespace geocone
   class ImplicitSimulation : public SceneSimulation
   {
   public:
-    /** Finds the sizes of a mesh "from the bounds" of a scene; limit analysis,
-     *  which is no part of this. Collective. */
-    using SizesOfScene = std::function<CellSizes(
+    /** Finds the sizes of a mesh "from the bounds" of a scene, and those bounds, which
+     *  the first rank has; limit analysis, which is no part of this. Collective. */
+    using SizesOfScene = std::function<std::pair<CellSizes, LoadBracket>(
       const MeshParameters &, const Scene &, const MPI_Comm, Log &)>;
 
     ImplicitSimulation(const MPI_Comm       comm,

@@ -1,7 +1,7 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """bounds.png: both bounds of a limit load and their gap, by mesh and by time;
-mechanism.png: the last mesh, where its gap is, and how the body fails."""
+mechanism.png: the last mesh, where its gap is, and how the body fails by either bound."""
 
 import numpy as np
 from matplotlib.collections import PolyCollection
@@ -26,7 +26,7 @@ def draw_bounds(run, path):
     upper, _ = column(table, "upper bound")
     sure = table["certified (-)"] > 0.
     name, factor = ("", 1.) if unit == "-" else unit_for(np.nanmax(np.abs(upper)), unit)
-    figure, (first, second) = subplots(1, 2, figsize=(11., 4.4))
+    figure, (first, second, third) = subplots(1, 3, figsize=(15., 4.4))
     first.fill_between(cells, lower / factor, upper / factor, color=BLUE, alpha=0.15,
                        linewidth=0.)
     for values, color, label in ((upper, COLORS[1], "upper bound"),
@@ -45,43 +45,32 @@ def draw_bounds(run, path):
     first.legend()
     gap = 100. * table["gap (-)"]
     seconds = np.cumsum(table["CPU time (s)"] + table["CPU time of the mesh (s)"])
-    second.loglog(cells, gap, "o-", color=BLUE)
-    second.set(xlabel="triangles", ylabel="gap (%)", title="gap between the bounds")
     tolerance = 100. * float(run.parameters["Analysis/Gap tolerance"])
-    second.axhline(tolerance, color=GREY, linestyle=":", label="tolerance")
-    x = np.array([cells[0], cells[-1]])
-    second.loglog(x, gap[-1] * cells[-1] / x, "k--", linewidth=1.,
+    order = run.value("bounds/order")
+    for axes, x, label in (second, cells, "triangles"), (third, seconds,
+                                                         "CPU time of all meshes (s)"):
+        axes.loglog(x, gap, "o-", color=BLUE)
+        axes.axhline(tolerance, color=GREY, linestyle=":", label="tolerance")
+        axes.set(xlabel=label, ylabel="gap (%)")
+        axes.yaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
+    second.loglog(cells, gap[-1] * cells[-1] / cells, "k--", linewidth=1.,
                   label="one over the triangles")
-    for i in (0, len(cells) // 2, len(cells) - 1):
-        second.annotate(f"{seconds[i]:.2g} s", (cells[i], gap[i]), fontsize=9,
-                        xytext=(6, 6), textcoords="offset points")
+    second.set_title("gap" if order is None else
+                     f"gap: order {order:.2f} in the triangles")
+    third.set_title("gap against time")
     second.legend(loc="lower left")
-    for axes in (first, second):
+    third.legend(loc="lower left")
+    for axes in (first, second, third):
         axes.xaxis.set_major_locator(LogLocator(subs=(1., 2., 5.)))
         axes.xaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
         axes.xaxis.set_minor_formatter(NullFormatter())
-    second.yaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
     save(figure, run, path)
 
 
-def draw_mechanism(run, path):
-    """Draws the triangles' parts of the gap, and the speed of the mechanism."""
-    field, = run.states("bounds")
-    part = field.data["part_of_gap"][:, 0]
-    if not np.any(part > 0.):
-        raise Skipped("there is no gap")
-    low, high = field.points.min(axis=0), field.points.max(axis=0)
-    figure, (first, second) = panels(2, (low, high))
-    mesh = PolyCollection(field.points[field.cells], array=part[field.cells[:, 0]],
-                          edgecolors="#00000030", linewidths=0.2, cmap=RATES,
-                          norm=LogNorm(1e-2 * part.max(), part.max()))
-    first.add_collection(mesh)
-    first.set_title(f"{plain(run.name)}: parts of the gap of {len(field.cells)} "
-                    "triangles")
-    add_bar(first, mesh, "over the mean", extend="min")
-    speed = np.linalg.norm(field.data["velocity"], axis=1)
-    # Sand at the corner of a footing may be shot out: two hundredths of the whole
-    # area may be faster than the colours tell.
+def speed_of(field, name):
+    """The speed of a mechanism over one that two hundredths of the area exceed: sand at
+    the corner of a footing may be shot out."""
+    speed = np.linalg.norm(field.data[name], axis=1)
     corners = field.points[field.cells]
     (ax, ay), (bx, by) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] -
                                                              corners[:, 0]).T
@@ -89,11 +78,36 @@ def draw_mechanism(run, path):
     order = np.argsort(mean)
     area = np.cumsum(np.abs(ax * by - ay * bx)[order])
     most = mean[order][np.searchsorted(area, 0.98 * area[-1])]
-    drawn = second.tripcolor(*field.points.T, field.cells, speed / most,
-                             shading="gouraud", cmap=STRAINS, vmin=0., vmax=1.)
-    second.set_title("speed of the mechanism of the upper bound")
-    add_bar(second, drawn, "over the largest", extend="max")
-    for axes in (first, second):
+    return speed / most if most > 0. else speed
+
+
+def draw_mechanism(run, path):
+    """Draws the triangles' parts of the gap, and the speeds of the mechanisms of both
+    bounds: that of the upper one proves it, that of the lower one is its dual."""
+    field, = run.states("bounds")
+    part = field.data["part_of_gap"][:, 0]
+    if not np.any(part > 0.):
+        raise Skipped("there is no gap")
+    low, high = field.points.min(axis=0), field.points.max(axis=0)
+    # Runs of earlier versions have the first one only.
+    mechanisms = [(name, of) for name, of in (("velocity", "upper"),
+                                              ("velocity_lower", "lower"))
+                  if name in field.data]
+    figure, axes_of = panels(1 + len(mechanisms), (low, high))
+    first = axes_of[0]
+    mesh = PolyCollection(field.points[field.cells], array=part[field.cells[:, 0]],
+                          edgecolors="#00000030", linewidths=0.2, cmap=RATES,
+                          norm=LogNorm(1e-2 * part.max(), part.max()))
+    first.add_collection(mesh)
+    first.set_title(f"{plain(run.name)}: parts of the gap of {len(field.cells)} "
+                    "triangles")
+    add_bar(first, mesh, "over the mean", extend="min")
+    for axes, (name, of) in zip(axes_of[1:], mechanisms):
+        drawn = axes.tripcolor(*field.points.T, field.cells, speed_of(field, name),
+                               shading="gouraud", cmap=STRAINS, vmin=0., vmax=1.)
+        axes.set_title(f"speed of the mechanism of the {of} bound")
+        add_bar(axes, drawn, "over the largest", extend="max")
+    for axes in axes_of:
         draw_water(axes, run)
     save(figure, run, path, cropped=True)
 

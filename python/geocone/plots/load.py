@@ -9,8 +9,22 @@ from matplotlib.ticker import MaxNLocator
 
 from geocone.style import BESIDE, COLORS, ORANGE, Skipped, plain, save, subplots, unit_for
 
-# mm, N/m or N, of the summary, s
-Curve = namedtuple("Curve", "displacement load limit time")
+# mm, N/m or N, of the summary, s, of a limit analysis
+Curve = namedtuple("Curve", "displacement load limit time marks", defaults=((),))
+
+
+def marks_of(run):
+    """What a limit analysis of the scene proves of the load, and what it estimates: name,
+    and one load or two between which it is."""
+    if run.value("bounds/unit") != run.per_metre("N"):
+        return []
+    upper, lower = run.value("bounds/upper"), run.value("bounds/lower")
+    davis = run.value("non_associated/davis_lower"), run.value("non_associated/davis_upper")
+    associated = "non_associated" not in run.summary
+    return [mark for mark in (
+        ("certified bounds", (lower, upper)) if associated else
+        ("certified upper bound", (upper,)),
+        ("Davis's estimate", davis)) if None not in mark[1]]
 
 
 def curve_of(run):
@@ -20,22 +34,27 @@ def curve_of(run):
     # The curve starts from rest, before the first step.
     return Curve(np.insert(1e3 * run.statistics["displacement (m)"], 0, 0.),
                  np.insert(run.statistics[f"load ({run.per_metre('N')})"], 0, 0.),
-                 run.summary["limit_load"], np.insert(run.statistics["time (s)"], 0, 0.))
+                 run.summary["limit_load"], np.insert(run.statistics["time (s)"], 0, 0.),
+                 marks_of(run))
+
+
+def number(value, unit):
+    """A load in a unit, which does not follow it."""
+    return f"{value / unit[1]:.{0 if abs(value / unit[1]) >= 999.5 else 2}f}"
 
 
 def load_text(name, value, unit, error=None):
     """A load, and its error, as the legend tells them."""
     if value is None:
         return f"{name}: not reached"
-    digits = f"{value / unit[1]:.{0 if abs(value / unit[1]) >= 999.5 else 2}f}"
-    return (f"{name}: {digits} {unit[0]}" +
+    return (f"{name}: {number(value, unit)} {unit[0]}" +
             ("" if error is None else f" ({100. * error:+.2f} %)"))
 
 
 def draw_lines(axes, names, curves, unit):
     """Draws curves, plateaus and references; a single plateau has its own name."""
     single = len(curves) == 1
-    for i, (name, (displacement, load, limit, _)) in enumerate(zip(names, curves)):
+    for i, (name, (displacement, load, limit, _, _)) in enumerate(zip(names, curves)):
         color, text = COLORS[i % len(COLORS)], load_text(
             "plateau" if single else name, limit["value"], unit, limit["relative_error"])
         # Many steps are often noisy: a thin line behind all others.
@@ -54,11 +73,24 @@ def draw_lines(axes, names, curves, unit):
                           color=level["color"], alpha=0.35, linewidth=0.)
         axes.plot(ends, 2 * [limit["value"] / unit[1]], solid_capstyle="butt", **level)
     references = {load_text(plain(limit["reference_name"]), limit["reference"], unit):
-                  limit["reference"] for _, _, limit, _ in curves
+                  limit["reference"] for _, _, limit, _, _ in curves
                   if limit["reference"] is not None}
     for text, value in references.items():
         axes.axhline(value / unit[1], color="black", linewidth=1.2, zorder=1.8,
                      linestyle=(0, (6, 3)), label=text)
+
+
+def draw_marks(axes, marks, unit):
+    """Draws what a limit analysis tells: a line, or a band of two loads."""
+    for (name, loads), color in zip(marks, ("#009E73", "#CC79A7")):
+        if len(loads) == 1:
+            axes.axhline(loads[0] / unit[1], color=color, linestyle="-.", zorder=1.7,
+                         label=load_text(name, loads[0], unit))
+            continue
+        axes.axhspan(*(load / unit[1] for load in loads), color=color, alpha=0.45,
+                     linewidth=0.8, zorder=1.1,
+                     label=f"{name}: {number(loads[0], unit)} to "
+                           f"{number(loads[1], unit)} {unit[0]}")
 
 
 def draw_curves(names, curves, title, run, *paths):
@@ -76,6 +108,8 @@ def draw_curves(names, curves, title, run, *paths):
     unit = unit_for(size, {curve.limit.get("unit", "N/m") for curve in curves}.pop())
     figure, axes = subplots(figsize=(7. if single else 9.5, 4.6))
     draw_lines(axes, names, curves, unit)
+    if single:
+        draw_marks(axes, curves[0].marks, unit)
     origin, = axes.plot(0., 0., " ")  # the axes begin there
     origin.sticky_edges.x.append(0.)
     origin.sticky_edges.y.append(0.)

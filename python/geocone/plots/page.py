@@ -21,6 +21,7 @@ MOST_BYTES = 4_500_000  # of a page, in pictures
 
 # What a reader asks for first, and what it is called.
 TOPICS = {"safety": "Factor of safety", "bounds": "Bounds", "limit_load": "Load",
+          "non_associated": "Less dilatancy than friction",
           "reference": "Reference", "contact": "Contact", "failure": "Failure",
           "points": "Observed points", "motion": "Motion", "energy": "Energy",
           "newton": "Newton's method", "quality": "Quality of the solution",
@@ -29,7 +30,7 @@ CAPTIONS = {
     "load_displacement.png": "Load against displacement",
     "safety.png": "Displacement while the strength is reduced",
     "bounds.png": "Both bounds and their gap",
-    "mechanism.png": "Where the bounds differ, and the mechanism",
+    "mechanism.png": "Where the bounds differ, and the mechanisms of both",
     "plastic_strain_rate.png": "Where the soil flows at the end",
     "plastic_strain.png": "Plastic strain of the material points",
     "energy.png": "Energies", "newton.png": "Newton's method: residuals"}

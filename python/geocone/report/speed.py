@@ -43,8 +43,10 @@ def case_name(case):
                      for name, value in case)
 
 
-def points_of(rows):
-    """The points of all methods: repetitions are one point. Failed runs have none."""
+def points_of(rows, cost_of="total_s"):
+    """The points of all methods: repetitions are one point. Failed runs have none.
+
+    @param cost_of what of the topic "cost" is their time"""
     together = {}
     for row in rows:
         if row["status"] == "finished":
@@ -53,7 +55,7 @@ def points_of(rows):
     points = []
     for (method, case, mesh), runs in together.items():
         cost = runs[0]["summary"]["cost"]
-        times = [run["summary"]["cost"]["total_s"] for run in runs]
+        times = [run["summary"]["cost"][cost_of] for run in runs]
         one = statistics.median(run["summary"]["cost"]["factorise_s"] /
                                 max(1, run["summary"]["cost"]["factorisations"])
                                 for run in runs)
@@ -137,8 +139,9 @@ def time_at(points, error):
 
 
 def winners(rows, options):
-    """For each case and error the fastest FEM, the fastest MPM, and the factor."""
-    points, lines = points_of(rows), []
+    """For each case and error the fastest FEM, the fastest MPM, and the factor. Options:
+    errors, time = what of the topic "cost" counts."""
+    points, lines = points_of(rows, options.get("time", "total_s")), []
     methods = unique(row["group"] for row in rows)
     for case in unique(p.case for p in points):
         for error in options.get("errors", [0.05, 0.02, 0.01, 0.005]):

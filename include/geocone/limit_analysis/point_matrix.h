@@ -1,10 +1,10 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef geocone_limit_analysis_cell_matrix_h
-#define geocone_limit_analysis_cell_matrix_h
+#ifndef geocone_limit_analysis_point_matrix_h
+#define geocone_limit_analysis_point_matrix_h
 
-#include <geocone/limit_analysis/bound_problem.h>
+#include <geocone/limit_analysis/point_strains.h>
 
 #include <Eigen/CholmodSupport>
 #include <Eigen/Sparse>
@@ -14,18 +14,18 @@
 namespace geocone
 {
   /**
-   * The matrix sum_c B_c' C_c B_c of the free dofs of a BoundProblem, C_c
-   * symmetric 9 x 9, with its Cholesky factors.
+   * The matrix sum_p B_p' C_p B_p of the free dofs of some points, C_p symmetric 3 x 3,
+   * with its Cholesky factors.
    */
-  class CellMatrix
+  class PointMatrix
   {
   public:
-    /** @param strains B of each cell */
-    CellMatrix(const BoundProblem                       &problem,
-               const std::vector<BoundProblem::Strains> &strains);
+    /** @param is_prescribed by dof */
+    PointMatrix(const std::vector<bool> &is_prescribed,
+                const PointStrains      &strains);
 
-    /** Three blocks on the diagonal of C_c, one for each point. */
-    using PointBlocks = std::vector<Eigen::Matrix3d>;
+    /** C_p of all points. */
+    using Blocks = std::vector<Eigen::Matrix3d>;
 
     /**
      * Assembles and factorises; the diagonal is raised by a part of 1e-15, for
@@ -33,7 +33,7 @@ namespace geocone
      * @return whether it is positive definite
      */
     bool
-    factorise(const PointBlocks &blocks);
+    factorise(const Blocks &blocks);
 
     /** Solves in the free dofs; others are zero. */
     Eigen::VectorXd
@@ -42,15 +42,20 @@ namespace geocone
     unsigned int n_factorisations = 0;
 
   private:
-    const BoundProblem                       &problem;
-    const std::vector<BoundProblem::Strains> &strains;
-    std::vector<int>                          row_of_dof; ///< or -1
-    std::vector<int>            place;  ///< of entries of the cells
-    Eigen::SparseMatrix<double> matrix; ///< lower triangle
+    const PointStrains         &strains;
+    std::vector<int>            row_of_dof; ///< or -1
+    std::vector<int>            place;      ///< of entries of the points, or -1
+    Eigen::SparseMatrix<double> matrix;     ///< lower triangle
 
     /** Makes the matrix, empty, of the rows as they are numbered. */
     void
     set_pattern(const unsigned int n_rows);
+
+    /** Calls f(row, column) for each entry on or below the diagonal that a point has,
+     *  in the order of `place`; negative where a dof is prescribed. */
+    template <typename Function>
+    void
+    for_entries(const Function &f) const;
 
     class Factors
       : public Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>>
