@@ -11,9 +11,14 @@
 namespace geocone
 {
   Material::Material(const std::string &section)
+    : Material(section, Stiffness::constant)
+  {}
+
+  Material::Material(const std::string &section, const Stiffness stiffness)
     : ConstitutiveLaw(section)
   {
-    add_parameter("Young modulus", young_modulus, "E (Pa), > 0.");
+    if (stiffness == Stiffness::constant)
+      add_parameter("Young modulus", young_modulus, "E (Pa), > 0.");
     add_parameter("Poisson ratio",
                   poisson_ratio,
                   "nu (-), between -1 and 0.5, both excluded.");
@@ -60,9 +65,17 @@ namespace geocone
   }
 
   SpatialMandel
-  Material::elastic_strain(const SpatialMandel &stress) const
+  Material::elastic_strain(const SpatialMandel &from,
+                           const SpatialMandel &to) const
   {
-    return extended(elastic.strain(Mandel(stress.head<n_mandel>())), 0.);
+    return extended(elastic.strain(Mandel((to - from).head<n_mandel>())), 0.);
+  }
+
+  double
+  Material::elastic_energy(const Mandel &stress, const double *history) const
+  {
+    const SpatialMandel whole = whole_stress(stress, history);
+    return whole.dot(elastic_strain(SpatialMandel::Zero(), whole)) / 2.;
   }
 
   std::optional<double>
@@ -193,10 +206,9 @@ namespace geocone
         block.plastic_strain[p] +=
           mode[p] == Mode::elastic
             ? 0.
-            : (extended(strain[p], zz) - elastic_strain(whole - whole_n))
-                .norm();
+            : (extended(strain[p], zz) - elastic_strain(whole_n, whole)).norm();
         block.set_stress(p, components_of(stress[p]));
-        block.wave_modulus[p] = elastic.lambda + elastic.two_G;
+        block.wave_modulus[p] = wave_modulus(stress_of(whole), &history[m * p]);
       }
   }
 

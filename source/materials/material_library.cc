@@ -7,6 +7,7 @@
 #include <geocone/materials/hardening_mohr_coulomb.h>
 #include <geocone/materials/linear_elastic.h>
 #include <geocone/materials/material_library.h>
+#include <geocone/materials/modified_cam_clay.h>
 #include <geocone/materials/mohr_coulomb.h>
 #include <geocone/materials/spatial_mohr_coulomb.h>
 #include <geocone/materials/subloading.h>
@@ -40,6 +41,7 @@ namespace geocone
                    {"spatial Tresca", &make<SpatialTresca>},
                    {"Drucker-Prager", &make<DruckerPrager>},
                    {"von Mises", &make<VonMises>},
+                   {"modified Cam-Clay", &make<ModifiedCamClay>},
                    {"linear elastic", &make<LinearElastic>},
                    {"subloading", &make<Subloading>}};
       if constexpr (dim == 2)
@@ -148,8 +150,9 @@ namespace geocone
         throw InputError("Materials/" + names[i] + "/Type",
                          types[i],
                          "spatial Mohr-Coulomb | spatial Tresca | "
-                         "Drucker-Prager | von Mises | linear elastic | "
-                         "subloading (explicit MPM) where Geometry/Symmetry = "
+                         "Drucker-Prager | von Mises | modified Cam-Clay | "
+                         "linear elastic | subloading (explicit MPM) where "
+                         "Geometry/Symmetry = "
                          "axisymmetric",
                          "around an axis the stress out of the plane counts: "
                          "choose one of these");

@@ -22,13 +22,17 @@ namespace geocone
           increment.strain_zz != nullptr ? increment.strain_zz[p] : 0.);
         SpatialMandel       stress;
         SpatialMandelMatrix C;
-        response.mode[p] =
-          return_to_strength(stress_n + elasticity().stress(strain),
-                             stress_n,
-                             increment.step,
-                             stress,
-                             linear ? &C : nullptr);
-        response.stress[p] = stress.head<n_mandel>();
+        double *const       history = response.history != nullptr
+                                        ? response.history + increment.n_history * p
+                                        : nullptr;
+        response.mode[p]            = respond(strain,
+                                   stress_n,
+                                   history_n,
+                                   increment.step,
+                                   stress,
+                                   history,
+                                   linear ? &C : nullptr);
+        response.stress[p]          = stress.head<n_mandel>();
         if (linear)
           response.tangent[p] = C.topLeftCorner<n_mandel, n_mandel>();
         if (linear && response.tangent_zz != nullptr)
@@ -37,11 +41,8 @@ namespace geocone
                                     C(3, 3)};
         if (response.stress_zz != nullptr)
           response.stress_zz[p] = stress[3];
-        if (response.history != nullptr)
-          {
-            double *const history = response.history + increment.n_history * p;
-            Material::initialise(stress_of(stress), 0., history);
-          }
+        if (history != nullptr)
+          Material::initialise(stress_of(stress), 0., history);
       }
   }
 
@@ -52,14 +53,14 @@ namespace geocone
   }
 
   FrictionalSpatialLaw::FrictionalSpatialLaw(const std::string &section)
-    : SpatialLaw(section)
+    : SpatialReturnMap(section)
   {
     given.declare(*this);
   }
 
   FrictionalSpatialLaw::FrictionalSpatialLaw(const std::string &section,
                                              const std::string &cohesion)
-    : SpatialLaw(section)
+    : SpatialReturnMap(section)
     , given(FrictionalStrength::without_friction())
   {
     given.declare_cohesion(*this, cohesion);
@@ -68,7 +69,7 @@ namespace geocone
   void
   FrictionalSpatialLaw::prepare()
   {
-    SpatialLaw::prepare();
+    SpatialReturnMap::prepare();
     given.check(parameter());
     set_strength(given);
   }

@@ -22,6 +22,14 @@ namespace geocone
   {
     if (!exists())
       return;
+    for (unsigned int m = 0; m < scene.materials.size(); ++m)
+      if (!scene.materials[m].has_constant_stiffness())
+        throw InputError("Materials/" + scene.materials.name(m) + "/Type",
+                         "modified Cam-Clay",
+                         "a law of constant stiffness where a side absorbs "
+                         "waves",
+                         "take linear elastic, or leave out 'Absorbing "
+                         "boundaries/Names'");
     incoming.reinit(space.partitioner());
     for (unsigned int c = 0; c < conditions.list.size(); ++c)
       {

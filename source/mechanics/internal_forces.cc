@@ -13,6 +13,19 @@ namespace geocone
   using namespace dealii;
   using namespace kernels;
 
+  namespace
+  {
+    /** Elasticity of a point at t_n. */
+    Elasticity
+    elasticity_at_start(const Materials      &materials,
+                        const MaterialPoints &points,
+                        const unsigned int    p)
+    {
+      return materials[points.material[p]].elasticity_at(points.stress[p],
+                                                         points.history_of(p));
+    }
+  } // namespace
+
   InternalForces::InternalForces(const MaterialPoints &points,
                                  const Materials      &materials,
                                  const Unknowns       &unknowns,
@@ -125,7 +138,7 @@ namespace geocone
     constexpr int     m       = dim * n;
     const double      factor  = h * points.weight[p];
     OutOfPlaneTangent C       = tangent_zz[p];
-    const Elasticity &elastic = materials[points.material[p]].elasticity();
+    const Elasticity  elastic = elasticity_at_start(materials, points, p);
     C.by_zz *= 1. - blend;
     C.of_zz *= 1. - blend;
     for (unsigned int d = 0; d < dim; ++d)
@@ -286,9 +299,9 @@ namespace geocone
            p < points.first_point[c + 1];
            ++p)
         {
-          const Elasticity &e      = materials[points.material[p]].elasticity();
-          const double      direct = e.lambda + e.two_G, shear = e.two_G / 2.;
-          const double      factor = h * points.weight[p];
+          const Elasticity e      = elasticity_at_start(materials, points, p);
+          const double     direct = e.lambda + e.two_G, shear = e.two_G / 2.;
+          const double     factor = h * points.weight[p];
           for (unsigned int i = 0; i < n; ++i)
             {
               double g[dim], square = 0.;
@@ -347,8 +360,8 @@ namespace geocone
                 terms += std::sqrt(square) * speed[i];
               }
             const double stress =
-              materials[points.material[p]].elasticity().normal_stiffness() *
-              h * terms;
+              elasticity_at_start(materials, points, p).normal_stiffness() * h *
+              terms;
             sum += squares * std::pow(points.weight[p] * stress, 2);
           }
       }
@@ -381,7 +394,7 @@ namespace geocone
               if (blend > 0.)
                 C[q] = (1. - blend) * C[q] +
                        (blend * h * points.weight[p]) *
-                         materials[points.material[p]].elasticity().stiffness();
+                         elasticity_at_start(materials, points, p).stiffness();
             }
           const double *const g = &points.gradients[dim * n * first];
           const double *const volumetric =
@@ -469,7 +482,7 @@ namespace geocone
     if (mode[p] == Mode::elastic)
       return SpatialMandel::Zero();
     return whole_strain(p) - materials[points.material[p]].elastic_strain(
-                               whole_stress(p) - whole_stress_n(p));
+                               whole_stress_n(p), whole_stress(p));
   }
 
   SpatialMandel
@@ -495,8 +508,8 @@ namespace geocone
   InternalForces::work(const unsigned int p) const
   {
     const SpatialMandel s = whole_stress(p);
-    return {s.dot(materials[points.material[p]].elastic_strain(
-              s - whole_stress_n(p))),
-            s.dot(plastic_strain_increment(p))};
+    return {
+      s.dot(materials[points.material[p]].elastic_strain(whole_stress_n(p), s)),
+      s.dot(plastic_strain_increment(p))};
   }
 } // namespace geocone

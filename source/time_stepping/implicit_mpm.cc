@@ -261,8 +261,9 @@ namespace geocone
         const double V         = points.weight[p];
         const double both[dim] = {
           V,
-          V *
-            scene->materials[points.material[p]].elasticity().young_modulus()};
+          V * scene->materials[points.material[p]]
+                .elasticity_at(points.stress[p], points.history_of(p))
+                .young_modulus()};
         at.scatter<dim, false>(both, volume.begin());
       });
     volume.compress(VectorOperation::add);

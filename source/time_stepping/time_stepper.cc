@@ -129,8 +129,11 @@ namespace geocone
         const InternalForces::Work work = internal.work(p);
         sums[0] += points.weight[p] * work.elastic;
         sums[1] += points.weight[p] * work.plastic;
-        sums[2] += points.weight[p] / 2. *
-                   s.dot(materials[points.material[p]].elasticity().strain(s));
+        sums[2] +=
+          points.weight[p] / 2. *
+          s.dot(materials[points.material[p]]
+                  .elasticity_at(points.stress[p], points.history_of(p))
+                  .strain(s));
       }
     sum_over_ranks(sums, v.get_mpi_communicator());
     // Steps in which next to nothing happens are rounding of the energies.

@@ -9,10 +9,10 @@
 namespace geocone
 {
   /** Isotropic linear elasticity, s = s_n + D e. No parameters of its own. */
-  class LinearElastic : public SpatialLaw
+  class LinearElastic : public SpatialReturnMap
   {
   public:
-    using SpatialLaw::SpatialLaw;
+    using SpatialReturnMap::SpatialReturnMap;
 
     /** In plane strain it is a law of the plane. */
     bool
@@ -35,10 +35,11 @@ namespace geocone
     advance(const PointBlock &block, LawCounts &counts) const override;
 
     SpatialMandel
-    elastic_strain(const SpatialMandel &stress) const override
+    elastic_strain(const SpatialMandel &from,
+                   const SpatialMandel &to) const override
     {
-      return axisymmetric ? SpatialLaw::elastic_strain(stress)
-                          : Material::elastic_strain(stress);
+      return axisymmetric ? SpatialReturnMap::elastic_strain(from, to)
+                          : Material::elastic_strain(from, to);
     }
 
   protected:

@@ -70,14 +70,16 @@ namespace geocone
   };
 
   /**
-   * A constitutive law in closed form, which all methods can use: a pure function
-   * of a batch of strain increments and states at t_n, with isotropic linear
-   * elasticity. In plane scenes the out-of-plane stress is
+   * A constitutive law with a return map, which all methods can use: a pure function
+   * of a batch of strain increments and states at t_n, with isotropic elasticity,
+   * which is linear unless the law says otherwise (elasticity_at()). In plane scenes
+   * the out-of-plane stress is
    *   s_zz = nu (s_xx + s_yy) + d,
    * d (Pa) the first history variable, to which laws that harden add theirs. It is
    * constant where plastic flow is in the plane; laws that are spatial change it.
    *
-   * Parameters of the base: density (kg/m^3), Young modulus (Pa), Poisson ratio.
+   * Parameters of the base: density (kg/m^3), Young modulus (Pa) where it is constant,
+   * Poisson ratio.
    */
   class Material : public ConstitutiveLaw
   {
@@ -164,18 +166,10 @@ namespace geocone
     SpatialMandel
     whole_stress(const Mandel &stress, const double *history) const;
 
-    /** What of the strain is elastic. Laws of the plane have no elastic strain along z,
+    /** The elastic strain between two stresses. Laws of the plane have none along z,
      *  and s_zz does no work. */
     virtual SpatialMandel
-    elastic_strain(const SpatialMandel &stress) const;
-
-    /** Of a stress, per volume (J/m^3). @param history of the point */
-    double
-    elastic_energy(const Mandel &stress, const double *history) const
-    {
-      const SpatialMandel whole = whole_stress(stress, history);
-      return whole.dot(elastic_strain(whole)) / 2.;
-    }
+    elastic_strain(const SpatialMandel &from, const SpatialMandel &to) const;
 
     /** By how much a stress is beyond the strength (Pa), negative within it; nothing
      *  for laws without one. @param history of the point */
@@ -285,13 +279,57 @@ namespace geocone
       return non_associativity() == 0.;
     }
 
+    /** That of all states; of laws whose stiffness is that of the state, the one at
+     *  the pressure 100 kPa. */
     const Elasticity &
     elasticity() const
     {
       return elastic;
     }
 
+    /** @name Laws whose stiffness is that of the state */
+    /** @{ */
+    /** Of a stress, per volume (J/m^3). @param history of the point */
+    virtual double
+    elastic_energy(const Mandel &stress, const double *history) const;
+
+    /** Elasticity at a stress. @param history of the point */
+    virtual Elasticity
+    elasticity_at(const Mandel & /*stress*/, const double * /*history*/) const
+    {
+      return elastic;
+    }
+
+    /** Whether it is elasticity() always. */
+    virtual bool
+    has_constant_stiffness() const
+    {
+      return true;
+    }
+    /** @} */
+
   protected:
+    /** What gives the stiffness of a law. */
+    enum class Stiffness
+    {
+      constant, ///< parameters
+      of_state  ///< elasticity_at(), by Poisson's ratio
+    };
+    Material(const std::string &section, const Stiffness stiffness);
+
+    double
+    poisson() const
+    {
+      return poisson_ratio;
+    }
+
+    /** Of laws whose stiffness is that of the state, after prepare(). */
+    void
+    set_elasticity(const Elasticity &elasticity)
+    {
+      elastic = elasticity;
+    }
+
     /** What a stress at the end of a step must be in: flow_cone(), but for laws
      *  whose strength follows the stress. */
     virtual std::optional<FlowCone>

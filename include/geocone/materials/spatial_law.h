@@ -12,8 +12,8 @@
 namespace geocone
 {
   /**
-   * A perfectly plastic law of the whole stress, for plane strain, axisymmetric scenes
-   * and three dimensions: laws give a return map of four or six components.
+   * A law of the whole stress, for plane strain, axisymmetric scenes and three
+   * dimensions: laws answer four or six components.
    * In plane strain flow along z is balanced by elastic strain, so that s_zz moves to
    * where the flow rule wants it; the result then depends on it.
    */
@@ -31,14 +31,38 @@ namespace geocone
     void
     update(const Increment &increment, const Response &response) const override;
 
-    SpatialMandel
-    elastic_strain(const SpatialMandel &stress) const override
-    {
-      return elasticity().strain(stress);
-    }
-
     std::optional<double>
     overstress(const Mandel &stress, const double *history) const override;
+
+  protected:
+    /**
+     * s at t_{n+1}.
+     * @param history_n of the point
+     * @param[out] history what follows Material's in it, or null
+     * @param[out] tangent ds/de, or null
+     */
+    virtual Mode
+    respond(const SpatialMandel &strain,
+            const SpatialMandel &stress_n,
+            const double        *history_n,
+            const StepLaw       &step,
+            SpatialMandel       &stress,
+            double              *history,
+            SpatialMandelMatrix *tangent) const = 0;
+  };
+
+  /** A spatial law of linear elasticity without internal variables. */
+  class SpatialReturnMap : public SpatialLaw
+  {
+  public:
+    using SpatialLaw::SpatialLaw;
+
+    SpatialMandel
+    elastic_strain(const SpatialMandel &from,
+                   const SpatialMandel &to) const override
+    {
+      return elasticity().strain(SpatialMandel(to - from));
+    }
 
   protected:
     /** s at t_{n+1} from the trial stress s_n + D e. @param[out] tangent ds/de, or
@@ -49,10 +73,26 @@ namespace geocone
                        const StepLaw       &step,
                        SpatialMandel       &stress,
                        SpatialMandelMatrix *tangent) const = 0;
+
+    Mode
+    respond(const SpatialMandel &strain,
+            const SpatialMandel &stress_n,
+            const double *,
+            const StepLaw &step,
+            SpatialMandel &stress,
+            double *,
+            SpatialMandelMatrix *tangent) const override
+    {
+      return return_to_strength(stress_n + elasticity().stress(strain),
+                                stress_n,
+                                step,
+                                stress,
+                                tangent);
+    }
   };
 
   /** A spatial law with cohesion, friction and dilatancy. */
-  class FrictionalSpatialLaw : public SpatialLaw
+  class FrictionalSpatialLaw : public SpatialReturnMap
   {
   public:
     void

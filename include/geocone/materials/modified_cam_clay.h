@@ -1,0 +1,175 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_materials_modified_cam_clay_h
+#define geocone_materials_modified_cam_clay_h
+
+#include <geocone/base/choice.h>
+#include <geocone/materials/spatial_law.h>
+
+#include <string>
+
+namespace geocone
+{
+  /**
+   * Modified Cam-Clay (Roscoe and Burland 1968), a law with a cap, for all methods.
+   * With P = p + a and Pc = pc + a, p the mean pressure and a the attraction, the yield
+   * surface, of associated flow, is the ellipse
+   *   f = q^2/M^2 + P (P - Pc) = 0,  q = sqrt(3/2) |dev s|,
+   * elasticity has the bulk modulus K = P/kappa and a constant Poisson ratio, and Pc
+   * grows with the compressive plastic volume strain w: dPc = Pc dw/(lambda - kappa).
+   * kappa and lambda are slopes of ln v over ln p, so that
+   *   P = P_n exp(de/kappa),  Pc = Pc_n exp(dw/(lambda - kappa))
+   * are exact for any elastic volume strain de and any dw. Shear is integrated with the
+   * secant modulus of the step, G = g (P - P_n)/de (Borja 1991), which is exact where
+   * the elastic strain keeps its direction. Flow is that of the end of the step
+   * (backward Euler); isotropic compression is exact in one step.
+   *
+   * On the yield surface P = Pc cos^2(phi/2) and q = M Pc sin(phi)/2. An angle phi has
+   * one dw, in closed form, and the step is one equation in phi that changes its sign
+   * between two known ends: there is a root for each strain increment, and Newton's
+   * method with bisection finds it. The tangent is that of the root. It is not
+   * symmetric, because the shear modulus follows the pressure.
+   *
+   * Soil that is torn open keeps P = 1 Pa, however far it opens, and a surface that
+   * holds its stress (mode apex); closing it, it bears load at once.
+   *
+   * The history is Material's and pc (Pa).
+   */
+  class ModifiedCamClay : public SpatialLaw
+  {
+  public:
+    explicit ModifiedCamClay(const std::string &section);
+
+    void
+    prepare() override;
+
+    /** Jaky's 1 - sin(phi), sin(phi) = 3 M/(6 + M) in triaxial compression. */
+    double
+    earth_pressure_at_rest() const override
+    {
+      return 1. - 3. * M / (6. + M);
+    }
+
+    double
+    wave_modulus(const Stress &stress, const double *history) const override;
+
+    unsigned int
+    n_history() const override
+    {
+      return SpatialLaw::n_history() + 1;
+    }
+
+    std::string
+    initialise(const Stress &stress,
+               const double  size,
+               double       *history) const override;
+
+    std::vector<Shown>
+    shown() const override;
+
+    void
+    show(const Components &stress,
+         const double     *history,
+         double           *values) const override;
+
+    std::optional<double>
+    overstress(const Mandel &stress, const double *history) const override;
+
+    /** @throws InputError always: M and pc are no cohesion and friction */
+    void
+    reduce_strength(const double F) override;
+
+    bool
+    has_symmetric_tangent() const override
+    {
+      return false;
+    }
+
+    SpatialMandel
+    elastic_strain(const SpatialMandel &from,
+                   const SpatialMandel &to) const override;
+
+    /** kappa (p - a ln(1 + p/a)) + q^2/(6G): no law of constant nu stores energy
+     *  exactly; this is what isotropic compression and shear at a pressure store. */
+    double
+    elastic_energy(const Mandel &stress, const double *history) const override;
+
+    Elasticity
+    elasticity_at(const Mandel &stress, const double *history) const override;
+
+    bool
+    has_constant_stiffness() const override
+    {
+      return false;
+    }
+
+  protected:
+    Mode
+    respond(const SpatialMandel &strain,
+            const SpatialMandel &stress_n,
+            const double        *history_n,
+            const StepLaw       &step,
+            SpatialMandel       &stress,
+            double              *history,
+            SpatialMandelMatrix *tangent) const override;
+
+  private:
+    /** What a step has at an angle phi of its yield surface. */
+    struct Trial;
+
+    /** The elastic law from P_n over a volume strain x, compression positive. */
+    struct Elastic
+    {
+      double P;     ///< P_n exp(x/kappa) (Pa)
+      double G;     ///< secant shear modulus (Pa)
+      double slope; ///< dG/dx (Pa)
+    };
+    Elastic
+    elastic(const double P_n, const double x) const;
+
+    /** Tangent moduli at a pressure P (Pa). */
+    Elasticity
+    elasticity_of(const double P) const
+    {
+      return {3. * P / kappa * (1. - 2. * poisson()), poisson()};
+    }
+
+    /** P = p + a (Pa). */
+    double
+    pressure(const SpatialMandel &stress) const
+    {
+      return attraction - trace(stress) / 3.;
+    }
+
+    /** The size Pc of the surface through a stress, P + q^2/(M^2 P) (Pa). */
+    double
+    size_through(const SpatialMandel &stress) const;
+
+    unsigned int
+    place_of_pc() const
+    {
+      return SpatialLaw::n_history();
+    }
+
+    static constexpr double lowest = 1.; ///< P is at least this (Pa)
+
+    double kappa      = 0.01;
+    double lambda     = 0.08;
+    double M          = 1.2;
+    double attraction = 0.; ///< a (Pa)
+    double ratio      = 1.; ///< overconsolidation ratio at the start
+    double given_pc   = 0.; ///< (Pa)
+    double g_over_k   = 0.; ///< G/K (-)
+
+    enum class Outside
+    {
+      refuse,
+      raise_size
+    };
+    Choice<Outside> if_outside = {
+      {{"refuse", Outside::refuse}, {"raise size", Outside::raise_size}}};
+  };
+} // namespace geocone
+
+#endif

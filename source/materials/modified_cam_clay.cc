@@ -1,0 +1,469 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/materials/modified_cam_clay.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace geocone
+{
+  namespace
+  {
+    SpatialMandel
+    deviator(const SpatialMandel &t)
+    {
+      return t - (trace(t) / 3.) * unit_tensor<n_spatial>();
+    }
+
+    /** q of a deviator. */
+    double
+    equivalent(const SpatialMandel &s)
+    {
+      return std::sqrt(1.5) * s.norm();
+    }
+
+    /** (exp(x) - 1)/x. */
+    double
+    mean_exponential(const double x)
+    {
+      return x == 0. ? 1. : std::expm1(x) / x;
+    }
+
+    /** Its derivative; by its series where the formula would be a difference of nearly
+     *  equal numbers. */
+    double
+    mean_exponential_slope(const double x)
+    {
+      if (std::abs(x) > 0.05)
+        return (std::exp(x) * (x - 1.) + 1.) / (x * x);
+      double sum = 0.;
+      for (const double factor : {5760., 840., 144., 30., 8., 3., 2.})
+        sum = sum * x + 1. / factor;
+      return sum;
+    }
+
+    /**
+     * Where a function changes its sign from - to +, to the last digits: Newton's
+     * method, with bisection where that leaves the bracket or takes long.
+     * @param evaluate gives value and slope
+     * @return not a number if a value is none
+     */
+    template <typename Function>
+    double
+    increasing_root(double low, double high, double x, const Function &evaluate)
+    {
+      for (unsigned int n = 0; n < 200; ++n)
+        {
+          const auto [value, slope] = evaluate(x);
+          if (!std::isfinite(value))
+            return std::numeric_limits<double>::quiet_NaN();
+          if (value == 0.)
+            return x;
+          (value < 0. ? low : high) = x;
+          double next               = x - value / slope;
+          if (std::abs(next - x) <= 1e-14 * std::abs(x))
+            return next;
+          if (!(next > low && next < high) || (n > 12 && n % 2 == 0))
+            next = (low + high) / 2.;
+          if (!(next > low && next < high))
+            return x;
+          x = next;
+        }
+      return x;
+    }
+  } // namespace
+
+  ModifiedCamClay::ModifiedCamClay(const std::string &section)
+    : SpatialLaw(section, Stiffness::of_state)
+  {
+    add_parameter("Swelling index kappa",
+                  kappa,
+                  "Slope of swelling lines in ln v over ln p (-), 0 < kappa < "
+                  "lambda. It is the textbooks' kappa over v.");
+    add_parameter("Compression index lambda",
+                  lambda,
+                  "Slope of compression lines in ln v over ln p (-).");
+    add_parameter("Critical state slope M",
+                  M,
+                  "M (-), > 0: q/p at the critical state, 6 sin(phi)/(3 - "
+                  "sin(phi)) of triaxial compression. It is the same in "
+                  "extension.");
+    add_parameter("Attraction",
+                  attraction,
+                  "a (Pa), >= 0: stiffness and strength are those of p + a, so "
+                  "that there is some without pressure, as at a free surface; "
+                  "the critical state is q = M (p + a).");
+    add_parameter("Overconsolidation ratio",
+                  ratio,
+                  "pc + a at the start over that of the yield surface through "
+                  "the stress (-), >= 1; 1: normally consolidated.");
+    add_parameter("Preconsolidation pressure",
+                  given_pc,
+                  "pc (Pa), where the yield surface crosses q = 0, at the "
+                  "start; 0: by the overconsolidation ratio.");
+    if_outside.declare(*this,
+                       "Stress outside",
+                       ": what to do with an initial stress outside the yield "
+                       "surface.");
+  }
+
+  void
+  ModifiedCamClay::prepare()
+  {
+    SpatialLaw::prepare();
+    const auto require = [&](const bool         holds,
+                             const char        *name,
+                             const double       value,
+                             const std::string &allowed,
+                             const char        *remedy) {
+      if (!holds)
+        throw InputError(parameter(name), value, allowed, remedy);
+    };
+    require(kappa > 0. && std::isfinite(kappa),
+            "Swelling index kappa",
+            kappa,
+            "kappa > 0",
+            "clays have 0.005 to 0.05");
+    require(lambda > kappa && std::isfinite(lambda),
+            "Compression index lambda",
+            lambda,
+            "lambda > kappa = " + format("%g", kappa),
+            "clays have lambda of 4 to 10 times kappa");
+    require(M > 0. && std::isfinite(M),
+            "Critical state slope M",
+            M,
+            "M > 0",
+            "soils have 0.7 to 1.5");
+    require(attraction >= 0. && std::isfinite(attraction),
+            "Attraction",
+            attraction,
+            "a >= 0 Pa",
+            "0, or about 1000 Pa where there is a free surface");
+    require(ratio >= 1. && std::isfinite(ratio),
+            "Overconsolidation ratio",
+            ratio,
+            ">= 1",
+            "1 is normally consolidated, 1 to 3 lightly overconsolidated");
+    require(given_pc >= 0. && std::isfinite(given_pc),
+            "Preconsolidation pressure",
+            given_pc,
+            "pc > 0 Pa, or 0",
+            "0: by the overconsolidation ratio");
+    require(given_pc == 0. || ratio == 1.,
+            "Overconsolidation ratio",
+            ratio,
+            "1 where 'Preconsolidation pressure' is given",
+            "give one of them");
+    g_over_k = 1.5 * (1. - 2. * poisson()) / (1. + poisson());
+    set_elasticity(elasticity_of(1e5));
+  }
+
+  ModifiedCamClay::Elastic
+  ModifiedCamClay::elastic(const double P_n, const double x) const
+  {
+    const double y = x / kappa;
+    return {P_n * std::exp(y),
+            g_over_k * P_n / kappa * mean_exponential(y),
+            g_over_k * P_n / (kappa * kappa) * mean_exponential_slope(y)};
+  }
+
+  double
+  ModifiedCamClay::size_through(const SpatialMandel &stress) const
+  {
+    const double P = pressure(stress), q = equivalent(deviator(stress));
+    return P + q * q / (M * M * P);
+  }
+
+  /** With the volume strain v, the deviator e of the strain and the deviator s_n of the
+   *  stress at t_n. Primes in comments are derivatives; those by v are at fixed phi. */
+  struct ModifiedCamClay::Trial
+  {
+    Trial(const ModifiedCamClay &law,
+          const double           P_n,
+          const double           Pc_n,
+          const double           v,
+          const SpatialMandel   &e,
+          const SpatialMandel   &s_n,
+          const double           phi)
+      : cosine(std::cos(phi))
+      , sine(std::sin(phi))
+    {
+      const double kappa = law.kappa, hardening = law.lambda - kappa, M = law.M;
+      const double A    = kappa * hardening / law.lambda;
+      w                 = A * (v / kappa + std::log(P_n / Pc_n) -
+               2. * std::log(std::cos(phi / 2.)));
+      by_v.w            = A / kappa;
+      by_phi.w          = A * std::tan(phi / 2.);
+      const Elastic now = law.elastic(P_n, v - w);
+      P                 = now.P;
+      G                 = now.G;
+      by_v.P            = P / kappa * (1. - by_v.w);
+      by_phi.P          = -P / kappa * by_phi.w;
+      by_v.G            = now.slope * (1. - by_v.w);
+      by_phi.G          = -now.slope * by_phi.w;
+      Pc                = Pc_n * std::exp(w / hardening);
+      by_v.Pc           = Pc / hardening * by_v.w;
+      by_phi.Pc         = Pc / hardening * by_phi.w;
+
+      // s = rho t with rho = N/D, and q = M Pc sine/2 = rho q_t.
+      t            = s_n + 2. * G * e;
+      q_t          = equivalent(t);
+      const auto c = [&](const double stiffness) {
+        return 6. * stiffness / (M * M);
+      };
+      N     = Pc * cosine;
+      D     = w * c(G) + N;
+      q_t_G = q_t > 0. ? 3. * t.dot(e) / q_t : 0.;
+      for (By *by : {&by_v, &by_phi})
+        {
+          by->N = by->Pc * cosine - (by == &by_phi ? Pc * sine : 0.);
+          by->D = by->w * c(G) + w * c(by->G) + by->N;
+        }
+      value        = D * M / 2. * sine - q_t * cosine;
+      by_v.value   = by_v.D * M / 2. * sine - cosine * q_t_G * by_v.G;
+      by_phi.value = by_phi.D * M / 2. * sine - cosine * q_t_G * by_phi.G +
+                     D * M / 2. * cosine + q_t * sine;
+    }
+
+    double cosine, sine;
+    double w;        ///< plastic volume strain, compression positive
+    double P, G, Pc; ///< at the end of the step (Pa)
+    double N, D;     ///< (Pa)
+
+    SpatialMandel t;          ///< s_n + 2 G e (Pa)
+    double        q_t   = 0.; ///< its q (Pa)
+    double        q_t_G = 0.; ///< dq_t/dG (-)
+    double        value = 0.; ///< zero at the solution (Pa)
+
+    struct By
+    {
+      double w, P, G, Pc, N, D, value;
+    };
+    By by_v{}, by_phi{};
+  };
+
+  Mode
+  ModifiedCamClay::respond(const SpatialMandel &strain,
+                           const SpatialMandel &stress_n,
+                           const double        *history_n,
+                           const StepLaw &,
+                           SpatialMandel       &stress,
+                           double              *history,
+                           SpatialMandelMatrix *tangent) const
+  {
+    const SpatialMandel I = unit_tensor<n_spatial>(), e = deviator(strain),
+                        s_n = deviator(stress_n);
+    const double v          = -trace(strain);
+    const double P_n        = pressure(stress_n);
+    const double Pc_n       = history_n[place_of_pc()] + attraction;
+    const auto   set        = [&](const Mode           mode,
+                         const SpatialMandel &s,
+                         const double         P,
+                         const double         Pc) {
+      const bool   opens = P < lowest;
+      const double q = equivalent(s) / M, least = std::max(P, lowest);
+      stress = s - (least - attraction) * I;
+      if (history != nullptr)
+        history[place_of_pc()] =
+          (opens ? std::max(Pc, least + q * q / least) : Pc) - attraction;
+      return opens ? Mode::apex : mode;
+    };
+    const SpatialMandelMatrix along_deviators =
+      SpatialMandelMatrix::Identity() - I * I.transpose() / 3.;
+
+    const Elastic       trial   = elastic(P_n, v);
+    const SpatialMandel t       = s_n + 2. * trial.G * e;
+    const double        q_trial = equivalent(t) / M;
+    if (q_trial * q_trial + trial.P * (trial.P - Pc_n) <= 0.)
+      {
+        const Mode mode = set(Mode::elastic, t, trial.P, Pc_n);
+        if (tangent != nullptr)
+          {
+            *tangent = 2. * trial.G * along_deviators -
+                       2. * trial.slope * e * I.transpose();
+            if (mode != Mode::apex)
+              *tangent += trial.P / kappa * I * I.transpose();
+          }
+        return mode;
+      }
+
+    // The half of the ellipse to which plastic flow leads, and where on it the size
+    // would not change; from there on the trial stress is outside.
+    const double part      = trial.P / Pc_n;
+    const bool   contracts = part >= 0.5;
+    const double unchanged = part < 1. ? 2. * std::acos(std::sqrt(part)) : 0.;
+    const double low       = contracts ? std::min(unchanged, pi / 2.) : pi / 2.,
+                 high      = contracts ? pi / 2. : std::max(unchanged, pi / 2.);
+    const double guess     = std::atan2(q_trial, trial.P - Pc_n / 2.);
+    const auto   at        = [&](const double phi) {
+      return Trial(*this, P_n, Pc_n, v, e, s_n, phi);
+    };
+    const double phi =
+      increasing_root(low,
+                      high,
+                      guess >= low && guess <= high ? guess : (low + high) / 2.,
+                      [&](const double x) {
+                        const Trial here = at(x);
+                        return std::pair(here.value, here.by_phi.value);
+                      });
+    const Trial end = at(phi);
+    // Near the critical state N/D is 0/0.
+    const bool   by_quotient = std::abs(end.cosine) > 0.5;
+    const double q           = M * end.Pc * end.sine / 2.;
+    const double rho         = by_quotient ? end.N / end.D : q / end.q_t;
+    const Mode   mode        = set(Mode::cone, rho * end.t, end.P, end.Pc);
+    if (tangent != nullptr)
+      {
+        // Gradients by the strain: v' = -I, and q_t' = q_t_G G' + normal.
+        const SpatialMandel normal =
+          end.q_t > 0. ? SpatialMandel(3. * end.G / end.q_t * end.t)
+                       : SpatialMandel::Zero();
+        const SpatialMandel of_phi =
+          (end.by_v.value * I + end.cosine * normal) / end.by_phi.value;
+        const auto gradient = [&](const double by_v, const double by_phi) {
+          return SpatialMandel(by_phi * of_phi - by_v * I);
+        };
+        const SpatialMandel of_P = gradient(end.by_v.P, end.by_phi.P),
+                            of_G = gradient(end.by_v.G, end.by_phi.G);
+        SpatialMandel of_rho;
+        if (by_quotient)
+          of_rho = (gradient(end.by_v.N, end.by_phi.N) -
+                    rho * gradient(end.by_v.D, end.by_phi.D)) /
+                   end.D;
+        else
+          of_rho = (M / 2. *
+                      (end.sine * gradient(end.by_v.Pc, end.by_phi.Pc) +
+                       end.Pc * end.cosine * of_phi) -
+                    rho * (end.q_t_G * of_G + normal)) /
+                   end.q_t;
+        *tangent = 2. * rho * end.G * along_deviators +
+                   2. * rho * e * of_G.transpose() + end.t * of_rho.transpose();
+        if (mode != Mode::apex)
+          *tangent -= I * of_P.transpose();
+      }
+    return mode;
+  }
+
+  double
+  ModifiedCamClay::wave_modulus(const Stress &stress, const double *) const
+  {
+    const double P = attraction - (stress[0] + stress[1] + stress[2]) / 3.;
+    return (1. + 4. / 3. * g_over_k) * P / kappa;
+  }
+
+  std::string
+  ModifiedCamClay::initialise(const Stress &stress,
+                              const double  size,
+                              double       *history) const
+  {
+    SpatialLaw::initialise(stress, size, history);
+    SpatialMandel s = SpatialMandel::Zero();
+    for (int i = 0; i < 3; ++i)
+      s[place_of_normal[i]] = stress[i];
+    for (int i = 0; i < n_shears; ++i)
+      s[shears[i].place] = sqrt2 * stress[3 + i];
+    const double      P  = pressure(s);
+    const std::string at = format(" (p = %g Pa)", P - attraction);
+    if (!(P >= lowest))
+      throw InputError(parameter("Attraction"),
+                       attraction,
+                       "p + a >= 1 Pa at the start" + at,
+                       "raise the attraction or the initial pressure: there "
+                       "would be no stiffness");
+    const double through = size_through(s);
+    double       Pc = given_pc > 0. ? given_pc + attraction : ratio * through;
+    std::string  changed;
+    if (Pc < through * (1. - 1e-12))
+      {
+        if (if_outside == Outside::refuse)
+          throw InputError(parameter("Preconsolidation pressure"),
+                           given_pc,
+                           format(">= %g Pa, where the initial stress is on "
+                                  "the yield surface",
+                                  through - attraction) +
+                             at,
+                           "raise it, or set 'Stress outside = raise size'");
+        changed = format("pc was raised from %g to %g Pa: the initial stress "
+                         "was outside the yield surface",
+                         given_pc,
+                         through - attraction);
+        Pc      = through;
+      }
+    history[place_of_pc()] = Pc - attraction;
+    return changed;
+  }
+
+  std::vector<ConstitutiveLaw::Shown>
+  ModifiedCamClay::shown() const
+  {
+    std::vector<Shown> all = SpatialLaw::shown();
+    all.push_back({"mean_pressure", "p (Pa)"});
+    all.push_back({"deviatoric_stress", "q (Pa)"});
+    all.push_back({"preconsolidation_pressure", "pc (Pa)"});
+    all.push_back({"overconsolidation_ratio", "overconsolidation ratio (-)"});
+    return all;
+  }
+
+  void
+  ModifiedCamClay::show(const Components &stress,
+                        const double     *history,
+                        double           *values) const
+  {
+    SpatialLaw::show(stress, history, values);
+    values += SpatialLaw::shown().size();
+    const SpatialMandel s = whole_stress(mandel_of_components(stress), history);
+    values[0]             = -trace(s) / 3.;
+    values[1]             = equivalent(deviator(s));
+    values[2]             = history[place_of_pc()];
+    values[3]             = (values[2] + attraction) / size_through(s);
+  }
+
+  std::optional<double>
+  ModifiedCamClay::overstress(const Mandel &stress, const double *history) const
+  {
+    return size_through(whole_stress(stress, history)) -
+           (history[place_of_pc()] + attraction);
+  }
+
+  void
+  ModifiedCamClay::reduce_strength(const double)
+  {
+    throw InputError(parameter("Type"),
+                     "modified Cam-Clay",
+                     "a law with cohesion and friction where strength is "
+                     "divided by a factor",
+                     "take Mohr-Coulomb's with the strength that counts");
+  }
+
+  SpatialMandel
+  ModifiedCamClay::elastic_strain(const SpatialMandel &from,
+                                  const SpatialMandel &to) const
+  {
+    const double P_n = pressure(from);
+    const double x   = kappa * std::log(pressure(to) / P_n);
+    return deviator(SpatialMandel(to - from)) / (2. * elastic(P_n, x).G) -
+           x / 3. * unit_tensor<n_spatial>();
+  }
+
+  double
+  ModifiedCamClay::elastic_energy(const Mandel &stress,
+                                  const double *history) const
+  {
+    const SpatialMandel s = whole_stress(stress, history);
+    const double        P = pressure(s), q = equivalent(deviator(s));
+    const double        beside =
+      attraction > 0. ? attraction * (1. + std::log(P / attraction)) : 0.;
+    return kappa * (P - beside) + q * q * kappa / (6. * g_over_k * P);
+  }
+
+  Elasticity
+  ModifiedCamClay::elasticity_at(const Mandel &stress,
+                                 const double *history) const
+  {
+    return elasticity_of(pressure(whole_stress(stress, history)));
+  }
+} // namespace geocone
