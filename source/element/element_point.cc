@@ -5,6 +5,7 @@
 #include <geocone/base/types.h>
 #include <geocone/element/element_point.h>
 #include <geocone/materials/material.h>
+#include <geocone/materials/modified_cam_clay.h>
 #include <geocone/materials/subloading.h>
 
 #include <algorithm>
@@ -136,14 +137,34 @@ namespace geocone
       return surfaces;
     }
 
-    /** Any law in plane strain: xx, yy, xy; by its explicit step without spin. */
+    /** The ellipse q^2 = M^2 (p + a) (pc - p). */
+    Surface
+    ellipse(const ModifiedCamClay &law, const double pc)
+    {
+      const double           size = pc + law.attraction();
+      Surface                surface{"yield", {}};
+      constexpr unsigned int n_points = 240;
+      for (unsigned int i = 0; i <= n_points; ++i)
+        {
+          const double angle = 2. * pi * i / n_points;
+          surface.p_and_q.emplace_back(
+            size / 2. * (1. + std::cos(angle)) - law.attraction(),
+            law.critical_slope() * size / 2. * std::sin(angle));
+        }
+      return surface;
+    }
+
+    /** Any law in plane strain: xx, yy, xy; or with zz, too; by its explicit step
+     *  without spin. */
     class InPlanePoint : public ElementPoint
     {
     public:
       InPlanePoint(const ConstitutiveLaw &law,
+                   const bool             has_zz,
                    const Tensor6         &stress,
                    std::string           &changed)
         : law(law)
+        , has_zz(has_zz)
         , subloading(dynamic_cast<const Subloading *>(&law))
         , shown(law.shown())
       {
@@ -159,7 +180,7 @@ namespace geocone
       bool
       has(const unsigned int component) const override
       {
-        return component == 0 || component == 1 || component == 3;
+        return component < 2 || component == 3 || (has_zz && component == 2);
       }
 
       Tensor6
@@ -174,7 +195,7 @@ namespace geocone
         };
         trial          = now;
         const Lanes xx = lanes(strain[0]), yy = lanes(strain[1]),
-                    xy = lanes(strain[3]);
+                    zz = lanes(strain[2]), xy = lanes(strain[3]);
         Lanes s_xx = lanes(now.stress[0]), s_yy = lanes(now.stress[1]),
               s_xy    = lanes(now.stress[2]), work, wave,
               plastic = lanes(now.plastic_strain);
@@ -191,7 +212,9 @@ namespace geocone
                      history.data(),
                      plastic.data(),
                      work.data(),
-                     wave.data()},
+                     wave.data(),
+                     0.,
+                     has_zz ? zz.data() : nullptr},
                     trial_counts);
         trial.stress = {{s_xx[0], s_yy[0], s_xy[0]}};
         for (std::size_t k = 0; k < values.size(); ++k)
@@ -236,7 +259,9 @@ namespace geocone
       values() const override
       {
         std::vector<double> all;
-        if (!shows_pressure())
+        if (!shows_pressure() && has_zz)
+          all = {pressure(stress()), deviatoric_stress(stress())};
+        else if (!shows_pressure())
           {
             // Those of the plane, on which yielding depends.
             const double half = (now.stress[0] - now.stress[1]) / 2.;
@@ -261,6 +286,9 @@ namespace geocone
             subloading->state(now.stress, now.history.data()),
             stress,
             axis);
+        if (const auto *cam_clay = dynamic_cast<const ModifiedCamClay *>(&law))
+          return {
+            ellipse(*cam_clay, cam_clay->preconsolidation(now.history.data()))};
         const auto *material = dynamic_cast<const Material *>(&law);
         if (material == nullptr || !material->flow_cone(now.history.data()))
           return {};
@@ -309,6 +337,7 @@ namespace geocone
       }
 
       const ConstitutiveLaw                    &law;
+      const bool                                has_zz;     ///< strain along z
       const Subloading *const                   subloading; ///< or null
       const std::vector<ConstitutiveLaw::Shown> shown;
       State                                     now, trial;
@@ -428,17 +457,21 @@ namespace geocone
     if (components == PointComponents::all && subloading == nullptr)
       throw InputError("Element/Components",
                        "3D",
-                       "automatic | plane strain for this material",
-                       "its law knows the stresses of the plane only");
-    if (components == PointComponents::plane_strain || subloading == nullptr)
+                       "automatic | plane strain | axisymmetric for this "
+                       "material",
+                       "a point of it has the stresses of the plane and zz");
+    const bool has_zz = components == PointComponents::axisymmetric;
+    if (has_zz || components == PointComponents::plane_strain ||
+        subloading == nullptr)
       {
         if (stress[4] != 0. || stress[5] != 0.)
           throw InputError("Element/Initial stress",
                            stress[4] != 0. ? stress[4] : stress[5],
-                           "yz = zx = 0 in plane strain",
+                           has_zz ? "yz = zx = 0 around an axis"
+                                  : "yz = zx = 0 in plane strain",
                            "set 'Element/Components = 3D' if the material has "
                            "it");
-        return std::make_unique<InPlanePoint>(law, stress, changed);
+        return std::make_unique<InPlanePoint>(law, has_zz, stress, changed);
       }
     return std::make_unique<InSpacePoint>(*subloading, stress, changed);
   }

@@ -24,7 +24,8 @@ namespace geocone
     components.declare(*this,
                        "Components",
                        ". Automatic: 3D if the law has it. Plane strain: as in "
-                       "scenes, xx, yy, xy.");
+                       "scenes, xx, yy, xy. Axisymmetric: xx, yy, zz, xy, as "
+                       "in scenes around an axis; for laws that these take.");
     add_parameter("Initial stress",
                   initial_stress,
                   "xx, yy, zz, xy, yz, zx (Pa), tension positive. Laws of the "
@@ -62,6 +63,8 @@ namespace geocone
                        "1 + e with the void ratio e");
     Tensor6 stress;
     std::copy(initial_stress.begin(), initial_stress.end(), stress.begin());
+    if (components == PointComponents::axisymmetric)
+      materials.set_axisymmetric();
     point = make_element_point(materials.law(0), components, stress, changed);
     column_names = columns();
     path.prepare(*point, column_names);
@@ -96,9 +99,17 @@ namespace geocone
     return format("%s: one point of '%s', %s, %zu stages, %zu increments",
                   name.c_str(),
                   materials.name(0).c_str(),
-                  point->has(2) ? "3D" : "plane strain",
+                  components_of_point(),
                   path.stages.size(),
                   n);
+  }
+
+  const char *
+  ElementTest::components_of_point() const
+  {
+    return point->has(4)   ? "3D"
+           : point->has(2) ? "axisymmetric"
+                           : "plane strain";
   }
 
   std::vector<std::string>
@@ -324,7 +335,7 @@ namespace geocone
       status,
       {{"material", materials.name(0)},
        {"changed_at_start", changed},
-       {"components", point->has(2) ? "3D" : "plane strain"},
+       {"components", components_of_point()},
        {"axis", component_names[main_component()]},
        {"counts",
         {{"increments", n_increments},

@@ -152,8 +152,7 @@ namespace geocone
                          "spatial Mohr-Coulomb | spatial Tresca | "
                          "Drucker-Prager | von Mises | modified Cam-Clay | "
                          "linear elastic | subloading (explicit MPM) where "
-                         "Geometry/Symmetry = "
-                         "axisymmetric",
+                         "strains are axisymmetric",
                          "around an axis the stress out of the plane counts: "
                          "choose one of these");
   }

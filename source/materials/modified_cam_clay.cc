@@ -93,7 +93,7 @@ namespace geocone
                   "sin(phi)) of triaxial compression. It is the same in "
                   "extension.");
     add_parameter("Attraction",
-                  attraction,
+                  a,
                   "a (Pa), >= 0: stiffness and strength are those of p + a, so "
                   "that there is some without pressure, as at a free surface; "
                   "the critical state is q = M (p + a).");
@@ -138,9 +138,9 @@ namespace geocone
             M,
             "M > 0",
             "soils have 0.7 to 1.5");
-    require(attraction >= 0. && std::isfinite(attraction),
+    require(a >= 0. && std::isfinite(a),
             "Attraction",
-            attraction,
+            a,
             "a >= 0 Pa",
             "0, or about 1000 Pa where there is a free surface");
     require(ratio >= 1. && std::isfinite(ratio),
@@ -259,17 +259,17 @@ namespace geocone
                         s_n = deviator(stress_n);
     const double v          = -trace(strain);
     const double P_n        = pressure(stress_n);
-    const double Pc_n       = history_n[place_of_pc()] + attraction;
+    const double Pc_n       = history_n[place_of_pc()] + a;
     const auto   set        = [&](const Mode           mode,
                          const SpatialMandel &s,
                          const double         P,
                          const double         Pc) {
       const bool   opens = P < lowest;
       const double q = equivalent(s) / M, least = std::max(P, lowest);
-      stress = s - (least - attraction) * I;
+      stress = s - (least - a) * I;
       if (history != nullptr)
         history[place_of_pc()] =
-          (opens ? std::max(Pc, least + q * q / least) : Pc) - attraction;
+          (opens ? std::max(Pc, least + q * q / least) : Pc) - a;
       return opens ? Mode::apex : mode;
     };
     const SpatialMandelMatrix along_deviators =
@@ -351,7 +351,7 @@ namespace geocone
   double
   ModifiedCamClay::wave_modulus(const Stress &stress, const double *) const
   {
-    const double P = attraction - (stress[0] + stress[1] + stress[2]) / 3.;
+    const double P = a - (stress[0] + stress[1] + stress[2]) / 3.;
     return (1. + 4. / 3. * g_over_k) * P / kappa;
   }
 
@@ -367,15 +367,15 @@ namespace geocone
     for (int i = 0; i < n_shears; ++i)
       s[shears[i].place] = sqrt2 * stress[3 + i];
     const double      P  = pressure(s);
-    const std::string at = format(" (p = %g Pa)", P - attraction);
+    const std::string at = format(" (p = %g Pa)", P - a);
     if (!(P >= lowest))
       throw InputError(parameter("Attraction"),
-                       attraction,
+                       a,
                        "p + a >= 1 Pa at the start" + at,
                        "raise the attraction or the initial pressure: there "
                        "would be no stiffness");
     const double through = size_through(s);
-    double       Pc = given_pc > 0. ? given_pc + attraction : ratio * through;
+    double       Pc      = given_pc > 0. ? given_pc + a : ratio * through;
     std::string  changed;
     if (Pc < through * (1. - 1e-12))
       {
@@ -384,16 +384,16 @@ namespace geocone
                            given_pc,
                            format(">= %g Pa, where the initial stress is on "
                                   "the yield surface",
-                                  through - attraction) +
+                                  through - a) +
                              at,
                            "raise it, or set 'Stress outside = raise size'");
         changed = format("pc was raised from %g to %g Pa: the initial stress "
                          "was outside the yield surface",
                          given_pc,
-                         through - attraction);
+                         through - a);
         Pc      = through;
       }
-    history[place_of_pc()] = Pc - attraction;
+    history[place_of_pc()] = Pc - a;
     return changed;
   }
 
@@ -419,14 +419,14 @@ namespace geocone
     values[0]             = -trace(s) / 3.;
     values[1]             = equivalent(deviator(s));
     values[2]             = history[place_of_pc()];
-    values[3]             = (values[2] + attraction) / size_through(s);
+    values[3]             = (values[2] + a) / size_through(s);
   }
 
   std::optional<double>
   ModifiedCamClay::overstress(const Mandel &stress, const double *history) const
   {
     return size_through(whole_stress(stress, history)) -
-           (history[place_of_pc()] + attraction);
+           (history[place_of_pc()] + a);
   }
 
   void
@@ -455,8 +455,7 @@ namespace geocone
   {
     const SpatialMandel s = whole_stress(stress, history);
     const double        P = pressure(s), q = equivalent(deviator(s));
-    const double        beside =
-      attraction > 0. ? attraction * (1. + std::log(P / attraction)) : 0.;
+    const double        beside = a > 0. ? a * (1. + std::log(P / a)) : 0.;
     return kappa * (P - beside) + q * q * kappa / (6. * g_over_k * P);
   }
 

@@ -98,6 +98,7 @@ namespace geocone
   {
     automatic, ///< all if the law has them
     plane_strain,
+    axisymmetric, ///< the normal ones and xy
     all
   };
 

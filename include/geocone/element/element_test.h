@@ -70,6 +70,9 @@ namespace geocone
     void
     follow(const ElementStage &stage, const double to);
 
+    const char *
+    components_of_point() const;
+
     std::vector<std::string>
     columns() const;
 
@@ -105,6 +108,7 @@ namespace geocone
     Choice<PointComponents> components = {
       {{"automatic", PointComponents::automatic},
        {"plane strain", PointComponents::plane_strain},
+       {"axisymmetric", PointComponents::axisymmetric},
        {"3D", PointComponents::all}}};
 
     std::vector<double> initial_stress = {-100e3, -100e3, -100e3, 0., 0., 0.};

@@ -95,6 +95,25 @@ namespace geocone
     double
     elastic_energy(const Mandel &stress, const double *history) const override;
 
+    /** @name Of the yield surface: M (-), a and pc (Pa) */
+    /** @{ */
+    double
+    critical_slope() const
+    {
+      return M;
+    }
+    double
+    attraction() const
+    {
+      return a;
+    }
+    double
+    preconsolidation(const double *history) const
+    {
+      return history[place_of_pc()];
+    }
+    /** @} */
+
     Elasticity
     elasticity_at(const Mandel &stress, const double *history) const override;
 
@@ -139,7 +158,7 @@ namespace geocone
     double
     pressure(const SpatialMandel &stress) const
     {
-      return attraction - trace(stress) / 3.;
+      return a - trace(stress) / 3.;
     }
 
     /** The size Pc of the surface through a stress, P + q^2/(M^2 P) (Pa). */
@@ -154,13 +173,13 @@ namespace geocone
 
     static constexpr double lowest = 1.; ///< P is at least this (Pa)
 
-    double kappa      = 0.01;
-    double lambda     = 0.08;
-    double M          = 1.2;
-    double attraction = 0.; ///< a (Pa)
-    double ratio      = 1.; ///< overconsolidation ratio at the start
-    double given_pc   = 0.; ///< (Pa)
-    double g_over_k   = 0.; ///< G/K (-)
+    double kappa    = 0.01;
+    double lambda   = 0.08;
+    double M        = 1.2;
+    double a        = 0.; ///< attraction (Pa)
+    double ratio    = 1.; ///< overconsolidation ratio at the start
+    double given_pc = 0.; ///< (Pa)
+    double g_over_k = 0.; ///< G/K (-)
 
     enum class Outside
     {
