@@ -5,6 +5,8 @@
     import geocone
     run = geocone.run("prm/footing_mpm.prm", {"Mesh/Cell size": 0.1})
     run = geocone.read("results/footing_mpm")       # the same, of a run that is there
+    runs = geocone.run_many("prm/footing_mpm.prm", {  # side by side
+        size: {"Mesh/Cell size": size} for size in (0.1, 0.05)})
     run.summary["limit_load"]["value"]              # N/m
     run.statistics["load (N/m)"]                    # a numpy array, a value per step
     run.fields("points").point_data["velocity"]     # meshio, the last state
@@ -14,6 +16,8 @@ studies. Nothing that is read is executed.
 """
 
 from geocone.reader import Missing, ReadError, Run, read
-from geocone.runner import RunFailed, run
+from geocone.runner import RunFailed, example, run
+from geocone.side_by_side import run_many
 
-__all__ = ["Missing", "ReadError", "Run", "RunFailed", "read", "run"]
+__all__ = ["Missing", "ReadError", "Run", "RunFailed", "example", "read", "run",
+           "run_many"]

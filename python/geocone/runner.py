@@ -45,17 +45,34 @@ def run(file, parameters=(), *, ranks=1, output=None, program="geocone",
     @return a Run
     @throw RunFailed if the run fails, if one of its expectations does not hold, or if
       there is no such program; with the program's words"""
-    folder = Path(output) if output is not None else free_folder(file)
+    return result_of(lambda words: finish(start(words), time_limit), file, parameters,
+                     ranks, Path(output) if output is not None else free_folder(file),
+                     program, force)
+
+
+def result_of(call, file, parameters, ranks, folder, program, force):
+    """What run() returns or throws, by a function that calls words and tells what came
+    of it."""
     settings = [setting(*item) for item in dict(parameters).items()]
     try:
-        call = command(find_program(program), file, settings, folder, ranks,
-                       ["--force"] if force else [])
-        ended = finish(start(call), time_limit)
+        ended = call(command(find_program(program), file, settings, folder, ranks,
+                             ["--force"] if force else []))
     except OSError as problem:
         raise RunFailed(str(problem), folder)
     if ended.reason:
         raise RunFailed(ended.reason.removeprefix("error: "), folder, ended.output)
     return read(folder)
+
+
+def example(name):
+    """The path of a parameter file that comes with geocone, e.g.
+    example("safety/slope_2to1.prm"): in prm of the source, or where it is installed.
+    @throw FileNotFoundError if there is none"""
+    places = [ROOT / "prm" / name, ROOT.parent / "doc" / "geocone" / "examples" / name]
+    for place in places:
+        if place.is_file():
+            return place
+    raise FileNotFoundError(f"there is no example '{name}' in {places[0].parent}")
 
 
 def free_folder(file):

@@ -7,19 +7,20 @@ depends on, and how the run ended. A run whose digest is unchanged is used again
 """
 
 import csv
+import functools
 import hashlib
 import io
 import json
 import shlex
 import shutil
-import signal
 import sys
 import threading
 import time
 
 from geocone.files import write_whole
 from geocone.reader import leaves
-from geocone.runner import ROOT, command, duration, finish, send, start
+from geocone.runner import ROOT, command, duration
+from geocone.side_by_side import SideBySide
 
 
 def read_json(path):
@@ -66,8 +67,7 @@ class Computer:
     def __init__(self, program, folder, cores):
         self.program, self.folder, self.cores = program, folder, cores
         self.digest = hashlib.sha256(program.read_bytes()).hexdigest()
-        self.children, self.lock = set(), threading.Lock()
-        self.stopped = False
+        self.calls = SideBySide(cores)
         folder.mkdir(parents=True, exist_ok=True)
 
     def key(self, run):
@@ -91,28 +91,16 @@ class Computer:
         key = self.key(run)  # of the files as they are now, not when it has ended
         record.unlink(missing_ok=True)
         shutil.rmtree(folder, ignore_errors=True)
-        child = start(command(self.program, run.file, run.settings, folder, run.ranks))
-        with self.lock:
-            self.children.add(child)
-        try:
-            ended = finish(child, run.time_limit)
-        finally:
-            with self.lock:
-                self.children.discard(child)
-        if self.stopped:
+        ended = self.calls.call(
+            command(self.program, run.file, run.settings, folder, run.ranks),
+            run.time_limit)
+        if self.calls.stopped:
             return
         write_whole(record, json.dumps(
             {"key": key, "status": "failed" if ended.reason else "finished",
              "reason": ended.reason, "code": ended.code,
              "seconds": round(ended.seconds, 3), "command": command_text(run),
              "output": ended.output[-4000:]}, indent=1))
-
-    def stop(self):
-        """Ends what is being computed."""
-        self.stopped = True
-        with self.lock:
-            for child in self.children:
-                send(child, signal.SIGTERM)
 
     def compute(self, runs):
         """Computes what is not there yet, the longest first as far as is known."""
@@ -128,45 +116,27 @@ class Computer:
         progress.failed = sum(self.record(run)["status"] == "failed"
                               for run in runs if run.name not in missing)
         progress.show(f"{progress.done} there from before")
-        free, changed, running = self.cores, threading.Condition(), []
-        began, computed = time.monotonic(), []
+        began, computed, lock = time.monotonic(), [], threading.Lock()
 
-        def work(run, slots):
-            nonlocal free
-            try:
-                self.call(run)
-            finally:
-                with changed:
-                    free += slots
-                    if not self.stopped:
-                        record = self.record(run)
-                        computed.append(run.name)
-                        progress.done += 1
-                        progress.failed += record.get("status") != "finished"
-                        # What the ended ones took, against what was expected.
-                        ended = sum(expected[name] or mean for name in computed)
-                        rest = sum(expected[other.name] or mean for other in waiting
-                                   if other.name not in computed)
-                        progress.left = (time.monotonic() - began) * rest / ended
-                        progress.show(run.name + (
-                            f": {record['reason']}" if record.get("reason") else ""))
-                    changed.notify()
+        def work(run):
+            self.call(run)
+            if self.calls.stopped:
+                return
+            with lock:
+                record = self.record(run)
+                computed.append(run.name)
+                progress.done += 1
+                progress.failed += record.get("status") != "finished"
+                # What the ended ones took, against what was expected.
+                ended = sum(expected[name] or mean for name in computed)
+                rest = sum(expected[other.name] or mean for other in waiting
+                           if other.name not in computed)
+                progress.left = (time.monotonic() - began) * rest / ended
+                progress.show(run.name + (
+                    f": {record['reason']}" if record.get("reason") else ""))
 
-        try:
-            for run in waiting:
-                slots = self.cores if run.alone else min(run.ranks, self.cores)
-                with changed:
-                    changed.wait_for(lambda: free >= slots)
-                    free -= slots
-                running.append(threading.Thread(target=work, args=(run, slots)))
-                running[-1].start()
-            for thread in running:
-                thread.join()
-        except BaseException:
-            self.stop()
-            for thread in running:
-                thread.join()
-            raise
+        self.calls.do([(self.cores if run.alone else run.ranks,
+                        functools.partial(work, run)) for run in waiting])
 
     def row(self, run):
         """What is known of a run, for figures and tables."""
