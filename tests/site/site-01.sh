@@ -1,0 +1,61 @@
+# The site is built; all that its pages link to, with place, and all that they load is in
+# it; and a page that links to nothing is refused. A browser (where there is one) draws all
+# formulas and searches, without a network.
+root=$2 folder=$3
+rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
+fails() { # "! ..." alone would not end this script
+  ! "$@"
+}
+"$root/scripts/site" "$folder/site" > said
+grep -qx "site: $folder/site/index.html" said
+/usr/bin/python3 -B "$root/tests/site/links.py" site
+# Every page of the repository is in it, also by its menu.
+cd "$root"
+for page in *.md doc/*.md doc/cookbook/*.md; do
+  [ "$page" = doc/api.md ] && continue # doxygen's
+  [ -f "$folder/site/${page%.md}.html" ]
+  grep -q "toctree-l.*href=\"\(${page%.md}.html\|#\)\"" "$folder/site/README.html" ||
+    grep -q "toctree-l.*href=\"$(basename "${page%.md}").html\"" \
+      "$folder/site/doc/cookbook/README.html" || [ "$page" = README.md ]
+done
+cd "$folder"
+# The checks find what is wrong.
+cp -r site damaged
+rm damaged/doc/limit_load.html damaged/_images/footing_mpm.png
+sed -i 's/id="how-to-write-your-own-scene"/id="other"/' damaged/README.html
+sed -i 's|</body>|<script src="https://example.org/a.js"></script></body>|' damaged/search.html
+fails /usr/bin/python3 -B "$root/tests/site/links.py" damaged > said
+for words in 'limit_load.html, which is not there' 'footing_mpm.png, which is not there' \
+  'how-to-write-your-own-scene, a place that is not there' \
+  'search.html loads https://example.org/a.js'; do
+  grep -q "$words" said
+done
+mkdir broken
+cp -r "$root"/*.md "$root/CMakeLists.txt" "$root/doc" "$root/scripts" "$root/prm" \
+  "$root/packaging" "$root/LICENSE" broken
+cat >> broken/doc/cookbook/bar.md <<'TEXT'
+
+[a](none.md), [b](../../prm/none.prm), [c](footing.md#none), ![d](none.png)
+TEXT
+fails broken/scripts/site "$folder/refused" > said 2>&1
+[ ! -e refused ]
+for name in none.md none.prm '#none' none.png; do
+  grep -q "bar.md.*$name" said
+done
+# What is no site is not overwritten.
+mkdir other && touch other/file
+fails "$root/scripts/site" "$folder/other" 2> said
+grep -q 'is no site' said && [ -e other/file ]
+if command -v chromium > /dev/null; then
+  shows() {
+    chromium --headless --no-sandbox --disable-gpu --virtual-time-budget=60000 \
+      --host-resolver-rules='MAP * ~NOTFOUND' --dump-dom "file://$folder/site/$1" 2> /dev/null
+  }
+  formulas=$(grep -o 'class="math notranslate' site/doc/theory.html | wc -l)
+  shows doc/theory.html > dom
+  [ "$(grep -o '<svg' dom | wc -l)" -ge "$formulas" ] && [ "$formulas" -gt 500 ]
+  fails grep -q 'class="merror\|<merror\|Math Processing Error' dom
+  shows 'search.html?q=Prandtl' > dom
+  fails grep -q '<a href="doc/cookbook/footing.html' site/search.html
+  grep -q '<a href="doc/cookbook/footing.html' dom
+fi
