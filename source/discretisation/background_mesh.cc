@@ -185,45 +185,6 @@ namespace geocone
       owners[cell->active_cell_index()] =
         Utilities::MPI::this_mpi_process(comm);
     Utilities::MPI::max(owners, comm, owners);
-
-    // Parts connected through faces, by union of the vertices of cells that share
-    // dim of them: cells that touch in less can still rotate.
-    std::vector<unsigned int> part(mesh.cells.size());
-    std::iota(part.begin(), part.end(), 0U);
-    const auto root = [&](unsigned int i) {
-      while (part[i] != i)
-        i = part[i] = part[part[i]];
-      return i;
-    };
-    std::map<std::array<unsigned int, dim>, unsigned int> first_cell;
-    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-      {
-        const auto        &v = mesh.cells[c].vertices;
-        const unsigned int n = v.size();
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int j = i + 1; j < n; ++j)
-            for (unsigned int k = dim == 2 ? 0 : j + 1; k < (dim == 2 ? 1 : n);
-                 ++k)
-              {
-                std::array<unsigned int, dim> shared;
-                shared[0] = v[i];
-                shared[1] = v[j];
-                if (dim == 3)
-                  shared.back() = v[k];
-                std::sort(shared.begin(), shared.end());
-                const auto entry = first_cell.emplace(shared, c).first;
-                part[root(c)]    = root(entry->second);
-              }
-      }
-    std::map<unsigned int, unsigned int> number;
-    part_of_vertex.assign(mesh.points.size(), 0);
-    for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-      {
-        const unsigned int p =
-          number.emplace(root(c), number.size()).first->second;
-        for (const unsigned int v : mesh.cells[c].vertices)
-          part_of_vertex[v] = p;
-      }
   }
 
   std::array<unsigned int, dim>
@@ -278,9 +239,55 @@ namespace geocone
   }
 
   std::vector<unsigned int>
-  BackgroundMesh::connected_parts() const
+  BackgroundMesh::connected_parts(const std::vector<Cell> &cells) const
   {
-    return part_of_vertex;
+    std::vector<unsigned int> is_there(tria->n_active_cells(), 0);
+    for (const Cell &cell : cells)
+      is_there[cell->active_cell_index()] = 1;
+    Utilities::MPI::max(is_there, comm, is_there);
+
+    // Parts connected through faces, by union of the vertices of cells that share
+    // dim of them: cells that touch in less can still rotate.
+    std::vector<unsigned int> part(tria->n_active_cells());
+    std::iota(part.begin(), part.end(), 0U);
+    const auto root = [&](unsigned int i) {
+      while (part[i] != i)
+        i = part[i] = part[part[i]];
+      return i;
+    };
+    std::map<std::array<unsigned int, dim>, unsigned int> first_cell;
+    for (const auto &cell : tria->active_cell_iterators())
+      {
+        const unsigned int c = cell->active_cell_index(),
+                           n = cell->n_vertices();
+        if (is_there[c] == 0)
+          continue;
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = i + 1; j < n; ++j)
+            for (unsigned int k = dim == 2 ? 0 : j + 1; k < (dim == 2 ? 1 : n);
+                 ++k)
+              {
+                std::array<unsigned int, dim> shared;
+                shared[0] = cell->vertex_index(i);
+                shared[1] = cell->vertex_index(j);
+                if (dim == 3)
+                  shared.back() = cell->vertex_index(k);
+                std::sort(shared.begin(), shared.end());
+                const auto entry = first_cell.emplace(shared, c).first;
+                part[root(c)]    = root(entry->second);
+              }
+      }
+    std::map<unsigned int, unsigned int> number;
+    std::vector<unsigned int>            of_vertex(tria->n_vertices(), 0);
+    for (const auto &cell : tria->active_cell_iterators())
+      if (const unsigned int c = cell->active_cell_index(); is_there[c] > 0)
+        {
+          const unsigned int p =
+            number.emplace(root(c), number.size()).first->second;
+          for (unsigned int i = 0; i < cell->n_vertices(); ++i)
+            of_vertex[cell->vertex_index(i)] = p;
+        }
+    return of_vertex;
   }
 
   std::set<types::boundary_id>

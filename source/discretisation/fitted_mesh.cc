@@ -60,8 +60,17 @@ namespace geocone
       {
         MeshLines lines;
         if (dim == 2)
-          lines = scene.water.lines(domain.get_boundary_points().first,
-                                    domain.get_boundary_points().second);
+          {
+            lines = scene.water.lines(domain.get_boundary_points().first,
+                                      domain.get_boundary_points().second);
+            // What a stage removes is removed by cells.
+            for (const auto &stage : scene.loading.stages)
+              if (const Polygon &polygon = stage->removed_polygon;
+                  !polygon.empty())
+                for (std::size_t i = 0; i < polygon.size(); ++i)
+                  lines.push_back(
+                    {{polygon[i], polygon[(i + 1) % polygon.size()]}});
+          }
         mesh =
           sizes != nullptr
             ? mesh_with_sizes(parameters, scene.regions, lines, *sizes, comm)

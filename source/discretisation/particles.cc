@@ -115,10 +115,20 @@ namespace geocone
               in_first_row(
                 *conditions[c], scene.geometry, seed.position, seed.volume))
             one.held_by[0] = c + 1;
-        states.resize(states.size() + n_state);
-        StateRow row(&states[states.size() - n_state], false);
+        std::vector<double> *to = &states;
+        if (scene.loading.adds(scene.materials.name(seed.material)))
+          {
+            Waiting &later  = waiting[seed.material];
+            to              = &later.states;
+            one.velocity[0] = Tensor<1, dim>();
+            later.id.push_back(first + i);
+            later.position.push_back(seed.position);
+          }
+        else
+          places.push_back({first + i, unknown_cell, seed.position, {}});
+        to->resize(to->size() + n_state);
+        StateRow row(&(*to)[to->size() - n_state], false);
         one.state(0, row);
-        places.push_back({first + i, unknown_cell, seed.position, {}});
       }
     start.check<InputError>(comm);
     sort();
@@ -248,6 +258,33 @@ namespace geocone
     archive.read_row("particles/lost")(n_lost_all);
   }
 
+  void
+  Particles::keep(const std::vector<bool> &stays)
+  {
+    std::size_t n = 0;
+    for (std::size_t p = 0; p < places.size(); ++p)
+      if (stays[p])
+        {
+          places[n] = places[p];
+          std::copy_n(&states[p * n_state], n_state, &states[n_state * n++]);
+        }
+    places.resize(n);
+    states.resize(n * n_state);
+  }
+
+  unsigned long
+  Particles::add(const unsigned int material)
+  {
+    const Waiting &now = waiting[material];
+    for (std::size_t i = 0; i < now.id.size(); ++i)
+      places.push_back({now.id[i], unknown_cell, now.position[i], {}});
+    states.insert(states.end(), now.states.begin(), now.states.end());
+    const unsigned long n = Utilities::MPI::sum(now.id.size(), comm);
+    waiting.erase(material);
+    sort();
+    return n;
+  }
+
   std::vector<Particles::Place>
   Particles::sort()
   {
@@ -326,7 +363,7 @@ namespace geocone
   }
 
   void
-  Particles::move(MaterialPoints &points)
+  Particles::store(MaterialPoints &points)
   {
     for (unsigned int p = 0; p < points.n_points(); ++p)
       {
@@ -334,6 +371,12 @@ namespace geocone
         StateRow row(&states[p * n_state], false);
         points.state(p, row);
       }
+  }
+
+  void
+  Particles::move(MaterialPoints &points)
+  {
+    store(points);
     const std::vector<Place> lost = sort();
 
     const unsigned int n_now = Utilities::MPI::sum(lost.size(), comm);

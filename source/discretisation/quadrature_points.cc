@@ -11,6 +11,8 @@
 #include <deal.II/fe/fe_nothing.h>
 #include <deal.II/fe/fe_values.h>
 
+#include <map>
+
 namespace geocone
 {
   using namespace dealii;
@@ -82,10 +84,39 @@ namespace geocone
            Tensor<2, dim>(geometry->fe_values.inverse_jacobian(q));
   }
 
+  namespace
+  {
+    /** Copies what cells have that are in both. */
+    void
+    copy_states(MaterialPoints &from, MaterialPoints &to)
+    {
+      std::map<unsigned int, unsigned int> cell_of;
+      for (unsigned int c = 0; c < from.n_cells(); ++c)
+        cell_of[from.cells[c]->active_cell_index()] = c;
+      for (unsigned int c = 0; c < to.n_cells(); ++c)
+        if (const auto found = cell_of.find(to.cells[c]->active_cell_index());
+            found != cell_of.end())
+          for (unsigned int k = 0;
+               k < to.first_point[c + 1] - to.first_point[c];
+               ++k)
+            {
+              StateRow written;
+              from.state(from.first_point[found->second] + k, written);
+              StateRow row(written.values());
+              to.state(to.first_point[c] + k, row);
+              to.material[to.first_point[c] + k] =
+                from.material[from.first_point[found->second] + k];
+            }
+    }
+  } // namespace
+
   MaterialPoints
-  make_quadrature_points(const Scene          &scene,
-                         const BackgroundMesh &mesh,
-                         const Space          &space)
+  quadrature_points_of(
+    const Scene                                             &scene,
+    const BackgroundMesh                                    &mesh,
+    const Space                                             &space,
+    MaterialPoints                                           known,
+    const std::function<bool(const BackgroundMesh::Cell &)> &is_there)
   {
     MaterialPoints points;
     points.n_nodes   = space.nodes_per_cell();
@@ -95,6 +126,8 @@ namespace geocone
     HistoryStart                         start;
     for (const auto &cell : mesh.own_cells())
       {
+        if (!is_there(cell))
+          continue;
         values.reinit(cell);
         points.cells.push_back(cell);
         space.cell_nodes(cell, nodes);
@@ -112,9 +145,9 @@ namespace geocone
             points.stress[p]   = scene.initial_stress.at(
               x, material, scene.materials, scene.regions);
             start.set(scene.materials.law(material),
-                      stress_of(extended(
-                        points.stress[p],
-                        scene.initial_stress.zz_at(x, points.stress[p]))),
+                      stress_of(extended(points.stress[p],
+                                         scene.initial_stress.zz_at(
+                                           x, material, points.stress[p]))),
                       space.band_width(BackgroundMesh::size_of(cell)),
                       x,
                       &points.history[points.n_history * p]);
@@ -128,20 +161,35 @@ namespace geocone
         points.first_point.push_back(points.weight.size());
       }
     start.check<InputError>(mesh.triangulation().get_communicator());
-    // The first material has what the others leave, which may be nothing.
+    if (space.has_b_bar())
+      project_gradients(space.degree() - 1, points);
+    if (known.n_cells() > 0)
+      copy_states(known, points);
+    return points;
+  }
+
+  MaterialPoints
+  make_quadrature_points(const Scene          &scene,
+                         const BackgroundMesh &mesh,
+                         const Space          &space)
+  {
+    MaterialPoints points = quadrature_points_of(
+      scene, mesh, space, {}, [](const BackgroundMesh::Cell &) {
+        return true;
+      });
+    // The first material has what the others leave, which may be nothing; so may
+    // those have that others become.
     std::vector<unsigned int> n(scene.materials.size(), 0);
     for (const unsigned int material : points.material)
       ++n[material];
     Utilities::MPI::sum(n, mesh.triangulation().get_communicator(), n);
-    for (unsigned int i = 1; i < n.size(); ++i)
-      if (n[i] == 0)
+    for (unsigned int i = 0; i < n.size(); ++i)
+      if (n[i] == 0 && !scene.regions.may_be_empty(i))
         throw InputError("no cell lies in the region of the material '" +
                          scene.materials.name(i) +
                          "'\n  allowed: one cell or more\n"
                          "  remedy:  take smaller cells, or check 'Region "
                          "polygon' and 'Region number'");
-    if (space.has_b_bar())
-      project_gradients(space.degree() - 1, points);
     return points;
   }
 } // namespace geocone

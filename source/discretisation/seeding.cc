@@ -45,7 +45,7 @@ namespace geocone
     /** @throws InputError if a material has no points, or if there are too many
      *  @param n by material, of all ranks */
     void
-    check_numbers(const std::vector<std::size_t> &n, const Materials &materials)
+    check_numbers(const std::vector<std::size_t> &n, const Scene &scene)
     {
       const std::string remedy =
         "\n  allowed: one point or more\n"
@@ -56,10 +56,10 @@ namespace geocone
       if (total == 0)
         throw InputError("the body has no particle" + remedy);
       // The first material has what the others leave, which may be nothing.
-      for (unsigned int i = 1; i < n.size(); ++i)
-        if (n[i] == 0)
+      for (unsigned int i = 0; i < n.size(); ++i)
+        if (n[i] == 0 && !scene.regions.may_be_empty(i))
           throw InputError("no particle lies in the region of the material '" +
-                           materials.name(i) + "'" + remedy);
+                           scene.materials.name(i) + "'" + remedy);
       if (total > most_points)
         throw InputError(format("the body has %zu particles\n"
                                 "  allowed: at most %g\n"
@@ -275,7 +275,7 @@ namespace geocone
       ++n[seed.material];
     });
     Utilities::MPI::sum(n, mesh.triangulation().get_communicator(), all);
-    check_numbers(all, scene.materials);
+    check_numbers(all, scene);
     return n;
   }
 
@@ -289,7 +289,7 @@ namespace geocone
       seeds.push_back(seed);
     });
     Utilities::MPI::sum(n, mesh.triangulation().get_communicator(), n);
-    check_numbers(n, scene.materials);
+    check_numbers(n, scene);
     return seeds;
   }
 
@@ -325,7 +325,7 @@ namespace geocone
         for (unsigned int m = 0; m < n_materials; ++m)
           of_material[m] += by_column.back()[m];
       }
-    check_numbers(of_material, scene.materials);
+    check_numbers(of_material, scene);
     return by_column;
   }
 
@@ -472,7 +472,8 @@ namespace geocone
     if (!given[ParticleFile::sxx])
       seed.stress = scene.initial_stress.at(
         seed.position, seed.material, scene.materials, scene.regions);
-    seed.stress_zz = scene.initial_stress.zz_at(seed.position, seed.stress);
+    seed.stress_zz =
+      scene.initial_stress.zz_at(seed.position, seed.material, seed.stress);
   }
 
   void

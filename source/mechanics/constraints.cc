@@ -351,27 +351,34 @@ namespace geocone
 
   void
   Constraints::check_support(const BackgroundMesh &mesh,
-                             const Space          &space) const
+                             const Space          &space,
+                             const MaterialPoints &points) const
   {
-    const std::vector<unsigned int> part_of_vertex = mesh.connected_parts();
-    unsigned int                    n_parts        = 0;
+    const std::vector<unsigned int> part_of_vertex =
+      mesh.connected_parts(points.cells);
+    unsigned int n_parts = 0;
     for (const unsigned int part : part_of_vertex)
       n_parts = std::max(n_parts, part + 1);
 
     // One representative part per node, and the centre and size of the parts.
     constexpr unsigned int n_sums = dim + 2;
-    std::vector<int>       part_of_node(space.n_local_nodes(), -1);
-    std::vector<double>    sums(n_sums * n_parts, 0.);
-    std::vector<types::global_dof_index> nodes;
-    for (const auto &cell : mesh.own_cells())
-      {
-        space.cell_nodes(cell, nodes);
-        for (const auto node : nodes)
-          part_of_node[space.local_node(node)] =
-            part_of_vertex[cell->vertex_index(0)];
-      }
+    // Of a node all cells may be on other ranks; -1 where it has none.
+    Vector found(space.partitioner());
+    for (unsigned int i = 0; i < dim * space.n_local_nodes(); ++i)
+      found.local_element(i) = -1.;
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      for (unsigned int i = 0; i < points.n_nodes; ++i)
+        found.local_element(dim * points.nodes[c * points.n_nodes + i]) =
+          part_of_vertex[points.cells[c]->vertex_index(0)];
+    found.compress(VectorOperation::max);
+    std::vector<int> part_of_node;
+    for (unsigned int i = 0; i < space.n_owned_nodes(); ++i)
+      part_of_node.push_back(std::lround(found.local_element(dim * i)));
+    std::vector<double> sums(n_sums * n_parts, 0.);
     for (unsigned int i = 0; i < space.n_owned_nodes(); ++i)
       {
+        if (part_of_node[i] < 0)
+          continue;
         const Point<dim> &x = space.node_positions()[i];
         double           *s = &sums[n_sums * part_of_node[i]];
         s[0] += 1.;
@@ -403,7 +410,7 @@ namespace geocone
       return Eigen::Map<Gram>(&gram[n_rigid * n_rigid * p]);
     };
     const auto hold = [&](const unsigned int node, const Tensor<1, dim> &d) {
-      if (node >= space.n_owned_nodes())
+      if (node >= space.n_owned_nodes() || part_of_node[node] < 0)
         return;
       const int            p = part_of_node[node];
       const Tensor<1, dim> r = space.node_positions()[node] - centre[p];

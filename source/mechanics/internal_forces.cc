@@ -244,7 +244,25 @@ namespace geocone
       }
     else
       update_materials(false);
+    sum_forces(
+      stress, [&](const unsigned int p) { return stress_zz[p]; }, part);
+  }
 
+  void
+  InternalForces::forces_at_start(Vector &part) const
+  {
+    sum_forces(
+      points.stress,
+      [&](const unsigned int p) { return whole_stress_n(p)[dim]; },
+      part);
+  }
+
+  template <typename HoopStress>
+  void
+  InternalForces::sum_forces(const std::vector<Mandel> &of_points,
+                             const HoopStress          &hoop_stress,
+                             Vector                    &part) const
+  {
     part = 0.;
     with_n_nodes(points.n_nodes, [&](const auto n_constant) {
       constexpr int n = n_constant;
@@ -254,10 +272,10 @@ namespace geocone
           add_forces_of_cell<n>(
             c,
             [&](const unsigned int p) -> Mandel {
-              return points.weight[p] * stress[p];
+              return points.weight[p] * of_points[p];
             },
             [&](const unsigned int p) {
-              return points.weight[p] * stress_zz[p];
+              return points.weight[p] * hoop_stress(p);
             },
             cell_f);
           turned.forces_to_dofs(c, cell_f);

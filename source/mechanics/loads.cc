@@ -14,6 +14,7 @@ namespace geocone
   integrate_density(const Scene          &scene,
                     const BackgroundMesh &mesh,
                     const Space          &space,
+                    const MaterialPoints &points,
                     Vector               &weight_per_g,
                     Vector               &lumped_mass)
   {
@@ -27,11 +28,12 @@ namespace geocone
     weight_per_g.reinit(space.partitioner());
     lumped_mass.reinit(space.partitioner());
     std::vector<types::global_dof_index> nodes;
-    for (const auto &cell : mesh.own_cells())
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
       {
-        values.reinit(cell);
-        space.cell_nodes(cell, nodes);
-        const double rho = scene.materials[cell->material_id()].density();
+        values.reinit(points.cells[c]);
+        space.cell_nodes(points.cells[c], nodes);
+        const double rho =
+          scene.materials[points.material[points.first_point[c]]].density();
         std::vector<double> row_sum(nodes.size(), 0.);
         std::vector<double> diagonal(nodes.size(), 0.);
         double              total = 0., trace = 0.;
@@ -47,9 +49,9 @@ namespace geocone
             trace += diagonal[i];
           }
         for (unsigned int i = 0; i < nodes.size(); ++i)
-          for (unsigned int c = 0; c < dim; ++c)
+          for (unsigned int d = 0; d < dim; ++d)
             {
-              const unsigned int dof = dim * space.local_node(nodes[i]) + c;
+              const unsigned int dof = dim * space.local_node(nodes[i]) + d;
               weight_per_g.local_element(dof) += row_sum[i];
               lumped_mass.local_element(dof) +=
                 scaled_diagonal ? diagonal[i] * total / trace : row_sum[i];
@@ -61,7 +63,8 @@ namespace geocone
 
   Loads::Loads(const Scene          &scene,
                const BackgroundMesh &mesh,
-               const Space          &space)
+               const Space          &space,
+               const MaterialPoints &points)
     : scene(scene)
   {
     if (scene.water.acts())
@@ -73,7 +76,7 @@ namespace geocone
                             : Quadrature<dim>(QGauss<dim>(space.degree() + 1)));
         of_water.reinit(space.partitioner());
         std::vector<types::global_dof_index> nodes;
-        for (const auto &cell : mesh.own_cells())
+        for (const auto &cell : points.cells)
           {
             values.reinit(cell);
             space.cell_nodes(cell, nodes);
@@ -89,6 +92,9 @@ namespace geocone
           }
         of_water.compress(VectorOperation::add);
       }
+    std::vector<bool> is_there(mesh.triangulation().n_active_cells(), false);
+    for (const auto &cell : points.cells)
+      is_there[cell->active_cell_index()] = true;
     for (unsigned int c = 0; c < scene.tractions.list.size(); ++c)
       {
         const BoundaryCondition &condition = *scene.tractions.list[c];
@@ -96,8 +102,9 @@ namespace geocone
           mesh,
           space,
           condition,
-          [&](const BackgroundMesh::Cell &, const FacePoint &point) {
-            loaded.push_back({c, point});
+          [&](const BackgroundMesh::Cell &cell, const FacePoint &point) {
+            if (is_there[cell->active_cell_index()])
+              loaded.push_back({c, point});
           });
         refuse_no_face(condition,
                        n_faces,

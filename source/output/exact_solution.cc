@@ -88,7 +88,7 @@ namespace geocone
             ? dealii::Quadrature<dim>(dealii::QWitherdenVincentSimplex<dim>(4))
             : dealii::Quadrature<dim>(dealii::QGauss<dim>(space.degree() + 2)));
         std::vector<dealii::types::global_dof_index> nodes;
-        for (const auto &cell : mesh.own_cells())
+        for (const auto &cell : points.cells)
           {
             values.reinit(cell);
             space.cell_nodes(cell, nodes);

@@ -87,8 +87,12 @@ namespace geocone
       add(unit("contact dissipation (J/m)"),
           [this](const Record &) { return contact_dissipation; });
     add(unit("total energy (J/m)"), [this](const Record &r) {
-      return r.last.energies.state() + dissipation + contact_dissipation - work;
+      return r.last.energies.state() + dissipation + contact_dissipation +
+             removed_energy - work;
     });
+    if (scene->loading.changes_body())
+      add(unit("removed energy (J/m)"),
+          [this](const Record &) { return removed_energy; });
     add(unit("numerical loss (J/m)"), [this](const Record &) { return loss; });
     if (remembers())
       add(unit("work of friction memory (J/m)"),
@@ -150,6 +154,8 @@ namespace geocone
         memory_work,
         ghost_work,
         contact_dissipation,
+        removed_energy,
+        removed_potential,
         energy_n,
         initial,
         n_load_jumps,
@@ -269,8 +275,10 @@ namespace geocone
   RunOutput::warn_of_energy(const double time)
   {
     // As in results(); what rounding leaves of nothing is no energy.
-    const double scale = std::max(
-      {std::abs(work), dissipation, std::abs(initial.potential - energy_n)});
+    const double scale =
+      std::max({std::abs(work),
+                dissipation,
+                std::abs(initial.potential - removed_energy - energy_n)});
     if (warned_of_energy || !(loss < -0.01 * scale) || !(loss < -1e-12))
       return;
     warned_of_energy = true;
@@ -511,8 +519,9 @@ namespace geocone
                               records.back().last.largest_plastic_strain}};
         const Energies &e = records.back().last.energies;
         // Potential energy counts from the lower left corner of the mesh.
-        const double released = initial.potential - e.potential;
-        const double begin    = initial.state();
+        const double released =
+          initial.potential - removed_potential - e.potential;
+        const double begin = initial.state();
         // Scale of the rounding in the least loss of a step.
         const double scale = std::max({std::abs(work),
                                        std::abs(released),
@@ -539,6 +548,8 @@ namespace geocone
           {"loss_to_initial", begin > 0. ? Json(loss / begin) : nothing},
           {"least_step_loss_relative", least_loss / scale},
           {"identity_error_max", identity}};
+        if (scene->loading.changes_body())
+          json["energy"][unit("removed_J_per_m")] = removed_energy;
       }
     return json;
   }

@@ -29,6 +29,8 @@ namespace geocone
                                               explicit_output.fields_asked());
     log.print(options.name + ": " + estimate.text());
     estimate.check(options.force);
+    for (const auto &stage : scene.loading.stages)
+      stage->check_explicit();
     const std::vector<std::string> remarks = stepper.prepare(scene, method);
     observed_points.prepare_points(scene, stepper.points(), comm);
     return remarks;

@@ -231,10 +231,18 @@ namespace geocone
   }
 
   void
-  ImplicitSimulation::begin_stage(const Stage &stage, const double)
+  ImplicitSimulation::begin_stage(const Stage &stage, const double t)
   {
     if (stage.reset_displacement)
       stepper->reset(kinematics, points);
+    if (stage.changes_body())
+      {
+        const BodyChange change =
+          stepper->change_body(stage, t, timer, kinematics, points);
+        run_output.change_body(change);
+        for (const std::string &remark : change.remarks)
+          log.print("stage " + stage.name + ": " + remark);
+      }
     // What begins to move jumps: a step of a small part of the memory is nearly
     // convex, and longer ones follow by themselves.
     constexpr double first_part = 1. / 16.;

@@ -582,8 +582,10 @@ namespace geocone
   }
 
   void
-  Regions::prepare(const Geometry &geometry)
+  Regions::prepare(const Geometry          &geometry,
+                   const std::vector<bool> &may_be_empty_)
   {
+    empty_ones = may_be_empty_;
     for (std::size_t i = 0; i < regions.size(); ++i)
       {
         const Region     &region  = *regions[i];
@@ -595,7 +597,7 @@ namespace geocone
                            region.id,
                            "-1, unless the domain comes from a .msh file",
                            "give a 'Region polygon' instead");
-        if (i > 0 && region.polygon.empty() && region.id < 0)
+        if (region.polygon.empty() && region.id < 0 && !may_be_empty(i))
           throw InputError(section + "/Region polygon",
                            "",
                            "a polygon (or a region number) for every material "

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
 #include <geocone/scene/loading.h>
+#include <geocone/scene/water.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -87,26 +89,46 @@ namespace geocone
                   "Explicit MPM: at the beginning of this stage, set the "
                   "internal variables of the soil from its stress, as at the "
                   "start of a run.");
-    add_parameter("Removed polygon",
-                  removed_polygon,
-                  std::string("Explicit MPM: ") +
-                    (dim == 2 ? "vertices x, y; x, y; ... (m)"
-                              : "lowest and highest corner x, y, z; x, y, z of "
-                                "a box (m)") +
-                    "; the points that lie in it when the stage begins are "
-                    "taken away (a cut).");
     add_parameter(
-      "Removed where",
-      removed_where_text,
-      std::string("Explicit MPM: the points where this formula in ") +
-        coordinates +
-        " (m) is > 0 when the stage begins are taken away, e.g. y "
-        "- x above a slope of 45 degrees; of those in 'Removed "
-        "polygon' if that is given, too.");
+      "Removed polygon",
+      removed_polygon,
+      std::string(dim == 2 ? "Vertices x, y; x, y; ... (m)"
+                           : "Lowest and highest corner x, y, z; x, y, z of "
+                             "a box (m)") +
+        "; the points (FEM: cells, by their centres) that lie in it when the "
+        "stage begins are taken away (a cut, an excavation)" +
+        (dim == 2 ? ". Unstructured meshes have edges along it." : "."));
+    add_parameter("Removed where",
+                  removed_where_text,
+                  std::string("The points (FEM: cells, by their centres) where "
+                              "this formula in ") +
+                    coordinates +
+                    " (m) is > 0 when the stage begins are taken away, e.g. y "
+                    "- x above a slope of 45 degrees; of those in 'Removed "
+                    "polygon' if that is given, too.");
     add_parameter("Removal duration",
                   removal_duration,
-                  "Explicit MPM: time (s) over which the weight and the stress "
-                  "of the removed points go to zero; 0: at once.");
+                  "Time (s) over which the weight and the stress of the "
+                  "removed points go to zero: with FEM and MPM, the forces "
+                  "that what is removed at once exerted on the rest; 0: at "
+                  "once.");
+    add_parameter(
+      "Added materials",
+      added_materials,
+      "FEM and MPM: names of materials whose regions are empty before this "
+      "stage (an embankment, a backfill): they are there from its beginning "
+      "on, without stress, with what is elastic of them at once.");
+    add_parameter("Addition duration",
+                  addition_duration,
+                  "FEM and MPM: time (s) over which the weight of the added "
+                  "materials grows from zero; 0: at once.");
+    add_parameter(
+      "Changed materials",
+      changed_materials,
+      "FEM and MPM: OLD: NEW, ...: at the beginning of the stage all of the "
+      "material OLD becomes the material NEW, with its strength, stiffness and "
+      "density (ground that is improved, or softens); stresses stay. NEW needs "
+      "no region of its own.");
   }
 
   void
@@ -125,19 +147,45 @@ namespace geocone
     };
     // Damping and its tests are means of explicit steps to come to rest: they are
     // not used (unused_parameters.cc).
-    if (removal_duration != 0.)
-      refuse("Removal duration",
-             dealii::Patterns::Tools::to_string(removal_duration),
-             "0");
     for (const auto &[entry, value] :
          {std::pair<const char *, bool>("Reset velocity", reset_velocity),
           {"Reset history", reset_history}})
       if (value)
         refuse(entry, "true", "false");
-    if (!removed_polygon.empty())
-      refuse("Removed polygon", "given", "empty");
-    if (!removed_where_text.empty())
-      refuse("Removed where", removed_where_text, "empty");
+  }
+
+  void
+  Stage::check_explicit() const
+  {
+    for (const auto &[entry, material] :
+         {std::pair<std::string, std::string>(
+            "Added materials",
+            added_materials.empty() ? "" : added_materials.front()),
+          {"Changed materials",
+           changed_materials.empty() ? "" : changed_materials.begin()->first}})
+      if (!material.empty())
+        throw InputError(get_section_name().substr(1) + "/" + entry,
+                         material,
+                         "nothing with explicit MPM",
+                         "leave it out, or set Discretisation/Method = FEM or "
+                         "MPM");
+  }
+
+  std::string
+  Stage::removal_text(const unsigned long n_removed,
+                      const unsigned long n_all,
+                      const std::string  &what) const
+  {
+    if (n_removed == 0 || n_removed == n_all)
+      throw StepFailure(
+        "'Loading/" + name + "/" +
+        (removed_polygon.empty() ? "Removed where" : "Removed polygon") +
+        "' holds " + (n_removed == 0 ? "no" : "all") + " " + what +
+        " of the body\n  allowed: a part of it\n"
+        "  remedy:  compare it with where they are now");
+    return format("removed %lu of %lu ", n_removed, n_all) + what +
+           (removal_duration == 0. ? ""
+                                   : format(" within %g s", removal_duration));
   }
 
   void
@@ -184,7 +232,8 @@ namespace geocone
          {std::pair<const char *, double>("Largest unbalanced force",
                                           largest_unbalanced_force),
           {"Largest kinetic energy", largest_kinetic_energy},
-          {"Removal duration", removal_duration}})
+          {"Removal duration", removal_duration},
+          {"Addition duration", addition_duration}})
       if (!(value >= 0.))
         throw InputError(section + entry, value, ">= 0", "0 is none");
     if (!removed_polygon.empty())
@@ -197,11 +246,19 @@ namespace geocone
                        removal_duration,
                        "0 where nothing is removed",
                        "give 'Removed polygon' or 'Removed where', too");
-    if (removal_duration > duration)
-      throw InputError(section + "Removal duration",
-                       removal_duration,
-                       "at most the duration of the stage",
-                       "make the stage longer");
+    if (added_materials.empty() && addition_duration > 0.)
+      throw InputError(section + "Addition duration",
+                       addition_duration,
+                       "0 where nothing is added",
+                       "give 'Added materials', too");
+    for (const auto &[entry, value] :
+         {std::pair<const char *, double>("Removal duration", removal_duration),
+          {"Addition duration", addition_duration}})
+      if (value > duration)
+        throw InputError(section + entry,
+                         value,
+                         "at most the duration of the stage",
+                         "make the stage longer");
   }
 
   bool
@@ -285,14 +342,77 @@ namespace geocone
     return factor;
   }
 
+  bool
+  LoadingProgramme::changes_body() const
+  {
+    return std::any_of(stages.begin(), stages.end(), [](const auto &stage) {
+      return stage->changes_body();
+    });
+  }
+
+  bool
+  LoadingProgramme::adds(const std::string &material) const
+  {
+    return std::any_of(stages.begin(), stages.end(), [&](const auto &stage) {
+      const auto &added = stage->added_materials;
+      return std::find(added.begin(), added.end(), material) != added.end();
+    });
+  }
+
+  bool
+  LoadingProgramme::makes(const std::string &material) const
+  {
+    for (const auto &stage : stages)
+      for (const auto &[from, to] : stage->changed_materials)
+        if (to == material)
+          return true;
+    return false;
+  }
+
   void
-  LoadingProgramme::prepare()
+  LoadingProgramme::prepare(const std::vector<std::string> &materials)
   {
     if (stages.empty())
       throw InputError(
         "Loading/Stages", "", "at least one name", "set Stages = push");
+    const auto check_name = [&](const std::string &parameter,
+                                const std::string &material) {
+      if (std::find(materials.begin(), materials.end(), material) ==
+          materials.end())
+        throw InputError(parameter,
+                         material,
+                         "names in 'Materials/Names'",
+                         "check the spelling");
+    };
+    std::vector<std::string> added;
     for (const auto &stage : stages)
-      stage->prepare();
+      {
+        stage->prepare();
+        for (const auto &[from, to] : stage->changed_materials)
+          for (const std::string &material : {from, to})
+            check_name("Loading/" + stage->name + "/Changed materials",
+                       material);
+        for (const std::string &material : stage->added_materials)
+          {
+            const std::string parameter =
+              "Loading/" + stage->name + "/Added materials";
+            check_name(parameter, material);
+            if (std::find(added.begin(), added.end(), material) != added.end())
+              throw InputError(parameter,
+                               material,
+                               "each material once",
+                               "a material cannot be added twice: leave it out "
+                               "here, or give the second part a material of "
+                               "its own");
+            added.push_back(material);
+            if (added.size() == materials.size())
+              throw InputError(parameter,
+                               material,
+                               "not all of 'Materials/Names'",
+                               "leave the material out that is there from the "
+                               "start");
+          }
+      }
   }
 
   Gravity::Gravity()
@@ -406,16 +526,14 @@ namespace geocone
   }
 
   void
-  InitialStress::prepare(const Gravity  &gravity,
-                         const Geometry &geometry,
-                         const Regions  &regions,
-                         const bool      has_water)
+  InitialStress::prepare(const Gravity           &gravity,
+                         const Geometry          &geometry,
+                         const Regions           &regions,
+                         const Water             &water_of_scene,
+                         const std::vector<bool> &is_added_later)
   {
-    if (has_water && type == Type::geostatic)
-      throw InputError("Initial stress/Type",
-                       type.word(),
-                       "zero | given where there is water",
-                       "give effective stresses by formulas");
+    water    = water_of_scene.acts() ? &water_of_scene : nullptr;
+    is_added = is_added_later;
     if (type == Type::given)
       {
         for (unsigned int i = 0; i < texts.size(); ++i)
@@ -444,7 +562,20 @@ namespace geocone
                            "give the stress by formulas, or the materials by "
                            "region polygons");
         check_level_ground(geometry);
+        check_level_water();
       }
+  }
+
+  void
+  InitialStress::check_level_water() const
+  {
+    if (water != nullptr && !water->is_level())
+      throw InputError("Initial stress/Type",
+                       type.word(),
+                       "zero | given where the water is not level",
+                       "water that flows pushes the soil sideways: let gravity "
+                       "and water build up the stress in a stage of their own, "
+                       "or give one level in 'Water/Table'");
   }
 
   void
@@ -508,6 +639,8 @@ namespace geocone
                     const Materials          &materials,
                     const Regions            &regions) const
   {
+    if (type == Type::zero || is_added[material])
+      return Mandel::Zero();
     if (type == Type::given)
       {
         std::array<double, n_mandel> values;
@@ -515,8 +648,6 @@ namespace geocone
           values[i] = components[i].value(x, 0.);
         return mandel_of_components(values);
       }
-    if (type == Type::zero)
-      return Mandel::Zero();
 
     // Weight of the column above x, by a midpoint sum that is exact
     // for one material and within a 400th of the depth at layer boundaries.
@@ -527,10 +658,16 @@ namespace geocone
       {
         dealii::Point<dim> above = x;
         above[1] += depth * (i + 0.5) / n;
-        mass +=
-          materials.law(regions.material_at(above, -1)).density() * depth / n;
+        if (const unsigned int m = regions.material_at(above, -1); !is_added[m])
+          mass += materials.law(m).density() * depth / n;
       }
-    const double vertical = -(surcharge + g * mass);
+    double vertical = -(surcharge + g * mass);
+    if (water != nullptr)
+      {
+        dealii::Point<dim> top = x;
+        top[1]                 = surface;
+        vertical += water->pressure(x) - water->pressure(top);
+      }
     const double ratio =
       k0 ? *k0 : materials.law(material).earth_pressure_at_rest();
     Mandel stress = ratio * vertical * unit_tensor<n_mandel>();
@@ -540,9 +677,11 @@ namespace geocone
 
   double
   InitialStress::zz_at(const dealii::Point<dim> &x,
+                       const unsigned int        material,
                        const Mandel             &in_plane) const
   {
-    return type == Type::given && !text_zz.empty() ? component_zz.value(x, 0.)
-                                                   : in_plane[0];
+    return type == Type::given && !text_zz.empty() && !is_added[material]
+             ? component_zz.value(x, 0.)
+             : in_plane[0];
   }
 } // namespace geocone

@@ -55,16 +55,24 @@ namespace geocone
     materials.prepare();
     if (geometry.is_axisymmetric())
       materials.set_axisymmetric();
-    regions.prepare(geometry);
+    std::vector<std::string> names;
+    std::vector<bool>        is_added, is_made;
+    for (unsigned int i = 0; i < materials.size(); ++i)
+      {
+        names.push_back(materials.name(i));
+        is_added.push_back(loading.adds(names.back()));
+        is_made.push_back(loading.makes(names.back()));
+      }
+    loading.prepare(names);
+    regions.prepare(geometry, is_made);
     gravity.prepare();
     water.prepare(gravity);
     initial_velocity.prepare();
-    initial_stress.prepare(gravity, geometry, regions, water.acts());
+    initial_stress.prepare(gravity, geometry, regions, water, is_added);
     dirichlet.prepare();
     tractions.prepare();
     absorbing.prepare();
     obstacles.prepare();
-    loading.prepare();
     for (const auto &obstacle : obstacles.list)
       for (const auto &condition : dirichlet.list)
         if (condition->name == obstacle->name)

@@ -67,6 +67,14 @@ namespace geocone
     return {{a[1] + slope * (x - a[0]), slope}};
   }
 
+  bool
+  Water::is_level() const
+  {
+    return std::all_of(table.begin(), table.end(), [&](const Point<dim> &p) {
+      return p[1] == table.front()[1];
+    });
+  }
+
   double
   Water::pressure(const Point<dim> &x) const
   {

@@ -188,15 +188,9 @@ namespace geocone
           ++n_all;
           n_removed += stage.removes(group.position(p));
         }
-    n_removed = Utilities::MPI::sum(n_removed, comm);
-    n_all     = Utilities::MPI::sum(n_all, comm);
-    if (n_removed == 0 || n_removed == n_all)
-      throw StepFailure(
-        "'Loading/" + stage.name + "/" +
-        (stage.removed_polygon.empty() ? "Removed where" : "Removed polygon") +
-        "' holds " + (n_removed == 0 ? "no point" : "all points") +
-        " of the body\n  allowed: a part of it\n"
-        "  remedy:  compare it with where the points are now");
+    n_removed              = Utilities::MPI::sum(n_removed, comm);
+    n_all                  = Utilities::MPI::sum(n_all, comm);
+    const std::string text = stage.removal_text(n_removed, n_all, "points");
 
     double                   removed_mass = 0.;
     Tensor<1, dim>           momentum;
@@ -242,15 +236,11 @@ namespace geocone
         fade_end = t + stage.removal_duration;
       }
     must_refresh = true;
-    return format(
-      "removed %lu of %lu points%s: %.6g %s, momentum (%s) %s",
-      n_removed,
-      n_all,
-      at_once ? "" : format(" within %g s", stage.removal_duration).c_str(),
-      removed_mass,
-      unit("kg/m").c_str(),
-      text_of_vector(momentum, "%.3g").c_str(),
-      unit("N s/m").c_str());
+    return text + format(": %.6g %s, momentum (%s) %s",
+                         removed_mass,
+                         unit("kg/m").c_str(),
+                         text_of_vector(momentum, "%.3g").c_str(),
+                         unit("N s/m").c_str());
   }
 
   void

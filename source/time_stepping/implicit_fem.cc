@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
 #include <geocone/base/over_ranks.h>
 #include <geocone/discretisation/cell_record.h>
 #include <geocone/discretisation/quadrature_points.h>
@@ -71,10 +72,17 @@ namespace geocone
                        "set Time stepping/Inertia = true");
     check_round_body(*scene, space_);
     check_midpoint(integration, scene->materials, "Time stepping/Integration");
-    points      = make_quadrature_points(*scene, mesh_, space_);
+    points = make_quadrature_points(*scene, mesh_, space_);
+    if (scene->loading.changes_body())
+      {
+        check_changes();
+        points = quadrature_points_of(
+          *scene, mesh_, space_, {}, [&](const BackgroundMesh::Cell &cell) {
+            return !scene->loading.adds(
+              scene->materials.name(cell->material_id()));
+          });
+      }
     constraints = std::make_unique<Constraints>(*scene, mesh_, space_);
-    constraints->number_unknowns(nullptr);
-    constraints->check_axis(mesh_, space_);
     obstacles = std::make_unique<ObstacleContact>(*scene, mesh_, space_, true);
     kinematics.velocity.reinit(space_.partitioner());
     kinematics.displacement.reinit(space_.partitioner());
@@ -88,31 +96,154 @@ namespace geocone
       newton.linear_solver(),
       mesh_.triangulation().get_communicator(),
       scene->materials.symmetric() && !obstacles->exists());
+    absorbing = std::make_unique<AbsorbingBoundary>(*scene, mesh_, space_);
+    absorbing->check(*constraints);
+    begin(points, timer);
+    constraints->check_axis(mesh_, space_);
+    check_resistance(points, mesh_.triangulation().get_communicator());
+    newton.check(*problem);
+    return "";
+  }
+
+  void
+  ImplicitFEM::begin(const MaterialPoints &points, TimerOutput &timer)
+  {
+    if (scene->loading.changes_body())
+      {
+        Vector n_cells(space->partitioner()); // of each node
+        for (const unsigned int node : points.nodes)
+          for (unsigned int d = 0; d < dim; ++d)
+            n_cells.local_element(dim * node + d) += 1.;
+        n_cells.compress(dealii::VectorOperation::add);
+        n_cells.update_ghost_values();
+        constraints->number_unknowns(&n_cells);
+      }
+    else
+      constraints->number_unknowns(nullptr);
     // Whether obstacles hold the body is not known before they touch.
     if (!inertia && !obstacles->exists())
-      constraints->check_support(mesh_, space_);
-    loads = std::make_unique<Loads>(*scene, mesh_, space_);
-    check_resistance(points, mesh_.triangulation().get_communicator());
+      constraints->check_support(*mesh, *space, points);
+    loads = std::make_unique<Loads>(*scene, *mesh, *space, points);
     if (inertia || scene->gravity.acts())
-      integrate_density(*scene, mesh_, space_, weight_per_g, lumped_mass);
-    if (loads->exist())
-      force.reinit(space_.partitioner());
+      integrate_density(
+        *scene, *mesh, *space, points, weight_per_g, lumped_mass);
+    if (has_force())
+      force.reinit(space->partitioner());
     problem =
       std::make_unique<IncrementalProblem>(points,
                                            scene->materials,
                                            *constraints,
-                                           space_.partitioner(),
+                                           space->partitioner(),
                                            inertia ? &lumped_mass : nullptr,
                                            0.,
                                            std::vector<GhostStencil>(),
                                            obstacles->exists());
-    absorbing = std::make_unique<AbsorbingBoundary>(*scene, mesh_, space_);
-    absorbing->check(*constraints);
     if (absorbing->exists())
       problem->add(*absorbing);
-    newton.check(*problem);
     system->set_pattern(*problem, timer);
-    return "";
+    begun = true;
+  }
+
+  void
+  ImplicitFEM::check_changes() const
+  {
+    const std::string who    = "stages that remove or add material, with FEM",
+                      remedy = "leave one of them out, or set "
+                               "Discretisation/Method = MPM";
+    scene->obstacles.refuse(who, remedy);
+    scene->absorbing.refuse(who, "leave one of them out");
+  }
+
+  Vector
+  ImplicitFEM::net_force(const double t) const
+  {
+    Vector net = problem->make_vector(), of_stress = net;
+    loads->evaluate(net, weight_per_g, t);
+    problem->internal_forces().forces_at_start(of_stress);
+    constraints->turn_back(of_stress);
+    net -= of_stress;
+    return net;
+  }
+
+  BodyChange
+  ImplicitFEM::change_body(const Stage    &stage,
+                           const double    t,
+                           TimerOutput    &timer,
+                           Kinematics     &kinematics,
+                           MaterialPoints &points)
+  {
+    using Cell = BackgroundMesh::Cell;
+    if (!begun)
+      begin(points, timer);
+    const MPI_Comm comm = kinematics.velocity.get_mpi_communicator();
+    BodyChange     change;
+    change.before = state_energies(kinematics, points, t);
+
+    std::vector<bool> is_there(mesh->triangulation().n_active_cells(), false);
+    for (const Cell &cell : points.cells)
+      is_there[cell->active_cell_index()] = true;
+    const auto take = [&](const double duration) {
+      const std::vector<bool> had_cells  = constraints->with_mass;
+      Vector                  difference = net_force(t);
+      points                             = quadrature_points_of(
+        *scene, *mesh, *space, std::move(points), [&](const Cell &cell) {
+          return is_there[cell->active_cell_index()];
+        });
+      begin(points, timer);
+      difference -= net_force(t);
+      // Nodes without cells are at rest, and where cells come to be displacements
+      // begin.
+      for (unsigned int i = 0; i < difference.locally_owned_size(); ++i)
+        if (!constraints->has_mass(i) || !had_cells[i])
+          {
+            kinematics.velocity.local_element(i) = 0.;
+            if (constraints->has_mass(i))
+              kinematics.displacement.local_element(i) = 0.;
+            else
+              difference.local_element(i) = 0.;
+          }
+      fading.add(std::move(difference), t, duration);
+    };
+
+    if (stage.removes())
+      {
+        unsigned int n = 0;
+        for (const Cell &cell : points.cells)
+          if (stage.removes(cell->center()))
+            {
+              is_there[cell->active_cell_index()] = false;
+              ++n;
+            }
+        change.remarks.push_back(stage.removal_text(
+          dealii::Utilities::MPI::sum(n, comm),
+          dealii::Utilities::MPI::sum(points.n_cells(), comm),
+          "cells"));
+        take(stage.removal_duration);
+      }
+    for (const std::string &material : stage.added_materials)
+      {
+        unsigned int n = 0;
+        for (const Cell &cell : mesh->own_cells())
+          if (scene->materials.name(cell->material_id()) == material)
+            {
+              is_there[cell->active_cell_index()] = true;
+              ++n;
+            }
+        change.remarks.push_back(format("added %u cells of the material '",
+                                        dealii::Utilities::MPI::sum(n, comm)) +
+                                 material + "'");
+      }
+    if (!stage.added_materials.empty())
+      take(stage.addition_duration);
+    if (!stage.changed_materials.empty())
+      {
+        for (const std::string &remark :
+             change_materials(stage, *scene, *space, comm, points))
+          change.remarks.push_back(remark);
+        begin(points, timer);
+      }
+    change.after = state_energies(kinematics, points, t);
+    return change;
   }
 
   void
@@ -163,15 +294,19 @@ namespace geocone
                        const double           t,
                        const double           h)
   {
+    if (!begun)
+      begin(points, timer);
     const TimeStep step(integration, t, h);
     const double   solved_h = step.solved_h, solved_at = step.solved_at;
-    if (loads->exist())
-      loads->evaluate(force, weight_per_g, solved_at);
-    Vector prescribed = problem->make_vector();
+    Vector         prescribed = problem->make_vector();
     constraints->set_values(prescribed, solved_at);
     // Where dofs are turned, the problem has its vectors along them.
-    if (loads->exist())
-      constraints->turn(force);
+    if (has_force())
+      {
+        loads->evaluate(force, weight_per_g, solved_at);
+        fading.add_to(force, solved_at);
+        constraints->turn(force);
+      }
     velocity_n = kinematics.velocity;
     constraints->turn(velocity_n);
     ContactStep touching;
@@ -184,7 +319,7 @@ namespace geocone
     if (absorbing->exists())
       absorbing->begin_step(solved_at, *constraints);
     problem->begin_step(solved_h,
-                        loads->exist() ? &force : nullptr,
+                        has_force() ? &force : nullptr,
                         velocity_n,
                         prescribed,
                         std::move(touching));
@@ -206,7 +341,7 @@ namespace geocone
     std::array<double, 2> sums = {}; // external work, dissipation
     for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
       {
-        if (loads->exist())
+        if (has_force())
           sums[0] += h * force.local_element(i) * v.local_element(i);
         if (constraints->is_prescribed(i))
           sums[0] += h * residual.local_element(i) * v.local_element(i);
@@ -302,10 +437,14 @@ namespace geocone
              p < points.first_point[c + 1];
              ++p)
           points.state(p, row);
+        if (scene->loading.changes_body())
+          row(points.material[points.first_point[c]]);
         cells.add(points.cells[c], row.values().size() - before);
       }
     archive.write("points/cells", cells.numbers);
     archive.write("points/state", row.values());
+    if (scene->loading.changes_body())
+      fading.save(archive, *mesh, *space);
     if (obstacles->exists())
       {
         StateRow moved;
@@ -321,6 +460,15 @@ namespace geocone
   {
     const std::vector<double> numbers = archive.read("points/state");
     const CellRecord cells(archive.read("points/cells"), numbers.size());
+    if (scene->loading.changes_body())
+      {
+        points = quadrature_points_of(
+          *scene, *mesh, *space, {}, [&](const BackgroundMesh::Cell &cell) {
+            return cells.has(cell);
+          });
+        fading.load(archive, *mesh, *space);
+        begun = false;
+      }
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       {
         const auto [begin, end] = cells.range(points.cells[c]);
@@ -330,6 +478,14 @@ namespace geocone
              p < points.first_point[c + 1];
              ++p)
           points.state(p, row);
+        if (scene->loading.changes_body())
+          {
+            unsigned int material;
+            row(material);
+            std::fill(points.material.begin() + points.first_point[c],
+                      points.material.begin() + points.first_point[c + 1],
+                      material);
+          }
         if (!row.at_end())
           throw RunError("the checkpoint has other points");
       }

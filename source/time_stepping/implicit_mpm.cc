@@ -11,6 +11,8 @@
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_control.h>
 
+#include <algorithm>
+
 namespace geocone
 {
   using namespace dealii;
@@ -421,6 +423,7 @@ namespace geocone
       constraints->set_values(v, step.solved_at);
       moving->make_rows(points, v, step.solved_at, *constraints);
       evaluate_force(points, step.solved_at);
+      fading.add_to(force, step.solved_at);
     }
     report.unknowns    = constraints->n_rows;
     report.multipliers = constraints->multipliers.n_rows();
@@ -522,9 +525,90 @@ namespace geocone
     return report;
   }
 
+  Vector
+  ImplicitMPM::net_force(const MaterialPoints &points, const double t)
+  {
+    evaluate_force(points, t);
+    Vector net = force, of_stress = problem->make_vector();
+    problem->internal_forces().forces_at_start(of_stress);
+    net -= of_stress;
+    return net;
+  }
+
+  BodyChange
+  ImplicitMPM::change_body(const Stage    &stage,
+                           const double    t,
+                           TimerOutput    &timer,
+                           Kinematics     &kinematics,
+                           MaterialPoints &points)
+  {
+    if (!begun)
+      begin(points, timer);
+    BodyChange change;
+    change.before = state_energies(kinematics, points, t);
+    Vector     difference;
+    const auto take = [&](const double duration) {
+      points = particles.collect(*mesh, *space);
+      begin(points, timer);
+      difference -= net_force(points, t);
+      for (unsigned int i = 0; i < difference.locally_owned_size(); ++i)
+        if (!constraints->has_mass(i))
+          difference.local_element(i) = 0.;
+      fading.add(std::move(difference), t, duration);
+    };
+    if (stage.removes())
+      {
+        std::vector<bool> stays;
+        for (const Point<dim> &x : points.position)
+          stays.push_back(!stage.removes(x));
+        const MPI_Comm comm = force.get_mpi_communicator();
+        change.remarks.push_back(stage.removal_text(
+          Utilities::MPI::sum(std::count(stays.begin(), stays.end(), false),
+                              comm),
+          Utilities::MPI::sum(stays.size(), comm),
+          "points"));
+        difference = net_force(points, t);
+        particles.keep(stays);
+        take(stage.removal_duration);
+      }
+    if (!stage.added_materials.empty())
+      {
+        difference = net_force(points, t);
+        for (unsigned int m = 0; m < scene->materials.size(); ++m)
+          if (const std::string &name = scene->materials.name(m);
+              std::count(stage.added_materials.begin(),
+                         stage.added_materials.end(),
+                         name) > 0)
+            {
+              change.remarks.push_back(
+                format("added %lu points of the material '", particles.add(m)) +
+                name + "'");
+              added.push_back(m);
+            }
+        take(stage.addition_duration);
+      }
+    if (!stage.changed_materials.empty())
+      {
+        for (const std::string &remark : change_materials(
+               stage, *scene, *space, force.get_mpi_communicator(), points))
+          change.remarks.push_back(remark);
+        particles.store(points);
+        begin(points, timer);
+      }
+    change.after = state_energies(kinematics, points, t);
+    return change;
+  }
+
   void
   ImplicitMPM::save(Archive &archive, MaterialPoints &)
   {
+    if (scene->loading.changes_body())
+      {
+        StateRow row;
+        row(added);
+        archive.write_row("added", row);
+        fading.save(archive, *mesh, *space);
+      }
     particles.save(archive, *mesh);
     Vector mass(velocity_L);
     for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
@@ -539,6 +623,13 @@ namespace geocone
   void
   ImplicitMPM::load(const Archive &archive, MaterialPoints &points)
   {
+    if (scene->loading.changes_body())
+      {
+        archive.read_row("added")(added);
+        for (const unsigned int material : added)
+          particles.add(material); // nor will they be again
+        fading.load(archive, *mesh, *space);
+      }
     particles.load(archive, *mesh);
     Vector mass(velocity_L);
     load_nodes(archive, "had mass", *mesh, *space, mass);

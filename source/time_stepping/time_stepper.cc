@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
 #include <geocone/base/over_ranks.h>
 #include <geocone/discretisation/cell_record.h>
+#include <geocone/discretisation/history_start.h>
 #include <geocone/time_stepping/time_stepper.h>
 
 #include <deal.II/base/mpi.h>
@@ -24,6 +26,66 @@ namespace geocone
                        "true",
                        "false where Geometry/Symmetry = axisymmetric",
                        "take elements of degree 2 or 3, which do not lock");
+  }
+
+  std::vector<std::string>
+  change_materials(const Stage    &stage,
+                   const Scene    &scene,
+                   const Space    &space,
+                   const MPI_Comm  comm,
+                   MaterialPoints &points)
+  {
+    const Materials          &materials = scene.materials;
+    const unsigned int        n         = materials.size();
+    std::vector<unsigned int> becomes(n), number(n, 0);
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        becomes[i]       = i;
+        const auto found = stage.changed_materials.find(materials.name(i));
+        for (unsigned int j = 0; j < n; ++j)
+          if (found != stage.changed_materials.end() &&
+              materials.name(j) == found->second)
+            becomes[i] = j;
+      }
+    HistoryStart start;
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      for (unsigned int p = points.first_point[c];
+           p < points.first_point[c + 1];
+           ++p)
+        {
+          const unsigned int from = points.material[p], to = becomes[from];
+          if (from == to)
+            continue;
+          ++number[from];
+          const SpatialMandel stress = materials[from].whole_stress(
+            points.stress[p], points.history_of(p));
+          points.material[p] = to;
+          start.set(materials.law(to),
+                    stress_of(stress),
+                    space.band_width(BackgroundMesh::size_of(points.cells[c])),
+                    points.position[p],
+                    &points.history[points.n_history * p]);
+          if (!points.mass.empty())
+            points.mass[p] = points.weight[p] * materials[to].density();
+        }
+    start.check<StepFailure>(comm);
+    Utilities::MPI::sum(number, comm, number);
+    std::vector<std::string> remarks;
+    for (unsigned int i = 0; i < n; ++i)
+      if (becomes[i] != i)
+        {
+          if (number[i] == 0)
+            throw StepFailure("'Loading/" + stage.name +
+                              "/Changed materials': there is no '" +
+                              materials.name(i) +
+                              "' in the body\n  remedy:  leave it out, or "
+                              "change it in an earlier stage");
+          remarks.push_back(format("%u points of '", number[i]) +
+                            materials.name(i) + "' become '" +
+                            materials.name(becomes[i]) + "'");
+        }
+    start.remark(comm, remarks);
+    return remarks;
   }
 
   double

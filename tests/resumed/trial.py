@@ -53,6 +53,13 @@ METHODS = {
     "general": ("explicit/collapse-general-01.prm", {
         "Mesh/Cell size": "0.1", "Loading/fall/Duration": "1",
         "Loading/fall/Step size": "0.04", "Loading/fall/Output every": "3"}),
+    # Cells and points that go and come, and forces that fade.
+    "stages fem": ("../prm/stages/built_column.prm", {
+        "Mesh/Cell size": "0.0078125", "Loading/build 2/Step size": "0.1",
+        "Loading/build 4/Step size": "0.1"}),
+    "stages mpm": ("../prm/stages/excavated_column_mpm.prm", {
+        "Mesh/Cell size": "0.015625", "Loading/weight/Step size": "2.5e5",
+        "Loading/dig/Step size": "5e4"}),
     # One point of a law with history.
     "point": ("element/cyclic_shear-01.prm", {
         "Path/forth/Increments": "30000", "Path/failure/Increments": "30000",

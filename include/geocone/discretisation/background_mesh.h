@@ -169,9 +169,10 @@ namespace geocone
     /**
      * The connected part of the body (counted from 0) to which each vertex of
      * the triangulation belongs; parts that share no edge are not connected.
+     * @param cells that there are of the body on this rank. Collective.
      */
     std::vector<unsigned int>
-    connected_parts() const;
+    connected_parts(const std::vector<Cell> &cells) const;
 
   private:
     enum class Storage
@@ -197,7 +198,6 @@ namespace geocone
     bool                      simplicial = false;
     std::optional<CellSizes>  sizes;
     std::vector<unsigned int> owners;
-    std::vector<unsigned int> part_of_vertex;
   };
 } // namespace geocone
 

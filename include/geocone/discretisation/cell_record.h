@@ -53,6 +53,12 @@ namespace geocone
       numbers.push_back(n);
     }
 
+    bool
+    has(const BackgroundMesh::Cell &cell) const
+    {
+      return ranges.count(cell->id().to_binary<dim>()) > 0;
+    }
+
     /** The records of a cell. @throws RunError if it is not known */
     std::pair<std::size_t, std::size_t>
     range(const BackgroundMesh::Cell &cell) const

@@ -11,6 +11,7 @@
 #include <geocone/discretisation/seeding.h>
 #include <geocone/discretisation/space.h>
 
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -38,9 +39,21 @@ namespace geocone
     MaterialPoints
     collect(const BackgroundMesh &mesh, const Space &space) const;
 
+    /** Takes away those whose place in collect() is not true. */
+    void
+    keep(const std::vector<bool> &stays);
+
+    /** Adds those of a material that a stage adds. Collective.
+     *  @return how many, of all ranks */
+    unsigned long
+    add(const unsigned int material);
+
+    /** Takes the state and the positions from the arrays that collect() made. */
+    void
+    store(MaterialPoints &points);
+
     /**
-     * Takes the state and the positions from the arrays that collect() made,
-     * and sorts the particles into their new cells and ranks.
+     * As store(), and sorts the particles into their new cells and ranks.
      * @throws StepFailure if a particle leaves the mesh and may not
      */
     void
@@ -51,7 +64,7 @@ namespace geocone
     void
     save(Archive &archive, const BackgroundMesh &mesh);
 
-    /** In place of what prepare() has seeded. */
+    /** In place of what is there. */
     void
     load(const Archive &archive, const BackgroundMesh &mesh);
     /** @} */
@@ -101,6 +114,15 @@ namespace geocone
     std::unique_ptr<CellSearch> search;
     std::vector<Place>          places; ///< sorted by cell, and in it by id
     std::vector<double>         states; ///< n_state numbers of each
+
+    /** Particles of a material that a stage will add. */
+    struct Waiting
+    {
+      std::vector<dealii::Point<dim>> position;
+      std::vector<unsigned int>       id;
+      std::vector<double>             states;
+    };
+    std::map<unsigned int, Waiting> waiting; ///< by material
 
     MPI_Comm     comm;
     unsigned int n_history  = 0; ///< history variables of a particle

@@ -9,6 +9,8 @@
 
 #include <deal.II/base/quadrature.h>
 
+#include <functional>
+
 namespace geocone
 {
   /**
@@ -59,11 +61,22 @@ namespace geocone
   /**
    * Points of the finite element method: the points of a quadrature rule in
    * each cell, which never move.
+   * @throws InputError if a material has no cell
    */
   MaterialPoints
   make_quadrature_points(const Scene          &scene,
                          const BackgroundMesh &mesh,
                          const Space          &space);
+
+  /** Those of some of the cells, in the order of the mesh, with the state that some of
+   *  them have. */
+  MaterialPoints
+  quadrature_points_of(
+    const Scene                                             &scene,
+    const BackgroundMesh                                    &mesh,
+    const Space                                             &space,
+    MaterialPoints                                           known,
+    const std::function<bool(const BackgroundMesh::Cell &)> &is_there);
 } // namespace geocone
 
 #endif

@@ -58,10 +58,13 @@ namespace geocone
     /**
      * Checks that the prescribed dofs hold every connected part of the body
      * against translation and rotation, which a body without inertia needs.
+     * @param points in the cells of the body
      * @throws InputError naming the free rigid motion and the dofs
      */
     void
-    check_support(const BackgroundMesh &mesh, const Space &space) const;
+    check_support(const BackgroundMesh &mesh,
+                  const Space          &space,
+                  const MaterialPoints &points) const;
 
     /** @throws InputError if a node on the axis of a round body can leave it */
     void
@@ -73,7 +76,8 @@ namespace geocone
 
     /**
      * Numbers the unknowns: the dofs that are not prescribed and have mass.
-     * @param mass lumped mass with ghosts, or null if all have
+     * @param mass lumped mass with ghosts, or null if all have; of a body without
+     * inertia any number > 0 counts
      * @throws InputError if there is none
      */
     void

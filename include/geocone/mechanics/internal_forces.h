@@ -77,6 +77,10 @@ namespace geocone
     void
     residual(Vector &part, const Vector &v, const LocalLaw &law) override;
 
+    /** part = sum V B's of the stresses at t_n, in all owned rows (N/m). */
+    void
+    forces_at_start(Vector &part) const;
+
     void
     linearise(const JacobianPattern &pattern,
               const double           elastic_blend,
@@ -216,6 +220,13 @@ namespace geocone
                        const WeightedStress     &weighted_stress,
                        const WeightedHoopStress &weighted_hoop_stress,
                        double                   *cell_f) const;
+
+    /** part = sum V B's. @param hoop_stress of a point, asked of round bodies only */
+    template <typename HoopStress>
+    void
+    sum_forces(const std::vector<Mandel> &stress,
+               const HoopStress          &hoop_stress,
+               Vector                    &part) const;
 
     /** K += the parts of a point's tangent out of the plane. */
     template <int n>

@@ -12,7 +12,8 @@
 namespace geocone
 {
   /**
-   * Nodal integrals of the density, each stored for both components:
+   * Nodal integrals of the density over the cells that have points, each stored for
+   * all components:
    * @param[out] weight_per_g  int rho N_i, which times g is the weight (kg/m)
    * @param[out] lumped_mass  diagonal mass: the row sums int rho N_i, which are
    * positive for P1, P3, Q1, Q2, Q3 (vertex, edge, centre of P3: 1/30, 3/40,
@@ -23,17 +24,22 @@ namespace geocone
   integrate_density(const Scene          &scene,
                     const BackgroundMesh &mesh,
                     const Space          &space,
+                    const MaterialPoints &points,
                     Vector               &weight_per_g,
                     Vector               &lumped_mass);
 
   /**
-   * External forces F(t): weight, tractions and the force of water at rest. Nothing is stored or computed
-   * of what the scene does not have.
+   * External forces F(t): weight, tractions and the force of water at rest, on the cells
+   * that have points. Nothing is stored or computed of what the scene does not have.
    */
   class Loads
   {
   public:
-    Loads(const Scene &scene, const BackgroundMesh &mesh, const Space &space);
+    /** @param points in the cells on which they act */
+    Loads(const Scene          &scene,
+          const BackgroundMesh &mesh,
+          const Space          &space,
+          const MaterialPoints &points);
 
     /** F at time t (N/m). */
     void

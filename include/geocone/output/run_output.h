@@ -95,6 +95,15 @@ namespace geocone
       energy_n = energies.state();
     }
 
+    /** Takes away the energy of what is removed, and adds that of what is added. */
+    void
+    change_body(const BodyChange &change)
+    {
+      energy_n = change.after.state();
+      removed_energy += change.before.state() - energy_n;
+      removed_potential += change.before.potential - change.after.potential;
+    }
+
     /** Adds a tried (sub)step to newton.csv. */
     void
     add_newton_table(const unsigned int step,
@@ -204,7 +213,8 @@ namespace geocone
 
     /** Sums since the start (J/m), and the least loss of a step. */
     double work = 0., dissipation = 0., loss = 0., least_loss = 0.,
-           memory_work = 0., ghost_work = 0., contact_dissipation = 0.;
+           memory_work = 0., ghost_work = 0., contact_dissipation = 0.,
+           removed_energy = 0., removed_potential = 0.;
     bool   points_move = false;
     double energy_n = 0.; ///< kinetic, elastic and potential, at the last step
     Energies initial;

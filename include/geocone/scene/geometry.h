@@ -231,8 +231,19 @@ namespace geocone
   public:
     explicit Regions(const ParameterFile &file);
 
+    /** @param may_be_empty by material: those that others become, which need no
+     *  region */
     void
-    prepare(const Geometry &geometry);
+    prepare(const Geometry          &geometry,
+            const std::vector<bool> &may_be_empty = {});
+
+    /** Whether a material may have no part of the body. */
+    bool
+    may_be_empty(const unsigned int material) const
+    {
+      return material == 0 ||
+             (material < empty_ones.size() && empty_ones[material]);
+    }
 
     /** The polygons, to be respected by mesh generators. */
     std::vector<Polygon>
@@ -275,6 +286,7 @@ namespace geocone
                          {{"moving", Points::moving}, {"fixed", Points::fixed}}};
     };
     std::vector<std::unique_ptr<Region>> regions;
+    std::vector<bool>                    empty_ones; ///< see may_be_empty()
   };
 } // namespace geocone
 

@@ -13,6 +13,7 @@
 #include <deal.II/base/tensor.h>
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,9 +38,14 @@ namespace geocone
     double
     expected_steps() const;
 
-    /** @throws InputError if it asks for what only explicit MPM can do */
+    /** @name @throws InputError if it asks for what only explicit MPM can do, or
+     *  only the others */
+    /** @{ */
     void
     check_implicit() const;
+    void
+    check_explicit() const;
+    /** @} */
 
     const std::string name;
     double            duration           = 1.;
@@ -52,6 +58,47 @@ namespace geocone
 
     /** Whether the first step that cannot be solved ends the run as wanted. */
     bool until_failure = false;
+
+    /** @name How the body changes at the beginning */
+    /** @{ */
+
+    /** What lies in this polygon, or box, and of it where a formula is positive, is
+     *  taken away, over this time (s). */
+    std::vector<dealii::Point<dim>> removed_polygon;
+    double                          removal_duration = 0.;
+
+    /** Materials that are not there before, and the time (s) over which their weight
+     *  grows. */
+    std::vector<std::string> added_materials;
+    double                   addition_duration = 0.;
+
+    /** Which material becomes which other one, by their names. */
+    std::map<std::string, std::string> changed_materials;
+
+    /** Whether something is removed, and whether what is at x is. */
+    bool
+    removes() const
+    {
+      return !removed_polygon.empty() || removed_where;
+    }
+    bool
+    removes(const dealii::Point<dim> &x) const;
+
+    /** Whether something is removed, added or becomes another material. */
+    bool
+    changes_body() const
+    {
+      return removes() || !added_materials.empty() ||
+             !changed_materials.empty();
+    }
+
+    /** Tells of a removal. @param what "points", say
+     *  @throws StepFailure if it takes nothing or everything */
+    std::string
+    removal_text(const unsigned long n_removed,
+                 const unsigned long n_all,
+                 const std::string  &what) const;
+    /** @} */
 
     /** @name For explicit MPM only */
     /** @{ */
@@ -70,20 +117,6 @@ namespace geocone
     /** At the beginning: no velocity; history anew from the stress. */
     bool reset_velocity = false;
     bool reset_history  = false;
-
-    /** The points in this polygon, or box, and of it where a formula is positive, are
-     *  taken away, over this time (s). */
-    std::vector<dealii::Point<dim>> removed_polygon;
-    double                          removal_duration = 0.;
-
-    /** Whether points are removed, and whether one at x is. */
-    bool
-    removes() const
-    {
-      return !removed_polygon.empty() || removed_where;
-    }
-    bool
-    removes(const dealii::Point<dim> &x) const;
     /** @} */
 
   private:
@@ -101,12 +134,25 @@ namespace geocone
   public:
     explicit LoadingProgramme(const ParameterFile &file);
 
+    /** @param materials their names */
     void
-    prepare();
+    prepare(const std::vector<std::string> &materials);
 
     /** Whether a stage reduces the strength. */
     bool
     reduces_strength() const;
+
+    /** Whether the body changes at the beginning of a stage. */
+    bool
+    changes_body() const;
+
+    /** Whether a material is not there before a stage adds it. */
+    bool
+    adds(const std::string &material) const;
+
+    /** Whether another material becomes this one in a stage. */
+    bool
+    makes(const std::string &material) const;
 
     /** By what c and tan(phi) are divided at time t. */
     double
@@ -117,6 +163,8 @@ namespace geocone
   private:
     std::vector<std::string> names;
   };
+
+  class Water;
 
   /** Gravity g(t), at once or ramped up linearly over a duration. */
   class Gravity : public dealii::ParameterAcceptor
@@ -175,10 +223,12 @@ namespace geocone
 
   /**
    * The stress before the first step: zero, given by formulas, or geostatic,
-   *   s_yy = -(surcharge + integral of rho |g| from y to the surface),
+   *   s_yy = -(surcharge + integral of rho |g| from y to the surface - u),
    *   s_xx = K0 s_yy, s_xy = 0,
-   * with the densities of the materials met on the way up. K0 is a number, or that
-   * of each material (ConstitutiveLaw::earth_pressure_at_rest()).
+   * with the densities of the materials met on the way up, and u what the pressure of
+   * level water is higher at y than on the surface. K0 is a number, or that
+   * of each material (ConstitutiveLaw::earth_pressure_at_rest()). Materials that a
+   * stage adds have neither stress nor weight.
    */
   class InitialStress : public dealii::ParameterAcceptor
   {
@@ -186,10 +236,11 @@ namespace geocone
     InitialStress();
 
     void
-    prepare(const Gravity  &gravity,
-            const Geometry &geometry,
-            const Regions  &regions,
-            const bool      has_water);
+    prepare(const Gravity           &gravity,
+            const Geometry          &geometry,
+            const Regions           &regions,
+            const Water             &water,
+            const std::vector<bool> &is_added);
 
     /** Stress at a point x of a material (Pa). */
     Mandel
@@ -201,7 +252,9 @@ namespace geocone
     /** Out-of-plane stress (Pa): as s_xx, unless it is given by a
      *  formula. Laws in the plane only carry it along. */
     double
-    zz_at(const dealii::Point<dim> &x, const Mandel &in_plane) const;
+    zz_at(const dealii::Point<dim> &x,
+          const unsigned int        material,
+          const Mandel             &in_plane) const;
 
   private:
     /** Reads K0. @throws InputError */
@@ -210,6 +263,10 @@ namespace geocone
 
     void
     check_level_ground(const Geometry &geometry) const;
+
+    /** @throws InputError if the water is not level */
+    void
+    check_level_water() const;
 
     enum class Type
     {
@@ -230,6 +287,8 @@ namespace geocone
     double                            surface   = 0.;
     double                            surcharge = 0.;
     double                            g         = 0.;
+    const Water                      *water = nullptr; ///< where there is some
+    std::vector<bool>                 is_added;        ///< by material
   };
 } // namespace geocone
 

@@ -37,6 +37,10 @@ namespace geocone
       return !table.empty();
     }
 
+    /** Whether its table is level. */
+    bool
+    is_level() const;
+
     /** u (Pa). */
     double
     pressure(const dealii::Point<dim> &x) const;

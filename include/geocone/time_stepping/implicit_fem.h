@@ -8,6 +8,7 @@
 #include <geocone/mechanics/constraints.h>
 #include <geocone/mechanics/loads.h>
 #include <geocone/mechanics/obstacle_contact.h>
+#include <geocone/time_stepping/fading_forces.h>
 #include <geocone/time_stepping/midpoint_rule.h>
 #include <geocone/time_stepping/time_stepper.h>
 
@@ -51,6 +52,13 @@ namespace geocone
             const double           t,
             const double           h) override;
 
+    BodyChange
+    change_body(const Stage         &stage,
+                const double         t,
+                dealii::TimerOutput &timer,
+                Kinematics          &kinematics,
+                MaterialPoints      &points) override;
+
     void
     save(Archive &archive, MaterialPoints &points) override;
     void
@@ -79,6 +87,25 @@ namespace geocone
     void
     check_resistance(const MaterialPoints &points, const MPI_Comm comm) const;
 
+    /** @throws InputError for what a body that changes cannot have */
+    void
+    check_changes() const;
+
+    /** Unknowns, loads, problem and pattern: all that depends on which cells there
+     *  are. @throws InputError if nothing holds them */
+    void
+    begin(const MaterialPoints &points, dealii::TimerOutput &timer);
+
+    bool
+    has_force() const
+    {
+      return loads->exist() || scene->loading.changes_body();
+    }
+
+    /** External forces less the internal ones at time t, along x and y. */
+    Vector
+    net_force(const double t) const;
+
     bool                inertia     = false;
     Choice<Integration> integration = integration_choice();
 
@@ -91,6 +118,8 @@ namespace geocone
     std::unique_ptr<AbsorbingBoundary>  absorbing;
     std::unique_ptr<IncrementalProblem> problem;
     std::unique_ptr<LinearSystem>       system;
+    bool                                begun = false;
+    FadingForces                        fading; ///< along x and y
     Vector                              lumped_mass;
     Vector                              weight_per_g;
     Vector                              force;

@@ -8,6 +8,7 @@
 #include <geocone/discretisation/particles.h>
 #include <geocone/mechanics/moving_conditions.h>
 #include <geocone/mechanics/point_functions.h>
+#include <geocone/time_stepping/fading_forces.h>
 #include <geocone/time_stepping/midpoint_rule.h>
 #include <geocone/time_stepping/time_stepper.h>
 
@@ -62,6 +63,13 @@ namespace geocone
             dealii::TimerOutput   &timer,
             const double           t,
             const double           h) override;
+
+    BodyChange
+    change_body(const Stage         &stage,
+                const double         t,
+                dealii::TimerOutput &timer,
+                Kinematics          &kinematics,
+                MaterialPoints      &points) override;
 
     void
     save(Archive &archive, MaterialPoints &points) override;
@@ -153,7 +161,11 @@ namespace geocone
     void
     add_water(const MaterialPoints &points, const double t);
 
-    /** External forces at time t. */
+    /** External forces less the internal ones at time t, but for those that fade. */
+    Vector
+    net_force(const MaterialPoints &points, const double t);
+
+    /** External forces at time t, but for those that fade. */
     void
     evaluate_force(const MaterialPoints &points, const double t);
 
@@ -276,6 +288,8 @@ namespace geocone
     Vector                              velocity_L;
     Vector                              force;
     std::vector<bool>                   had_mass; ///< nodes, in the last step
+    FadingForces                        fading;
+    std::vector<unsigned int>           added; ///< materials, so far
   };
 } // namespace geocone
 

@@ -136,6 +136,23 @@ namespace geocone
     }
   };
 
+  /** What became of the body at the beginning of a stage. */
+  struct BodyChange
+  {
+    std::vector<std::string> remarks;
+    Energies                 before, after; ///< what is there of them
+  };
+
+  /** Points of materials that become others do: with their stresses, from which their
+   *  histories begin, and by their volumes. Collective.
+   *  @return remarks @throws StepFailure if there is none of a material */
+  std::vector<std::string>
+  change_materials(const Stage    &stage,
+                   const Scene    &scene,
+                   const Space    &space,
+                   const MPI_Comm  comm,
+                   MaterialPoints &points);
+
   /** @throws InputError for what a scene around an axis cannot have */
   void
   check_round_body(const Scene &scene, const Space &space);
@@ -217,6 +234,15 @@ namespace geocone
             dealii::TimerOutput   &timer,
             const double           t,
             const double           h) = 0;
+
+    /** Takes away and adds what a stage says, at its beginning at time t.
+     *  @throws StepFailure if that is nothing, or all */
+    virtual BodyChange
+    change_body(const Stage         &stage,
+                const double         t,
+                dealii::TimerOutput &timer,
+                Kinematics          &kinematics,
+                MaterialPoints      &points) = 0;
 
     /** Lets displacements and plastic strains count from now. */
     void

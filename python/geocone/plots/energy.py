@@ -14,6 +14,7 @@ IMPLICIT = {
                          "label": "potential energy\n(above its least)"},
     "plastic dissipation": {"color": "#D55E00"},
     "external work": {"color": ORANGE},
+    "removed energy": {"color": "#505050"},
     "total energy": {"color": "black", "linestyle": (0, (6, 3))}}
 EXPLICIT = {
     "kinetic energy": {"color": BLUE},
