@@ -44,7 +44,7 @@ namespace geocone
   LinearSolverParameters::make(const MPI_Comm comm, const bool symmetric) const
   {
     const bool serial = dealii::Utilities::MPI::n_mpi_processes(comm) == 1;
-    Name       chosen = name.value;
+    Name       chosen = name.get();
     if (chosen == Name::automatic)
       chosen =
         serial && symmetric && !out_of_core ? Name::cholmod : Name::mumps;
@@ -76,7 +76,7 @@ namespace geocone
                        "Mumps counts entries in 64 bits by itself: take "
                        "automatic");
     if (chosen == Name::cholmod)
-      return make_cholmod(index_size.value);
+      return make_cholmod(index_size.get());
     if (chosen == Name::umfpack)
       return make_umfpack();
     return make_mumps(comm, symmetric, out_of_core ? folder : "");
