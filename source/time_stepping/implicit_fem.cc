@@ -480,7 +480,7 @@ namespace geocone
           points.state(p, row);
         if (scene->loading.changes_body())
           {
-            unsigned int material;
+            unsigned int material = 0;
             row(material);
             std::fill(points.material.begin() + points.first_point[c],
                       points.material.begin() + points.first_point[c + 1],

@@ -15,7 +15,8 @@ done
 "$program" "$root/tests/three/explicit_layer-01.prm" --quiet --output points \
   --set 'Output/Fields = true' --set 'Loading/collapse/Output every = 1' \
   --set 'Output/Report for tests = none'
-"$root/scripts/plot" points --animation > said
+"$root/scripts/plot" points > said
+"$root/scripts/plot" points --animation >> said
 for picture in energy.png runout.png points.png points.gif report.html; do
   grep -qx "points/$picture" said
 done
