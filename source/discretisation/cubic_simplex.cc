@@ -69,6 +69,9 @@ namespace geocone
                                                  1,
                                                  3,
                                                  FiniteElementData<2>::H1),
+#if DEAL_II_VERSION_GTE(9, 6, 0)
+                            false, // prolongation is not additive
+#endif
                             cubic_support_points(),
                             {{{Point<1>(0.),
                                Point<1>(1.),
