@@ -142,7 +142,10 @@ class Run:
                         for name, values in state.data.items()})
 
     def _record(self, series):
-        return self.folder / f"{series}.pvd"
+        """The record of a series: of VTU files, or else of HDF5 files."""
+        record = self.folder / f"{series}.pvd"
+        other = record.with_suffix(".vtkhdf")
+        return other if other.is_file() and not record.is_file() else record
 
     def _states(self, series, indices=(-1,)):
         """The states of a series, of all pieces, by their places: a list of Fields."""
@@ -251,32 +254,58 @@ def joined(pieces, time):
          for name in pieces[0].data}, time)
 
 
+def read_hdf5(path):
+    """The state of a .h5 file, as a list of one Field."""
+    import h5py  # takes a while, and most runs have none
+    if not path.is_file():
+        raise FileNotFoundError(None, "no file", str(path))
+    with h5py.File(path, "r") as file:
+        for name, array in file.items():
+            if (array.is_virtual or array.external or
+                    array.id.get_storage_size() < array.nbytes):
+                raise ValueError(f"'{name}' is not in the file")
+        arrays = {name: array[()] for name, array in file.items()}
+    points, cells = arrays.pop("nodes"), arrays.pop("cells")
+    points = np.pad(points, ((0, 0), (0, 3 - points.shape[1])))
+    return [Field(points, cells.astype(int), {
+        name: values.reshape(len(points), -1) for name, values in arrays.items()})]
+
+
 def damage_of_fields(reads):
-    """A reader of a .pvd series, whose errors are one kind that names the file."""
+    """A reader of a series, whose errors are one kind that names the file."""
     @functools.wraps(reads)
     def reads_or_tells(path, *arguments):
         if not path.is_file():
             raise Missing(f"there is no file '{path}'")
         try:
             return reads(path, *arguments)
-        except (ElementTree.ParseError, zlib.error, LookupError, TypeError,
-                ValueError, AttributeError, OSError) as problem:
+        except (ElementTree.ParseError, zlib.error, LookupError, TypeError, ValueError,
+                AttributeError, OSError, RuntimeError) as problem:  # some are HDF5's
             raise ReadError(f"the fields of '{path}' cannot be read: {problem!r}")
     return reads_or_tells
 
 
 @damage_of_fields
 def read_series(path):
-    """The times (s) of a .pvd series and their files, [(time, path)]."""
+    """The times (s) of a .pvd or .vtkhdf series and their files, [(time, path)]."""
+    if path.suffix == ".vtkhdf":
+        import h5py
+        with h5py.File(path, "r") as file:
+            times = file["VTKHDF/Steps/Values"][()].tolist()
+            files = [part.file_name for part in file["VTKHDF/Points"].virtual_sources()]
+        if len(times) != len(files):
+            raise ValueError(f"{len(times)} times of {len(files)} files")
+        return [(time, path.parent / name) for time, name in zip(times, files)]
     return [(float(entry.get("timestep")), path.parent / entry.get("file"))
             for entry in ElementTree.parse(path).getroot().iterfind(".//DataSet")]
 
 
 @damage_of_fields
 def read_states(path, indices=(-1,)):
-    """The states of a .pvd series at some places, the last one by itself: Fields."""
+    """The states of a series at some places, the last one by itself: Fields."""
     series = read_series(path)
-    return [joined(read_vtu(file), time)
+    read_file = read_hdf5 if path.suffix == ".vtkhdf" else read_vtu
+    return [joined(read_file(file), time)
             for time, file in (series[i] for i in indices)]
 
 

@@ -31,6 +31,8 @@ namespace geocone
         return H5T_NATIVE_UINT;
       else if constexpr (std::is_same_v<T, long long>)
         return H5T_NATIVE_LLONG;
+      else if constexpr (std::is_same_v<T, unsigned char>)
+        return H5T_NATIVE_UCHAR;
       else
         return H5T_NATIVE_CHAR;
     }
@@ -152,15 +154,126 @@ namespace geocone
         H5Pset_shuffle(properties);
         H5Pset_deflate(properties, 9);
       }
-    const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-    H5Pset_create_intermediate_group(links, 1);
-    const Handle data(
-      H5Dcreate2(
-        id, name.c_str(), type_id<T>(), space, links, properties, H5P_DEFAULT),
-      H5Dclose);
+    const Handle data(create_array(name, type_id<T>(), space, properties),
+                      H5Dclose);
     if (data < 0 ||
         H5Dwrite(data, type_id<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
       fail("cannot take the array '" + name + "': is there too little memory?");
+  }
+
+  long long
+  Hdf5File::create_array(const std::string &name,
+                         const long long    type,
+                         const long long    space,
+                         const long long    properties)
+  {
+    const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+    H5Pset_create_intermediate_group(links, 1);
+    return H5Dcreate2(
+      id, name.c_str(), type, space, links, properties, H5P_DEFAULT);
+  }
+
+  template <typename T>
+  void
+  Hdf5File::write_joined(const std::string       &name,
+                         const std::vector<Part> &parts,
+                         const unsigned int       n_columns_of_parts,
+                         const unsigned int       n_columns)
+  {
+    // Entries of one dimension, or rows.
+    const hsize_t per_row = n_columns > 0 ? 1 : n_columns_of_parts;
+    hsize_t       n       = 0;
+    for (const Part &part : parts)
+      n += part.n_rows * per_row;
+    const int                    n_dims = n_columns > 0 ? 2 : 1;
+    const std::array<hsize_t, 2> size   = {{n, n_columns}};
+    const Handle space(H5Screate_simple(n_dims, size.data(), nullptr),
+                       H5Sclose);
+    const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    const T      zero = 0;
+    H5Pset_fill_value(properties, type_id<T>(), &zero);
+    bool    joined = true;
+    hsize_t first  = 0;
+    for (const Part &part : parts)
+      {
+        const std::array<hsize_t, 2> table = {
+          {part.n_rows, n_columns_of_parts}};
+        const std::array<hsize_t, 2> begin = {{first, 0}};
+        const std::array<hsize_t, 2> count = {
+          {part.n_rows * per_row, n_columns_of_parts}};
+        const Handle there(H5Screate_simple(2, table.data(), nullptr),
+                           H5Sclose);
+        joined =
+          joined &&
+          H5Sselect_hyperslab(space,
+                              H5S_SELECT_SET,
+                              begin.data(),
+                              nullptr,
+                              count.data(),
+                              nullptr) >= 0 &&
+          H5Pset_virtual(
+            properties, space, part.file.c_str(), part.name.c_str(), there) >=
+            0;
+        first += count[0];
+      }
+    const Handle data(create_array(name, type_id<T>(), space, properties),
+                      H5Dclose);
+    if (!joined || data < 0)
+      fail("cannot take the joined array '" + name + "'");
+  }
+
+  template void
+  Hdf5File::write_joined<double>(const std::string &,
+                                 const std::vector<Part> &,
+                                 const unsigned int,
+                                 const unsigned int);
+  template void
+  Hdf5File::write_joined<long long>(const std::string &,
+                                    const std::vector<Part> &,
+                                    const unsigned int,
+                                    const unsigned int);
+
+  void
+  Hdf5File::write_attribute(const std::string            &group,
+                            const std::string            &name,
+                            const std::vector<long long> &values)
+  {
+    const hsize_t n = values.size();
+    const Handle  space(H5Screate_simple(1, &n, nullptr), H5Sclose);
+    write_attribute(group, name, H5T_NATIVE_LLONG, space, values.data());
+  }
+
+  void
+  Hdf5File::write_attribute(const std::string &group,
+                            const std::string &name,
+                            const std::string &text)
+  {
+    const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+    H5Tset_size(type, text.size());
+    H5Tset_strpad(type, H5T_STR_NULLPAD);
+    const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+    write_attribute(group, name, type, space, text.data());
+  }
+
+  void
+  Hdf5File::write_attribute(const std::string &group,
+                            const std::string &name,
+                            const long long    type,
+                            const long long    space,
+                            const void        *values)
+  {
+    const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+    H5Pset_create_intermediate_group(links, 1);
+    const Handle place(
+      has(group)
+        ? H5Gopen2(id, group.c_str(), H5P_DEFAULT)
+        : H5Gcreate2(id, group.c_str(), links, H5P_DEFAULT, H5P_DEFAULT),
+      H5Gclose);
+    const Handle data(
+      H5Acreate2(place, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
+      H5Aclose);
+    if (place < 0 || data < 0 || H5Awrite(data, type, values) < 0)
+      fail("cannot take the attribute '" + name + "' of '" + group + "'");
   }
 
   bool
@@ -285,6 +398,19 @@ namespace geocone
 
   void
   Hdf5File::write(const std::string &name, const std::vector<int> &values)
+  {
+    write_array(name, values.data(), values.size(), 0);
+  }
+
+  void
+  Hdf5File::write(const std::string &name, const std::vector<long long> &values)
+  {
+    write_array(name, values.data(), values.size(), 0);
+  }
+
+  void
+  Hdf5File::write(const std::string                &name,
+                  const std::vector<unsigned char> &values)
   {
     write_array(name, values.data(), values.size(), 0);
   }

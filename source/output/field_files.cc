@@ -396,48 +396,134 @@ namespace geocone
     if (writes)
       attempt(problem, [&]() {
         out->close();
-        add_to_record(table, folder, file, time, n_nodes);
+        hdf5.push_back({time, file, n_nodes});
+        write_xdmf(table, folder);
+        write_vtkhdf(table, folder);
       });
   }
 
   void
-  FieldFiles::add_to_record(const FieldTable  &table,
-                            const std::string &folder,
-                            const std::string &file,
-                            const double       time,
-                            const std::size_t  n_nodes)
+  FieldFiles::write_xdmf(const FieldTable  &table,
+                         const std::string &folder) const
   {
-    const unsigned int n       = table.nodes_per_cell();
-    const std::size_t  n_cells = n_nodes / n;
-
-    std::string entry =
-      geocone::format("<Grid Name=\"mesh\" GridType=\"Uniform\">\n"
-                      "<Time Value=\"%.12g\"/>\n"
-                      "<Geometry GeometryType=\"%s\">\n",
-                      time,
-                      dim == 2 ? "XY" : "XYZ") +
-      data_item(file, "nodes", n_nodes, dim) +
-      geocone::format("</Geometry>\n<Topology TopologyType=\"%s\" "
-                      "NumberOfElements=\"%zu\"%s>\n",
-                      table.kind().xdmf_type,
-                      n_cells,
-                      n == 1 ? " NodesPerElement=\"1\"" : "") +
-      data_item(file, "cells", n_cells, n) + "</Topology>\n";
-    for (const FieldTable::Column &column : table.columns)
-      entry +=
-        "<Attribute Name=\"" + escaped(column.name) + "\" AttributeType=\"" +
-        (column.n_components > 1 ? "Vector" : "Scalar") +
-        "\" Center=\"Node\">\n" +
-        data_item(file, column.name, n_nodes, column.n_components > 1 ? 3 : 1) +
-        "</Attribute>\n";
-    hdf5.push_back(entry + "</Grid>\n");
+    const unsigned int n = table.nodes_per_cell();
     write_file(folder + "/" + base + ".xdmf", [&](std::ostream &out) {
       out << "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n<Domain>\n"
              "<Grid Name=\"CellTime\" GridType=\"Collection\" "
              "CollectionType=\"Temporal\">\n";
-      for (const std::string &grid : hdf5)
-        out << grid;
+      for (const auto &[time, file, n_nodes] : hdf5)
+        {
+          out << geocone::format("<Grid Name=\"mesh\" GridType=\"Uniform\">\n"
+                                 "<Time Value=\"%.12g\"/>\n"
+                                 "<Geometry GeometryType=\"%s\">\n",
+                                 time,
+                                 dim == 2 ? "XY" : "XYZ")
+              << data_item(file, "nodes", n_nodes, dim)
+              << geocone::format("</Geometry>\n<Topology TopologyType=\"%s\" "
+                                 "NumberOfElements=\"%zu\"%s>\n",
+                                 table.kind().xdmf_type,
+                                 n_nodes / n,
+                                 n == 1 ? " NodesPerElement=\"1\"" : "")
+              << data_item(file, "cells", n_nodes / n, n) << "</Topology>\n";
+          for (const FieldTable::Column &column : table.columns)
+            out << "<Attribute Name=\"" << escaped(column.name)
+                << "\" AttributeType=\""
+                << (column.n_components > 1 ? "Vector" : "Scalar")
+                << "\" Center=\"Node\">\n"
+                << data_item(file,
+                             column.name,
+                             n_nodes,
+                             column.n_components > 1 ? 3 : 1)
+                << "</Attribute>\n";
+          out << "</Grid>\n";
+        }
       out << "</Grid>\n</Domain>\n</Xdmf>\n";
     });
+  }
+
+  void
+  FieldFiles::write_vtkhdf(const FieldTable  &table,
+                           const std::string &folder) const
+  {
+    using Integers       = std::vector<long long>;
+    const unsigned int n = table.nodes_per_cell();
+
+    // Cells have nodes of their own, so states of as many nodes have the same ones,
+    // and share a mesh.
+    struct
+    {
+      Integers                    n_nodes, n_cells, first_cell, offsets;
+      std::vector<unsigned char>  types;
+      std::vector<Hdf5File::Part> nodes_of_cells;
+    } meshes;
+    struct
+    {
+      std::vector<double> times;
+      Integers            mesh, first_node, first_cell, first_node_of_cell;
+    } states;
+    std::size_t n_nodes = 0;
+    for (const Hdf5State &state : hdf5)
+      {
+        const auto   same    = std::find(meshes.n_nodes.begin(),
+                                    meshes.n_nodes.end(),
+                                    static_cast<long long>(state.n_nodes));
+        const auto   m       = same - meshes.n_nodes.begin();
+        const size_t n_cells = state.n_nodes / n;
+        if (same == meshes.n_nodes.end())
+          {
+            meshes.first_cell.push_back(meshes.types.size());
+            meshes.n_nodes.push_back(state.n_nodes);
+            meshes.n_cells.push_back(n_cells);
+            for (std::size_t c = 0; c <= n_cells; ++c)
+              meshes.offsets.push_back(c * n);
+            meshes.types.resize(meshes.types.size() + n_cells,
+                                table.kind().vtk_type);
+            meshes.nodes_of_cells.push_back({state.file, "cells", n_cells});
+          }
+        states.times.push_back(state.time);
+        states.mesh.push_back(m);
+        states.first_node.push_back(n_nodes);
+        states.first_cell.push_back(meshes.first_cell[m]);
+        states.first_node_of_cell.push_back(meshes.first_cell[m] * n);
+        n_nodes += state.n_nodes;
+      }
+    const auto parts = [&](const std::string &name) {
+      std::vector<Hdf5File::Part> all;
+      for (const Hdf5State &state : hdf5)
+        all.push_back({state.file, name, state.n_nodes});
+      return all;
+    };
+
+    // The names are VTKHDF's.
+    Hdf5File out(folder + "/" + base + ".vtkhdf", Hdf5File::Access::create);
+    out.write_attribute("VTKHDF", "Version", Integers{2, 0});
+    out.write_attribute("VTKHDF", "Type", std::string("UnstructuredGrid"));
+    out.write("VTKHDF/NumberOfPoints", meshes.n_nodes);
+    out.write("VTKHDF/NumberOfCells", meshes.n_cells);
+    out.write("VTKHDF/NumberOfConnectivityIds", meshes.n_nodes);
+    out.write("VTKHDF/Offsets", meshes.offsets);
+    out.write("VTKHDF/Types", meshes.types);
+    out.write_joined<long long>(
+      "VTKHDF/Connectivity", meshes.nodes_of_cells, n, 0);
+    out.write_joined<double>("VTKHDF/Points", parts("nodes"), dim, 3);
+
+    out.write_attribute(
+      "VTKHDF/Steps", "NSteps", Integers{static_cast<long long>(hdf5.size())});
+    out.write("VTKHDF/Steps/Values", states.times);
+    out.write("VTKHDF/Steps/PartOffsets", states.mesh);
+    out.write("VTKHDF/Steps/NumberOfParts", Integers(hdf5.size(), 1));
+    out.write("VTKHDF/Steps/PointOffsets", states.first_node);
+    out.write("VTKHDF/Steps/CellOffsets", states.first_cell);
+    out.write("VTKHDF/Steps/ConnectivityIdOffsets", states.first_node_of_cell);
+    for (const auto &[name, n_components, fill] : table.columns)
+      {
+        const unsigned int n_columns = n_components > 1 ? 3 : 1;
+        out.write_joined<double>("VTKHDF/PointData/" + name,
+                                 parts(name),
+                                 n_columns,
+                                 n_components > 1 ? 3 : 0);
+        out.write("VTKHDF/Steps/PointDataOffsets/" + name, states.first_node);
+      }
+    out.close();
   }
 } // namespace geocone

@@ -59,9 +59,10 @@ namespace geocone
                   "every).");
     fields_format.declare(*this,
                           "Fields format",
-                          ". VTU files are for ParaView and the pictures, HDF5 "
-                          "files come with XDMF "
-                          "records.");
+                          ". VTU: compressed, in single precision, a file per "
+                          "rank, with records PVD. HDF5: in double precision, "
+                          "with records VTKHDF (for ParaView from 5.12) and "
+                          "XDMF.");
     add_parameter("Pictures",
                   pictures,
                   "Whether the pictures are drawn at the end, by "

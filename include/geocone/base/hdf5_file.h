@@ -46,6 +46,10 @@ namespace geocone
     void
     write(const std::string &name, const std::vector<int> &values);
     void
+    write(const std::string &name, const std::vector<long long> &values);
+    void
+    write(const std::string &name, const std::vector<unsigned char> &values);
+    void
     write(const std::string &name, const std::string &text);
     /** @} */
 
@@ -63,6 +67,38 @@ namespace geocone
     write_table(const std::string               &name,
                 const std::vector<unsigned int> &values,
                 const unsigned int               n_columns);
+    /** @} */
+
+    /** Rows of a table in a file beside this one. */
+    struct Part
+    {
+      std::string file, name;
+      std::size_t n_rows;
+    };
+
+    /**
+     * An array whose rows stand, part after part, in tables of other files: this one
+     * only names them (HDF5's virtual datasets). It has @p n_columns, of which those
+     * that the parts lack are 0; or, for 0, one dimension, with their rows one after
+     * another. @tparam T of the numbers that readers get: double or long long
+     */
+    template <typename T>
+    void
+    write_joined(const std::string       &name,
+                 const std::vector<Part> &parts,
+                 const unsigned int       n_columns_of_parts,
+                 const unsigned int       n_columns);
+
+    /** @name Attributes of a group, which is made if it is not there */
+    /** @{ */
+    void
+    write_attribute(const std::string            &group,
+                    const std::string            &name,
+                    const std::vector<long long> &values);
+    void
+    write_attribute(const std::string &group,
+                    const std::string &name,
+                    const std::string &text);
     /** @} */
 
     /** Writes a file that was created. */
@@ -99,6 +135,19 @@ namespace geocone
                 const std::size_t  n,
                 const std::size_t  n_columns,
                 const bool         compressed = true);
+    /** Makes an array, with all groups on the way to it. */
+    long long
+    create_array(const std::string &name,
+                 const long long    type,
+                 const long long    space,
+                 const long long    properties);
+    void
+    write_attribute(const std::string &group,
+                    const std::string &name,
+                    const long long    type,
+                    const long long    space,
+                    const void        *values);
+
     template <typename T>
     std::vector<T>
     read_array(const std::string &name) const;

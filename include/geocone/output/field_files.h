@@ -101,8 +101,11 @@ namespace geocone
    *  - vtu: base-NNNN.vtu, or a file per rank and base-NNNN.pvtu, and the series
    *    base.pvd. Single precision, compressed in haste.
    *  - hdf5: base-NNNN.h5, of all ranks, with the arrays nodes, cells and one for
-   *    each column, vectors with a third component 0; the series base.xdmf. Double
-   *    precision, not compressed. The first rank holds the file in memory.
+   *    each column, vectors with a third component 0. Double precision, not
+   *    compressed. The first rank holds the file in memory. Two records of the
+   *    series: base.xdmf, and base.vtkhdf, a VTKHDF file (version 2.0, of an
+   *    unstructured grid) of all times whose arrays are those of the .h5 files, which
+   *    it names and does not copy.
    * Each file is written whole.
    */
   class FieldFiles
@@ -153,21 +156,33 @@ namespace geocone
                   const MPI_Comm     comm,
                   std::string       &problem);
 
-    /** Adds a file to the series base.xdmf. @param n_nodes of all ranks */
+    /** The records of the .h5 files so far, whose columns are those of @p table. */
     void
-    add_to_record(const FieldTable  &table,
-                  const std::string &folder,
-                  const std::string &file,
-                  const double       time,
-                  const std::size_t  n_nodes);
+    write_xdmf(const FieldTable &table, const std::string &folder) const;
+    void
+    write_vtkhdf(const FieldTable &table, const std::string &folder) const;
+
+    /** What a .h5 file holds. */
+    struct Hdf5State
+    {
+      double      time;
+      std::string file;
+      std::size_t n_nodes; ///< of all ranks
+
+      void
+      state(StateRow &row)
+      {
+        row(time, file, n_nodes);
+      }
+    };
 
     const std::string  base;
     const FieldsFormat format;
     unsigned int       number = 0;
 
-    /** Of the first rank: times and files; grids of the XDMF record. */
+    /** Of the first rank: times and files. */
     std::vector<std::pair<double, std::string>> vtu;
-    std::vector<std::string>                    hdf5;
+    std::vector<Hdf5State>                      hdf5;
   };
 } // namespace geocone
 
