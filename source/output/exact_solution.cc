@@ -63,6 +63,7 @@ namespace geocone
                         const Space          &space,
                         const MaterialPoints &points,
                         const Vector         &displacement,
+                        const bool            points_move,
                         const double          t) const
   {
     // Squares of |u_h - u|, |u|, |s_h - s|, |s|, integrated.
@@ -104,15 +105,13 @@ namespace geocone
               }
           }
       }
-    const bool points_move = !points.displacement.empty();
     for (unsigned int p = 0; p < points.n_points(); ++p)
       {
         dealii::Point<dim> x = points.position[p];
         if (points_move)
-          {
-            x -= points.displacement[p];
-            add_displacement(points.displacement[p], x, points.weight[p]);
-          }
+          x -= points.displacement[p];
+        if (!points.displacement.empty())
+          add_displacement(points.displacement[p], x, points.weight[p]);
         std::array<double, n_mandel> values;
         for (int i = 0; i < n_mandel; ++i)
           values[i] = fields[dim + i].value(x, t);

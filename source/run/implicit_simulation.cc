@@ -470,7 +470,12 @@ namespace geocone
   {
     if (exact_solution.is_given())
       run_output.set_field_errors(
-        exact_solution.errors(mesh, space, points, kinematics.displacement, t));
+        exact_solution.errors(mesh,
+                              space,
+                              points,
+                              kinematics.displacement,
+                              stepper->has_moving_points(),
+                              t));
     write_summary("finished");
     run_output.print_result();
     const Json costs = cost();

@@ -42,12 +42,14 @@ namespace geocone
       return given;
     }
 
-    /** @param displacement of nodes that stay; empty where points move */
+    /** @param displacement of the nodes of FEM; empty with MPM
+     *  @param points_move whether points are where their displacement has led them */
     FieldErrors
     errors(const BackgroundMesh &mesh,
            const Space          &space,
            const MaterialPoints &points,
            const Vector         &displacement,
+           const bool            points_move,
            const double          t) const;
 
   private:
