@@ -544,6 +544,7 @@ namespace geocone
   {
     if (!begun)
       begin(points, timer);
+    particles.store(points); // what a reset may have changed
     BodyChange change;
     change.before = state_energies(kinematics, points, t);
     Vector     difference;
@@ -600,8 +601,9 @@ namespace geocone
   }
 
   void
-  ImplicitMPM::save(Archive &archive, MaterialPoints &)
+  ImplicitMPM::save(Archive &archive, MaterialPoints &points)
   {
+    particles.store(points); // what a reset may have changed
     if (scene->loading.changes_body())
       {
         StateRow row;
