@@ -52,9 +52,10 @@ def draw_bounds(run, path):
         axes.loglog(x, gap, "o-", color=BLUE)
         axes.axhline(tolerance, color=GREY, linestyle=":", label="tolerance")
         axes.set(xlabel=label, ylabel="gap (%)")
-        axes.yaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
     second.loglog(cells, gap[-1] * cells[-1] / cells, "k--", linewidth=1.,
                   label="one over the triangles")
+    for axes in second, third:
+        axes.yaxis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
     second.set_title("gap" if order is None else
                      f"gap: order {order:.2f} in the triangles")
     third.set_title("gap against time")
