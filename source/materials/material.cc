@@ -138,6 +138,8 @@ namespace geocone
   std::optional<FlowCone>
   Material::initial_cone() const
   {
+    if (is_spatial()) // none of these has a cone that changes
+      return flow_cone(nullptr);
     std::vector<double> history(n_history());
     initialise({}, 0., history.data());
     return flow_cone(history.data());
