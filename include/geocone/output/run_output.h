@@ -55,6 +55,10 @@ namespace geocone
     }
   };
 
+  /** Whether what presses moves on in one direction over three records. */
+  bool
+  moves_on(const StepRecord &a, const StepRecord &b, const StepRecord &c);
+
   /** How a stage ended that was to go on until failure. */
   struct Failure
   {
@@ -152,8 +156,30 @@ namespace geocone
     print_result() const;
 
   private:
+    /** @name The summary: all that the steps have brought, and some of its topics */
+    /** @{ */
     Json
     results() const;
+    Json
+    limit_load() const;
+    Json
+    energy() const;
+    Json
+    safety() const;
+    Json
+    contact() const;
+    Json
+    friction_memory() const;
+    Json
+    motion() const; ///< whether particles that move are sound
+    /** @} */
+
+    void
+    print_limit_load() const;
+
+    /** What tests compare. */
+    void
+    report_loads(std::ostream &out) const;
 
     /** See Geometry::unit(). */
     std::string
@@ -170,27 +196,11 @@ namespace geocone
     bool
     touches() const;
 
-    /** The topic "safety" of summary.json. */
-    Json
-    safety() const;
-
-    /** The topic "contact" of summary.json. */
-    Json
-    contact() const;
-
-    /** What it has done, for the summary. */
-    Json
-    friction_memory() const;
-
-    /** What shows whether particles that move are sound, for the summary. */
-    Json
-    motion() const;
-
     /** The load that stands beside the bracket, if there are both in one unit. */
     std::optional<double>
     bracketed_load() const;
 
-    /** Warns if it has changed the result by more than about 1 %. */
+    /** Warns if the memory of friction has changed the result by more than about 1 %. */
     void
     warn_of_memory() const;
 

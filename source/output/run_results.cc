@@ -1,0 +1,444 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// The results of a run: its summary, and what is printed of it.
+#include <geocone/output/observation_columns.h>
+#include <geocone/output/run_output.h>
+
+#include <cmath>
+#include <limits>
+
+namespace geocone
+{
+  Json
+  RunOutput::safety() const
+  {
+    const auto factor = [&](const double t) {
+      return scene->loading.strength_factor(t);
+    };
+    const double lower = failure           ? factor(failure->carried_until)
+                         : records.empty() ? 1.
+                                           : factor(records.back().time);
+    const double upper = failure ? factor(failure->not_until) : 0.;
+    const bool   found = failure && upper > 1.;
+    return {{"factor", found ? Json((lower + upper) / 2.) : Json()},
+            {"lower", failure && !found ? Json() : Json(lower)},
+            {"upper", failure ? Json(upper) : Json()},
+            {"criterion",
+             !failure ? "equilibrium is found for all factors of the stages"
+             : found  ? "no equilibrium is found at the upper factor"
+                      : "no equilibrium is found without a reduction"}};
+  }
+
+  Json
+  RunOutput::contact() const
+  {
+    ContactReport worst;
+    for (const StepRecord &record : records)
+      worst.take_worse(record.last.contact);
+    const ContactReport last =
+      records.empty() ? ContactReport() : records.back().last.contact;
+    return {{"penetration_max", worst.penetration},
+            {"natural_map_error_max", worst.error},
+            {"open", last.open},
+            {"stick", last.stick},
+            {"slip", last.slip},
+            {"width_m", points_move ? Json() : Json(last.width)},
+            {"pressure_max_Pa", points_move ? Json() : Json(last.pressure)},
+            {unit("dissipation_J_per_m"), contact_dissipation}};
+  }
+
+  Json
+  RunOutput::friction_memory() const
+  {
+    // The strength of an instant ago is in the load: by tau dF/dt.
+    Json         delay;
+    const auto   n   = records.size();
+    const double tau = scene->materials.least_friction_memory();
+    if (n > 1 && !scene->observation.conditions.empty())
+      {
+        const StepRecord &a = records[n - 2], &b = records[n - 1];
+        if (b.time > a.time && b.load != 0.)
+          delay = tau * (b.load - a.load) / (b.time - a.time) / b.load;
+      }
+    return {{"tau_s", tau},
+            {unit("work_J_per_m"), memory_work},
+            {"work_relative",
+             dissipation > 0. ? Json(memory_work / dissipation) : Json()},
+            {"load_delay_relative", delay}};
+  }
+
+  Json
+  RunOutput::motion() const
+  {
+    Motion worst;
+    for (const StepRecord &record : records)
+      worst.take_worse(record.last.motion);
+    const dealii::Point<dim> front =
+      records.empty() ? worst.front : records.back().last.motion.front;
+    // Steps whose load is more than 5 % below those before and after, while what
+    // presses moves on.
+    unsigned int n_drops = 0;
+    for (std::size_t i = 1; i + 1 < records.size(); ++i)
+      {
+        const StepRecord &a = records[i - 1], &b = records[i],
+                         &c = records[i + 1];
+        n_drops += moves_on(a, b, c) &&
+                   std::abs(b.load) <
+                     0.95 * std::min(std::abs(a.load), std::abs(c.load));
+      }
+    return {
+      {"load_drops", n_drops},
+      {"points_behind", worst.points_behind},
+      {"empty_functions", worst.light_functions},
+      {"light_share_max", worst.light_share},
+      {"front_x_m", front[0]},
+      {"front_y_m", front[1]},
+      {unit("ghost_work_J_per_m"), ghost_work},
+      {"ghost_work_relative", work > 0. ? Json(ghost_work / work) : Json()}};
+  }
+
+  void
+  RunOutput::warn_of_memory() const
+  {
+    const Json  &memory    = summary["friction_memory"];
+    const double work_part = memory["work_relative"].is_null()
+                               ? 0.
+                               : memory["work_relative"].get<double>();
+    const double delay     = memory["load_delay_relative"].is_null()
+                               ? 0.
+                               : memory["load_delay_relative"].get<double>();
+    std::string  felt;
+    if (work_part > 0.02)
+      felt = format("its strength was off the exact one by %.2g %% of the "
+                    "plastic work",
+                    100. * work_part);
+    if (std::abs(delay) > 0.005)
+      felt += (felt.empty() ? "" : ", and ") +
+              format("the last load still moves by %.2g %% in this time",
+                     100. * std::abs(delay));
+    if (!felt.empty())
+      log.warn(format("friction with memory (%.3g s) is felt by the result: ",
+                      memory["tau_s"].get<double>()) +
+               felt +
+               "; compare with half of it ('Materials/NAME/Friction memory') "
+               "or a longer run");
+  }
+
+  Json
+  RunOutput::limit_load() const
+  {
+    std::vector<LoadPoint> curve;
+    double                 offset = 0.;
+    for (const StepRecord &record : records)
+      {
+        // A reset of the displacement is no step of the curve.
+        if (record.resets && !curve.empty())
+          offset = curve.back().displacement;
+        curve.push_back({offset + record.displacement, record.load});
+      }
+    const LimitLoad limit =
+      find_limit_load(curve, scene->observation.plateau_tolerance);
+    const auto &reference = scene->observation.reference;
+    const Json  nothing;
+    return {
+      {"value", limit.found ? Json(limit.value) : nothing},
+      {"unit", unit("N/m")},
+      {"reference", reference ? Json(*reference) : nothing},
+      {"reference_name",
+       reference ? Json(scene->observation.reference_name) : nothing},
+      {"relative_error",
+       limit.found && reference ? Json(limit.value / *reference - 1.)
+                                : nothing},
+      {"band_low", limit.found ? Json(limit.band_low) : nothing},
+      {"band_high", limit.found ? Json(limit.band_high) : nothing},
+      {"plateau_begins_at", limit.found ? Json(limit.begins_at) : nothing},
+      {"reason", limit.found ? nothing : Json(limit.reason)},
+      {"drift", limit.drift},
+      {"peak", limit.peak},
+      {"last", curve.empty() ? nothing : Json(curve.back().load)},
+      {"load_jumps", n_load_jumps}};
+  }
+
+  Json
+  RunOutput::energy() const
+  {
+    const Energies &e = records.back().last.energies;
+    // Potential energy counts from the lower left corner of the mesh.
+    const double released = initial.potential - removed_potential - e.potential;
+    const double begin    = initial.state();
+    // Scale of the rounding in the least loss of a step.
+    const double scale = std::max({std::abs(work),
+                                   std::abs(released),
+                                   e.elastic,
+                                   e.kinetic,
+                                   begin,
+                                   std::numeric_limits<double>::min()});
+    // Weight that grows has a potential energy that does, too.
+    const bool is_ramped = scene->gravity.is_ramped();
+    const Json nothing;
+    Json       json = {
+            {unit("external_work_J_per_m"), work},
+            {unit("elastic_J_per_m"), e.elastic},
+            {unit("kinetic_J_per_m"), e.kinetic},
+            {unit("potential_J_per_m"), e.potential},
+            {"potential_datum", "lower left corner of the mesh"},
+            {unit("initial_J_per_m"), begin},
+            {unit("released_potential_J_per_m"),
+       is_ramped ? nothing : Json(released)},
+            {unit("dissipation_J_per_m"), dissipation},
+            {unit("numerical_loss_J_per_m"), loss},
+            {"loss_to_released",
+       released > 0. && !is_ramped ? Json(loss / released) : nothing},
+            {"loss_to_initial", begin > 0. ? Json(loss / begin) : nothing},
+            {"least_step_loss_relative", least_loss / scale}};
+    if (scene->loading.changes_body())
+      json[unit("removed_J_per_m")] = removed_energy;
+    return json;
+  }
+
+  Json
+  RunOutput::results() const
+  {
+    unsigned int iterations = 0, most = 0, substeps = 0, failures = 0,
+                 regularised = 0, lagging = 0, at_floor = 0;
+    Quality quality;
+    double  residual = 0., identity = 0., lag = 0.;
+    for (const StepRecord &record : records)
+      {
+        regularised += record.regularised;
+        iterations += record.iterations;
+        most = std::max(most, record.iterations);
+        substeps += record.substeps;
+        failures += record.failures;
+        quality.take_worse(record.last.quality);
+        residual = std::max(residual, record.last.newton.residual);
+        lag      = std::max(lag, record.last.newton.friction_lag);
+        lagging += record.last.newton.friction_lag > 0.;
+        at_floor += record.last.newton.at_rounding_floor;
+        identity = std::max(identity, record.last.identity_error);
+      }
+
+    Json json;
+    if (!scene->observation.conditions.empty())
+      json["limit_load"] = limit_load();
+    if (!records.empty())
+      add_points(records.back().displacements, json);
+    json["newton"] = {
+      {"steps", records.size()},
+      {"substeps", substeps},
+      {"iterations_mean",
+       records.empty() ? 0. : double(iterations) / records.size()},
+      {"iterations_per_substep",
+       substeps == 0 ? 0. : double(iterations) / substeps},
+      {"iterations_max", most},
+      {"failures", failures},
+      {"regularised", regularised},
+      {"residual_max", residual},
+      {"steps_at_rounding_floor", at_floor},
+      {"steps_with_friction_lag", lagging},
+      {"friction_lag_max", lag}};
+    if (remembers())
+      json["friction_memory"] = friction_memory();
+    if (touches())
+      json["contact"] = contact();
+    if (points_move)
+      json["motion"] = motion();
+    json["quality"] = {{"natural_map_error_max", quality.natural_map},
+                       {"complementarity_max", quality.complementarity},
+                       {"cone_violation_max", quality.cone_violation},
+                       {"dual_cone_violation_max", quality.dual_violation},
+                       {"cone_excess_max_Pa", quality.cone_excess}};
+    if (!records.empty())
+      {
+        json["state"]                        = {{"largest_plastic_strain",
+                                                 records.back().last.largest_plastic_strain}};
+        json["energy"]                       = energy();
+        json["energy"]["identity_error_max"] = identity;
+      }
+    return json;
+  }
+
+  void
+  RunOutput::write_summary(const std::string &status,
+                           const Json        &size,
+                           const Json        &cost)
+  {
+    if (!writes)
+      return;
+    summary = Json{{"name", name}, {"status", status}};
+    summary.update(results());
+    if (scene->loading.reduces_strength())
+      summary["safety"] = safety();
+    if (bracket)
+      {
+        summary["bounds"] = bracket->bounds();
+        if (!bracket->is_associated)
+          {
+            Json      &topic     = summary["non_associated"];
+            const auto load      = bracketed_load();
+            topic                = bracket->non_associated();
+            topic["incremental"] = load ? Json(*load) : Json();
+          }
+      }
+    if (field_errors)
+      {
+        // Where the exact field is zero there is no relative error.
+        const auto relative = [](const double error) {
+          return std::isfinite(error) ? Json(error) : Json();
+        };
+        summary["field_errors"] = {
+          {"displacement", relative(field_errors->displacement)},
+          {"stress", relative(field_errors->stress)}};
+      }
+    if (failure)
+      summary["failure"] = {{"stage", failure->stage},
+                            {"carried_until_s", failure->carried_until},
+                            {"not_until_s", failure->not_until},
+                            {"reason", failure->reason}};
+    summary["size"] = size;
+    summary["cost"] = cost;
+    write_summary_file();
+  }
+
+  std::optional<double>
+  RunOutput::bracketed_load() const
+  {
+    if (!bracket || bracket->unit != unit("N/m") ||
+        !summary.contains("limit_load") ||
+        summary["limit_load"]["value"].is_null())
+      return std::nullopt;
+    return summary["limit_load"]["value"].get<double>();
+  }
+
+  void
+  RunOutput::set_failure(const Failure &what)
+  {
+    failure = what;
+    log.print(format("failure: the loads of the stage '%s' are carried until t "
+                     "= %.6g s, and not until %.6g s",
+                     what.stage.c_str(),
+                     what.carried_until,
+                     what.not_until));
+  }
+
+  void
+  RunOutput::print_result() const
+  {
+    if (!writes)
+      return;
+    const Json &newton_part = summary["newton"];
+    log.print(format("%zu steps, %.1f iterations per step (at most %u), %u "
+                     "failed substeps",
+                     records.size(),
+                     newton_part["iterations_mean"].get<double>(),
+                     newton_part["iterations_max"].get<unsigned int>(),
+                     newton_part["failures"].get<unsigned int>()));
+    log.print(format("natural-map error <= %.1e, complementarity <= %.1e, cone "
+                     "violation <= %.1e",
+                     summary["quality"]["natural_map_error_max"].get<double>(),
+                     summary["quality"]["complementarity_max"].get<double>(),
+                     summary["quality"]["cone_violation_max"].get<double>()));
+    if (const auto n = newton_part["steps_at_rounding_floor"].get<unsigned>())
+      log.print(format("%u of %zu steps are solved up to rounding, which is "
+                       "above 'Newton/Tolerance' (residual <= %.1e)",
+                       n,
+                       records.size(),
+                       newton_part["residual_max"].get<double>()));
+    if (const auto n = newton_part["steps_with_friction_lag"].get<unsigned>())
+      log.print(format("friction lags in %u of %zu steps (by at most %.2g of a "
+                       "step), the exact cone is exceeded by up to %.3g Pa",
+                       n,
+                       records.size(),
+                       newton_part["friction_lag_max"].get<double>(),
+                       summary["quality"]["cone_excess_max_Pa"].get<double>()));
+    if (remembers())
+      warn_of_memory();
+    if (summary.contains("safety") && summary["safety"]["factor"].is_number())
+      log.print(
+        format("factor of safety %.4f (equilibrium is found at %.4f, and "
+               "not at %.4f)",
+               summary["safety"]["factor"].get<double>(),
+               summary["safety"]["lower"].get<double>(),
+               summary["safety"]["upper"].get<double>()));
+    if (summary.contains("limit_load"))
+      print_limit_load();
+    if (bracket)
+      {
+        log.print(bracket->text());
+        if (const auto load = bracketed_load())
+          log.print(bracket->beside(*load));
+      }
+    if (field_errors)
+      log.print(format("relative L2 errors: displacement %.3e, stress %.3e",
+                       field_errors->displacement,
+                       field_errors->stress));
+    if (report_for_tests == Report::expectations)
+      write_file("output", [](std::ostream &) {});
+    else if (report_for_tests != Report::none)
+      write_file("output", [&](std::ostream &out) { report_loads(out); });
+  }
+
+  void
+  RunOutput::print_limit_load() const
+  {
+    const Json       &limit   = summary["limit_load"];
+    const std::string of_load = unit("N/m");
+    if (limit["value"].is_null())
+      log.print("limit load: none, " + limit["reason"].get<std::string>());
+    else
+      {
+        std::string line =
+          format("limit load %.2f ", limit["value"].get<double>()) + of_load;
+        if (limit["band_high"] != limit["band_low"])
+          line += format(" (band %.2f to %.2f)",
+                         limit["band_low"].get<double>(),
+                         limit["band_high"].get<double>());
+        if (!limit["reference"].is_null())
+          line += format(", %s %.2f %s, error %+.3f %%",
+                         limit["reference_name"].get<std::string>().c_str(),
+                         limit["reference"].get<double>(),
+                         of_load.c_str(),
+                         100. * limit["relative_error"].get<double>());
+        log.print(line);
+      }
+  }
+
+  void
+  RunOutput::report_loads(std::ostream &out) const
+  {
+    out << "time [s]  displacement [mm]  load [" << unit("N/m") << "]\n";
+    for (const StepRecord &record : records)
+      out << format("%.6g %.6g %.8g\n",
+                    record.time,
+                    1e3 * record.displacement,
+                    record.load);
+    if (summary.contains("limit_load"))
+      {
+        const Json &limit = summary["limit_load"];
+        if (limit["value"].is_null())
+          out << "no limit load\n";
+        else
+          out << format("limit load %.8g\n", limit["value"].get<double>());
+        if (limit["relative_error"].is_number())
+          out << format("error %.5g %%\n",
+                        100. * limit["relative_error"].get<double>());
+      }
+    // Bodies left to themselves have their initial energy only.
+    const double turnover = std::abs(work) + std::abs(dissipation);
+    const double scale =
+      turnover > 0. ? turnover : std::max(initial.state(), 1e-300);
+    const Energies &e = records.back().last.energies;
+    out << format("elastic %.6g %% dissipated %.6g %% kinetic %.4g %% of "
+                  "the work\n",
+                  100. * e.elastic / scale,
+                  100. * dissipation / scale,
+                  100. * e.kinetic / scale);
+    if (field_errors)
+      out << format("field errors: displacement %.4g %%, stress %.4g %%\n",
+                    100. * field_errors->displacement,
+                    100. * field_errors->stress);
+    out << "unknowns " << summary["size"]["dofs"] << " points "
+        << summary["size"]["points"] << "\n";
+  }
+} // namespace geocone
