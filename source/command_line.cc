@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
@@ -37,6 +38,17 @@ namespace geocone
         if (std::filesystem::exists(folder / place, error))
           return (folder / place).lexically_normal().string();
       return "";
+    }
+
+    /** Whether no mpirun (or its like) started this program. */
+    bool
+    is_started_alone()
+    {
+      for (const char *name :
+           {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"})
+        if (std::getenv(name))
+          return false;
+      return true;
     }
 
     /** Starts the program that draws with the folder as its one argument, without
@@ -192,9 +204,14 @@ namespace geocone
     Watcher watcher;
     Drawing drawing;
     int     status = 1;
-    // Open MPI would start a daemon for a run without mpirun, which it needs only
-    // to start further processes.
-    setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+    if (is_started_alone())
+      {
+        // Open MPI would start a daemon, which it needs only to start further
+        // processes, and make a folder that all such runs share: one that ends
+        // may remove it while another is making its own in it, and that fails.
+        setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+        setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
+      }
     {
       dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
       watch_for_signals();

@@ -20,6 +20,7 @@ if [ $code -ne 1 ]; then
   exit 1
 fi
 if ! numdiff -a 1e-6 -r 1e-8 "$3" output; then
+  cat stderr
   exit 1
 fi
 if [ -e results ]; then
