@@ -25,10 +25,9 @@ namespace geocone
     LoadBracket best;
     for (const BoundLevel &level : levels)
       {
-        if (level.lower_certified && (!best.lower || level.lower > *best.lower))
-          best.lower = level.lower;
-        if (level.upper_certified && (!best.upper || level.upper < *best.upper))
-          best.upper = level.upper;
+        best.take(
+          level.lower_certified ? std::optional(level.lower) : std::nullopt,
+          level.upper_certified ? std::optional(level.upper) : std::nullopt);
         best.cells = level.cells;
         best.seconds += level.cpu_seconds + level.mesh_seconds;
       }

@@ -19,18 +19,11 @@ namespace geocone
 
   namespace
   {
-    /** Takes what is better and certified into a bracket. @param unit the load of a
-     *  problem's 1 */
-    void
-    take(const CertifiedBounds &bounds, const double unit, LoadBracket &bracket)
+    /** The load of a bound, if it is certified. @param unit the load of a problem's 1 */
+    std::optional<double>
+    proven(const Bound &bound, const double unit)
     {
-      const Bound &lower = bounds.lower.bound, &upper = bounds.upper.bound;
-      if (lower.certified &&
-          (!bracket.lower || unit * lower.load > *bracket.lower))
-        bracket.lower = unit * lower.load;
-      if (upper.certified &&
-          (!bracket.upper || unit * upper.load < *bracket.upper))
-        bracket.upper = unit * upper.load;
+      return bound.certified ? std::optional(unit * bound.load) : std::nullopt;
     }
   } // namespace
 
@@ -78,7 +71,8 @@ namespace geocone
               {
                 next = sizes_by_gap(triangles, bounds.uneven, n_asked);
                 gap  = upper / lower - 1.;
-                take(bounds, load.value_of_unit(), bracket);
+                bracket.take(proven(bounds.lower.bound, load.value_of_unit()),
+                             proven(bounds.upper.bound, load.value_of_unit()));
                 bracket.cells = triangles.cells.size();
                 if (is_last && load.non_associated())
                   bracket.davis =

@@ -8,6 +8,16 @@
 
 namespace geocone
 {
+  void
+  LoadBracket::take(const std::optional<double> other_lower,
+                    const std::optional<double> other_upper)
+  {
+    if (other_lower && (!lower || *other_lower > *lower))
+      lower = other_lower;
+    if (other_upper && (!upper || *other_upper < *upper))
+      upper = other_upper;
+  }
+
   std::optional<double>
   LoadBracket::gap() const
   {

@@ -31,6 +31,12 @@ namespace geocone
     unsigned int cells   = 0;  ///< of the last mesh
     double       seconds = 0.; ///< of all meshes
 
+    /** Takes bounds of another mesh that are better; those that are not certified are
+     *  not there. */
+    void
+    take(const std::optional<double> other_lower,
+         const std::optional<double> other_upper);
+
     /** upper/lower - 1, if there are both. */
     std::optional<double>
     gap() const;
