@@ -103,8 +103,8 @@ namespace geocone
 
   double
   CsvReader::number(const std::vector<std::string> &values,
-                  const std::size_t               column,
-                  const char                     *otherwise) const
+                    const std::size_t               column,
+                    const char                     *otherwise) const
   {
     const std::string &text  = values[column];
     const char        *begin = text.c_str() + (text[0] == '+' ? 1 : 0),

@@ -32,6 +32,17 @@ namespace geocone
         "without inertia and gravity any positive value will do");
   }
 
+  void
+  ConstitutiveLaw::require(const bool         holds,
+                           const char        *name,
+                           const double       value,
+                           const std::string &allowed,
+                           const char        *remedy) const
+  {
+    if (!holds)
+      throw InputError(parameter(name), value, allowed, remedy);
+  }
+
   ConstitutiveLaw::Stress
   ConstitutiveLaw::whole(const Components &s, const double *history) const
   {

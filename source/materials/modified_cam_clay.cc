@@ -115,14 +115,6 @@ namespace geocone
   ModifiedCamClay::prepare()
   {
     SpatialLaw::prepare();
-    const auto require = [&](const bool         holds,
-                             const char        *name,
-                             const double       value,
-                             const std::string &allowed,
-                             const char        *remedy) {
-      if (!holds)
-        throw InputError(parameter(name), value, allowed, remedy);
-    };
     require(kappa > 0. && std::isfinite(kappa),
             "Swelling index kappa",
             kappa,

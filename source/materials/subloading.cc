@@ -225,14 +225,6 @@ namespace geocone
   void
   Subloading::check_constants() const
   {
-    const auto require = [&](const bool         holds,
-                             const char        *name,
-                             const double       value,
-                             const std::string &allowed,
-                             const char        *remedy) {
-      if (!holds)
-        throw InputError(parameter(name), value, allowed, remedy);
-    };
     require(c.kappa > 0.,
             "Swelling index kappa",
             c.kappa,

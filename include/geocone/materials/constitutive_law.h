@@ -143,6 +143,14 @@ namespace geocone
     std::string
     parameter(const std::string &name = "") const;
 
+    /** @throws InputError for a constant that is not as it must be */
+    void
+    require(const bool         holds,
+            const char        *name,
+            const double       value,
+            const std::string &allowed,
+            const char        *remedy) const;
+
   private:
     double rho = 2000.;
   };
