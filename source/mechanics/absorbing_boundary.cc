@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/parameter_file.h>
 #include <geocone/mechanics/absorbing_boundary.h>
 #include <geocone/mechanics/face_points.h>
 
@@ -25,7 +26,8 @@ namespace geocone
     for (unsigned int m = 0; m < scene.materials.size(); ++m)
       if (!scene.materials[m].has_constant_stiffness())
         throw InputError("Materials/" + scene.materials.name(m) + "/Type",
-                         "modified Cam-Clay",
+                         ParameterFile::value(
+                           "Materials/" + scene.materials.name(m) + "/Type"),
                          "a law of constant stiffness where a side absorbs "
                          "waves",
                          "take linear elastic, or leave out 'Absorbing "
