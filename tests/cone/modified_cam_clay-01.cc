@@ -9,11 +9,8 @@
 // keeps 1 Pa. Isotropic compression, which is exact in one step, and elastic steps are
 // compared with their closed forms.
 
-#include <geocone/materials/material_library.h>
-
-#include <memory>
-
 #include "cone_tests.h"
+#include "spatial_point.h"
 
 using namespace cone_tests;
 using namespace geocone;
@@ -36,70 +33,25 @@ struct Answer
   Mode  mode;
 };
 
-struct Law
+struct Law : SpatialPoint
 {
-  std::unique_ptr<ConstitutiveLaw> owner;
-  const Material                  *law;
-  const double                     attraction;
-
   explicit Law(const double attraction)
-    : attraction(attraction)
-  {
-    dealii::ParameterAcceptor::clear();
-    owner = make_material("modified Cam-Clay", "Materials/soil");
-    dealii::ParameterAcceptor::declare_all_parameters();
-    dealii::ParameterAcceptor::prm.parse_input_from_string(
-      "subsection Materials\nsubsection soil\n"
-      "set Swelling index kappa = 0.01\nset Compression index lambda = 0.08\n"
-      "set Critical state slope M = 1.2\nset Poisson ratio = 0.25\n"
-      "set Attraction = " +
-      std::to_string(attraction) + "\nend\nend\n");
-    dealii::ParameterAcceptor::parse_all_parameters();
-    owner->prepare();
-    law = dynamic_cast<const Material *>(owner.get());
-  }
+    : SpatialPoint(
+        "modified Cam-Clay",
+        "set Swelling index kappa = 0.01\nset Compression index lambda = 0.08\n"
+        "set Critical state slope M = 1.2\nset Poisson ratio = 0.25\n"
+        "set Attraction = " +
+          std::to_string(attraction) + "\n")
+  {}
 
-  /** The history of a state: what s_zz is beyond nu (s_xx + s_yy), and pc. */
-  std::vector<double>
-  history_of(const State &state) const
-  {
-    return {state.stress[3] - nu * (state.stress[0] + state.stress[1]),
-            state.pc};
-  }
-
-  Answer
+  /** Of the history s_zz is there beyond nu (s_xx + s_yy), and pc. */
+  ::Answer
   operator()(const State &state, const V &e) const
   {
-    const Mandel in_plane = e.head<3>(), s_n = state.stress.head<3>();
-    const double zz                     = e[3];
-    const std::vector<double> history_n = history_of(state);
-    std::vector<double>       history   = history_n;
-    Increment                 increment;
-    increment.strain    = dealii::ArrayView<const Mandel>(&in_plane, 1);
-    increment.stress_n  = dealii::ArrayView<const Mandel>(&s_n, 1);
-    increment.history_n = history_n.data();
-    increment.n_history = history_n.size();
-    increment.strain_zz = &zz;
-    Mandel            stress;
-    MandelMatrix      tangent;
-    OutOfPlaneTangent out;
-    double            stress_zz;
-    Answer            answer;
-    Response          response;
-    response.stress     = dealii::ArrayView<Mandel>(&stress, 1);
-    response.mode       = dealii::ArrayView<Mode>(&answer.mode, 1);
-    response.tangent    = dealii::ArrayView<MandelMatrix>(&tangent, 1);
-    response.history    = history.data();
-    response.stress_zz  = &stress_zz;
-    response.tangent_zz = &out;
-    law->update(increment, response);
-    answer.state.stress << stress, stress_zz;
-    answer.state.pc                         = history[1];
-    answer.tangent.topLeftCorner<3, 3>()    = tangent;
-    answer.tangent.topRightCorner<3, 1>()   = out.by_zz;
-    answer.tangent.bottomLeftCorner<1, 3>() = out.of_zz.transpose();
-    answer.tangent(3, 3)                    = out.zz;
-    return answer;
+    const V                   &s = state.stress;
+    const SpatialPoint::Answer end =
+      step(e, s, {s[3] - nu * (s[0] + s[1]), state.pc});
+    return {{end.stress, end.history[1]}, end.tangent, end.mode};
   }
 };
 

@@ -8,14 +8,13 @@
 // Drucker-Prager's law, associated or not, has the natural map of its cone. In plane
 // strain Drucker-Prager matched to it flows at the strength of the plane cone.
 
-#include <geocone/materials/material_library.h>
 #include <geocone/materials/second_order_cone.h>
 
 #include <array>
-#include <memory>
 #include <sstream>
 
 #include "cone_tests.h"
+#include "spatial_point.h"
 
 using namespace cone_tests;
 using namespace geocone;
@@ -23,65 +22,20 @@ using namespace geocone;
 using V = SpatialMandel;
 using M = SpatialMandelMatrix;
 
-struct Answer
+struct Law : SpatialPoint
 {
-  V    stress;
-  M    tangent;
-  Mode mode;
-};
-
-struct Law
-{
-  std::unique_ptr<ConstitutiveLaw> owner;
-  const Material                  *law;
-
   Law(const std::string &type, const std::string &parameters)
-  {
-    dealii::ParameterAcceptor::clear();
-    owner = make_material(type, "Materials/soil");
-    dealii::ParameterAcceptor::declare_all_parameters();
-    dealii::ParameterAcceptor::prm.parse_input_from_string(
-      "subsection Materials\nsubsection soil\nset Young modulus = 100\n"
-      "set Poisson ratio = 0.2\n" +
-      parameters + "end\nend\n");
-    dealii::ParameterAcceptor::parse_all_parameters();
-    owner->prepare();
-    law = dynamic_cast<const Material *>(owner.get());
-  }
+    : SpatialPoint(
+        type, "set Young modulus = 100\nset Poisson ratio = 0.2\n" + parameters)
+  {}
 
   /** From the stress 0, where the strain increment is that of a trial stress. */
   Answer
   operator()(const V &trial) const
   {
-    const V             e        = law->elasticity().strain(trial);
-    const Mandel        in_plane = e.head<3>(), none = Mandel::Zero();
-    const double        zz = e[3];
-    std::vector<double> history_n(law->n_history(), 0.), history = history_n;
-    Increment           increment;
-    increment.strain    = dealii::ArrayView<const Mandel>(&in_plane, 1);
-    increment.stress_n  = dealii::ArrayView<const Mandel>(&none, 1);
-    increment.history_n = history_n.data();
-    increment.n_history = history_n.size();
-    increment.strain_zz = &zz;
-    Mandel            stress;
-    MandelMatrix      tangent;
-    OutOfPlaneTangent out;
-    double            stress_zz;
-    Answer            answer;
-    Response          response;
-    response.stress     = dealii::ArrayView<Mandel>(&stress, 1);
-    response.mode       = dealii::ArrayView<Mode>(&answer.mode, 1);
-    response.tangent    = dealii::ArrayView<MandelMatrix>(&tangent, 1);
-    response.history    = history.data();
-    response.stress_zz  = &stress_zz;
-    response.tangent_zz = &out;
-    law->update(increment, response);
-    answer.stress << stress, stress_zz;
-    answer.tangent.topLeftCorner<3, 3>()    = tangent;
-    answer.tangent.topRightCorner<3, 1>()   = out.by_zz;
-    answer.tangent.bottomLeftCorner<1, 3>() = out.of_zz.transpose();
-    answer.tangent(3, 3)                    = out.zz;
-    return answer;
+    return step(law->elasticity().strain(trial),
+                V::Zero(),
+                std::vector<double>(law->n_history(), 0.));
   }
 };
 
@@ -101,7 +55,7 @@ check(const std::string &type,
       V trial = random.vector<V>(6.);
       if (i % 3 == 0) // beyond the apex
         trial += V(12., 12., 0., 12.);
-      const Answer answer = law(trial);
+      const Law::Answer answer = law(trial);
       ++counts[static_cast<int>(answer.mode)];
       beyond.add(*law.law->yield_function(answer.stress));
       admissible.push_back(answer.stress);
@@ -122,10 +76,10 @@ check(const std::string &type,
       bool smooth = true;
       for (int j = 0; j < 4; ++j)
         {
-          V step             = V::Zero();
-          step[j]            = 1e-5;
-          const Answer plus  = law(trial + elastic.stress(step)),
-                       minus = law(trial - elastic.stress(step));
+          V step                  = V::Zero();
+          step[j]                 = 1e-5;
+          const Law::Answer plus  = law(trial + elastic.stress(step)),
+                            minus = law(trial - elastic.stress(step));
           const V curved =
             plus.stress + minus.stress - 2. * answer.stress; // 0 where smooth
           smooth = smooth && curved.norm() < 1e-6 && plus.mode == minus.mode;
