@@ -2,6 +2,7 @@
 # options beside a mesh never; what gmsh cannot do ends with exit code 1 and a
 # remedy, not with an abort.
 program=$1 root=$2 folder=$3
+. "$root/tests/fails.sh"
 rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
 run() {
   "$program" scene.prm --quiet --set "Geometry/File = $1" --output "$2" "${@:3}"
@@ -49,7 +50,7 @@ refused script.msh 'begins with .MeshFormat' "${trusted[@]}"
 refused script.step 'begins with .MeshFormat' "${trusted[@]}"
 run squares.msh data
 run squares.msh again "${trusted[@]}"
-! was_run
+fails was_run
 run squares.geo script "${trusted[@]}"
 was_run
 # gmsh throws texts.

@@ -1,6 +1,7 @@
 # What is read as a parameter file: text with a byte-order mark or the line ends of
 # another system, too; no devices, folders, endless or binary files.
 program=$1 root=$2 folder=$3
+. "$root/tests/fails.sh"
 rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
 sed "s#^include #include $root/tests/../#" >scene.prm <<PRM
 include tests/footing_coarse.prm
@@ -35,4 +36,4 @@ printf 'end\nend\n' >ends.prm
 refuse ends.prm "'end' without a subsection"
 printf 'subsection Contact\nend\n' >contact.prm
 refuse contact.prm "unknown section 'Contact'"
-! grep -q 'did you mean' err
+fails grep -q 'did you mean' err

@@ -1,12 +1,10 @@
 # After "cmake --install" Python imports geocone without PYTHONPATH, from a prefix in which
 # it looks for modules, runs the program beside it, and finds the examples; twice is as once.
 program=$1 root=$2 folder=$3
+. "$root/tests/fails.sh"
 rm -rf "$folder" && mkdir -p "$folder/home" && cd "$folder"
 export HOME=$folder/home PYTHONDONTWRITEBYTECODE=1
 unset PYTHONPATH PYTHONNOUSERSITE
-fails() { # "! ..." alone would not end this script
-  ! "$@"
-}
 fails /usr/bin/python3 -c 'import geocone' 2> said
 grep -q "No module named 'geocone'" said
 for time in first second; do

@@ -2,10 +2,8 @@
 # it; and a page that links to nothing is refused. A browser (where there is one) draws all
 # formulas and searches, without a network.
 root=$2 folder=$3
+. "$root/tests/fails.sh"
 rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
-fails() { # "! ..." alone would not end this script
-  ! "$@"
-}
 "$root/scripts/site" "$folder/site" > said
 grep -qx "site: $folder/site/index.html" said
 /usr/bin/python3 -B "$root/tests/site/links.py" site
