@@ -50,3 +50,7 @@ if ground --output k0; then exit 1; fi
 grep -q "cause: .*initial stress of .* points is outside .*'Initial stress/K0' = automatic" log
 ground --set 'Initial stress/K0 = automatic' --output automatic || true
 fails grep -q 'outside of the strength' log
+
+# The mesh from the bounds begins with triangles graded to the given points.
+"$program" "$root/tests/fem/prandtl_adapted-01.prm" --output bounds >log 2>&1
+fails grep -q 'not used by this run' log
