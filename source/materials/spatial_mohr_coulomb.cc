@@ -179,11 +179,22 @@ namespace geocone
                                          SpatialMandel       &stress,
                                          SpatialMandelMatrix *tangent) const
   {
+    const Pyramid strength = delayed(step.friction_lag, stress_n);
+    if (strength.holds_cone(trial))
+      {
+        stress = trial;
+        if (tangent != nullptr)
+          {
+            const SpatialMandel I = unit_tensor<n_spatial>();
+            *tangent = elasticity().two_G * SpatialMandelMatrix::Identity();
+            *tangent += elasticity().lambda * I * I.transpose();
+          }
+        return Mode::elastic;
+      }
     const auto      at = spectrum(trial);
     Principal       s;
     PrincipalMatrix C;
-    const Mode      mode =
-      return_principal(delayed(step.friction_lag, stress_n), at.value, s, C);
+    const Mode      mode = return_principal(strength, at.value, s, C);
     // An elastic point keeps its trial stress to the last digit.
     if (mode == Mode::elastic)
       stress = trial;

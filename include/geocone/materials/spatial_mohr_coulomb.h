@@ -73,6 +73,20 @@ namespace geocone
         return sine > 0. ? size / (2. * sine)
                          : std::numeric_limits<double>::infinity();
       }
+
+      /**
+       * Whether a stress is within the largest round cone in the pyramid, which needs
+       * no principal stresses: f_13 <= 2 sqrt(J_2 (1 + sine^2/3)) + 2 p sine - size
+       * over all Lode angles, with p = tr(s)/3 and J_2 = |dev s|^2/2.
+       */
+      bool
+      holds_cone(const SpatialMandel &stress) const
+      {
+        const double p  = trace(stress) / 3.;
+        const double J2 = (stress.squaredNorm() - 3. * p * p) / 2.;
+        const double q  = size - 2. * p * sine;
+        return q > 0. && 4. * J2 * (1. + sine * sine / 3.) <= q * q;
+      }
     };
 
     /** With delayed friction: a part of s_1 + s_3, on which strength depends, is that
