@@ -33,11 +33,7 @@ namespace geocone
   {
     stress = trial;
     if (tangent != nullptr)
-      {
-        *tangent = elasticity().two_G * SpatialMandelMatrix::Identity();
-        const SpatialMandel I = unit_tensor<n_spatial>();
-        *tangent += elasticity().lambda * I * I.transpose();
-      }
+      *tangent = elasticity().stiffness<n_spatial>();
     return Mode::elastic;
   }
 

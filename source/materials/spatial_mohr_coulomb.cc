@@ -184,11 +184,7 @@ namespace geocone
       {
         stress = trial;
         if (tangent != nullptr)
-          {
-            const SpatialMandel I = unit_tensor<n_spatial>();
-            *tangent = elasticity().two_G * SpatialMandelMatrix::Identity();
-            *tangent += elasticity().lambda * I * I.transpose();
-          }
+          *tangent = elasticity().stiffness<n_spatial>();
         return Mode::elastic;
       }
     const auto      at = spectrum(trial);

@@ -70,11 +70,14 @@ namespace geocone
              two_G;
     }
 
-    MandelMatrix
+    /** D of stress(), as a matrix (Pa). */
+    template <int n = n_mandel>
+    Eigen::Matrix<double, n, n, Eigen::RowMajor>
     stiffness() const
     {
-      MandelMatrix D = two_G * MandelMatrix::Identity();
-      const Mandel I = unit_tensor<n_mandel>();
+      using Matrix = Eigen::Matrix<double, n, n, Eigen::RowMajor>;
+      Matrix     D = two_G * Matrix::Identity();
+      const auto I = unit_tensor<n>();
       D += lambda * I * I.transpose();
       return D;
     }
