@@ -20,8 +20,6 @@
 
 namespace geocone
 {
-  using Json = nlohmann::json;
-
   namespace
   {
     /** Where the results go. */
@@ -71,7 +69,7 @@ namespace geocone
     /** What is left of a replay: numbers to compare, and stresses (Pa). */
     struct Outcome
     {
-      Json                summary;
+      nlohmann::json      summary;
       std::vector<Mandel> stress;
     };
 
@@ -181,8 +179,8 @@ namespace geocone
       path.extension() == ".dat"
                       ? replay_reduced(file_name, overrides, results)
                       : replay_incremental(file_name, overrides, results);
-    Json summary    = outcome.summary;
-    summary["name"] = path.stem().string();
+    nlohmann::json summary = outcome.summary;
+    summary["name"]        = path.stem().string();
     log.print(format(
       "%s: %s, %u unknowns, %u points, %u constraints: %s, %u "
       "iterations, residual %.1e, natural-map error %.1e, %.3g s "

@@ -26,7 +26,7 @@ namespace geocone
     constexpr double bulk = 1e6;
 
     /** A load below all others: of stresses that prove none. */
-    constexpr double nothing = -std::numeric_limits<double>::infinity();
+    constexpr double no_load = -std::numeric_limits<double>::infinity();
 
     class Solver
     {
@@ -181,7 +181,7 @@ namespace geocone
       double               last_step = 1.; ///< the shorter one
 
       Points kept; ///< stresses() of the best iterate, and what they bear
-      double kept_load = 0., most_admissible = nothing;
+      double kept_load = 0., most_admissible = no_load;
     };
 
     void
@@ -448,7 +448,7 @@ namespace geocone
     Solver::admissible_load() const
     {
       if (!(equilibrium < 1e-10) || !std::isfinite(load))
-        return nothing;
+        return no_load;
       double part = 1.;
       bool   ok   = true;
       for (unsigned int p = 0; p < n; ++p)
@@ -466,7 +466,7 @@ namespace geocone
         return load;
       // Dead loads, and soil without cohesion, cannot be scaled back.
       return problem.dead.squaredNorm() == 0. && part > 0. ? part * load
-                                                           : nothing;
+                                                           : no_load;
     }
 
     void
@@ -478,7 +478,7 @@ namespace geocone
       // The last ones where none prove anything yet.
       const double bears = admissible_load();
       if (bears > most_admissible ||
-          (most_admissible == nothing && std::isfinite(load)))
+          (most_admissible == no_load && std::isfinite(load)))
         {
           most_admissible = bears;
           kept            = stresses();
@@ -540,12 +540,12 @@ namespace geocone
           // grows again, or closes without them.
           if (flow < options.flow_tolerance)
             smallest_gap = std::min(smallest_gap, gap);
-          if (most_admissible == nothing &&
+          if (most_admissible == no_load &&
               most < 1e3) // or no load is the limit
             n_without += gap > 5. * smallest_gap ||
                          (is_closed && equilibrium > least_equilibrium / 2.);
           least_equilibrium = std::min(least_equilibrium, equilibrium);
-          if ((is_solved && (!options.stresses || most_admissible > nothing)) ||
+          if ((is_solved && (!options.stresses || most_admissible > no_load)) ||
               iteration == first_solved + 6 ||
               (options.stresses && n_without == 4))
             {
