@@ -150,7 +150,7 @@ namespace geocone
                                            x, material, points.stress[p]))),
                       space.band_width(BackgroundMesh::size_of(cell)),
                       x,
-                      &points.history[points.n_history * p]);
+                      points.history.data() + points.n_history * p);
             for (unsigned int c = 0; c < dim; ++c)
               for (unsigned int i = 0; i < points.n_nodes; ++i)
                 points.gradients.push_back(values.gradient(i, q)[c]);

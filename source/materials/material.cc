@@ -201,8 +201,9 @@ namespace geocone
         block.work[p]          = strain[p].dot(stress_n[p] + change / 2.);
         const double        zz = block.l_zz != nullptr ? block.l_zz[p] : 0.;
         const SpatialMandel whole_n =
-          whole_stress(stress_n[p], &history_n[m * p]);
-        const SpatialMandel whole = whole_stress(stress[p], &history[m * p]);
+          whole_stress(stress_n[p], history_n.data() + m * p);
+        const double *const own   = history.data() + m * p;
+        const SpatialMandel whole = whole_stress(stress[p], own);
         if (block.l_zz != nullptr)
           block.work[p] += zz * (whole_n[3] + whole[3]) / 2.;
         block.plastic_strain[p] +=
@@ -210,7 +211,7 @@ namespace geocone
             ? 0.
             : (extended(strain[p], zz) - elastic_strain(whole_n, whole)).norm();
         block.set_stress(p, components_of(stress[p]));
-        block.wave_modulus[p] = wave_modulus(stress_of(whole), &history[m * p]);
+        block.wave_modulus[p] = wave_modulus(stress_of(whole), own);
       }
   }
 
