@@ -12,43 +12,20 @@
 namespace geocone
 {
   void
-  MaterialPoints::state(const unsigned int p, StateRow &row)
+  MaterialPoints::use(const bool moving, const unsigned int n_history)
   {
-    row(stress[p],
-        plastic_strain[p],
-        cumulative_plastic_strain[p],
-        plastic_strain_rate[p]);
-    for (unsigned int k = 0; k < n_history; ++k)
-      row(history[n_history * p + k]);
-    if (!id.empty())
-      row(material[p],
-          mass[p],
-          weight[p],
-          velocity[p],
-          displacement[p],
-          affine[p],
-          held_by[p]);
+    history.width = n_history;
+    start.width   = 0;
+    mass.width = velocity.width = displacement.width = affine.width = moving;
+    id.width = held_by.width = cell.width = unit.width = moving;
   }
 
   void
-  MaterialPoints::resize(const unsigned int n, const bool moving)
+  MaterialPoints::append(const double *row)
   {
-    position.resize(n);
-    material.resize(n, 0);
-    weight.resize(n, 0.);
-    stress.resize(n, Mandel::Zero());
-    plastic_strain.resize(n, Mandel::Zero());
-    cumulative_plastic_strain.resize(n, 0.);
-    plastic_strain_rate.resize(n, 0.);
-    history.resize(n_history * n, 0.);
-    if (!moving)
-      return;
-    id.resize(n, 0);
-    mass.resize(n, 0.);
-    velocity.resize(n);
-    displacement.resize(n);
-    affine.resize(n);
-    held_by.resize(n, 0);
+    const unsigned int n = n_points();
+    set_size(n + 1);
+    set(n, row);
   }
 
   void

@@ -96,10 +96,8 @@ namespace geocone
         for (const PointArrays &group : groups)
           for (unsigned int p = 0; p < group.n_points(); ++p)
             if (!own.back() ||
-                is_nearer(group.position(p), own.back()->position, x))
-              own.back() = {group.position(p),
-                            group[PointArrays::Field::volume][p],
-                            group.id[p]};
+                is_nearer(group.position.of(p), own.back()->position, x))
+              own.back() = {group.position.of(p), group.weight[p], group.id[p]};
       }
     choose(scene, own);
   }
@@ -201,17 +199,16 @@ namespace geocone
   {
     if (id.empty())
       return {};
-    using Field = PointArrays::Field;
     std::vector<double> sums((dim + 1) * id.size(), 0.);
     for (const PointArrays &group : groups)
       for (unsigned int p = 0; p < group.n_points(); ++p)
         for (unsigned int i = 0; i < id.size(); ++i)
-          if (group.id[p] == id[i] && group[Field::mass][p] > 0.)
+          if (group.id[p] == id[i] && group.mass[p] > 0.)
             {
               sums[(dim + 1) * i + dim] = 1.;
               for (unsigned int d = 0; d < dim; ++d)
                 sums[(dim + 1) * i + d] =
-                  group[Field::x + d][p] - group[Field::x_start + d][p];
+                  group.position[d][p] - group.start[d][p];
             }
     return gather(sums);
   }

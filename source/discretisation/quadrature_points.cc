@@ -88,8 +88,9 @@ namespace geocone
   {
     /** Copies what cells have that are in both. */
     void
-    copy_states(MaterialPoints &from, MaterialPoints &to)
+    copy_states(const MaterialPoints &from, MaterialPoints &to)
     {
+      std::vector<double>                  row(to.n_numbers());
       std::map<unsigned int, unsigned int> cell_of;
       for (unsigned int c = 0; c < from.n_cells(); ++c)
         cell_of[from.cells[c]->active_cell_index()] = c;
@@ -100,12 +101,8 @@ namespace geocone
                k < to.first_point[c + 1] - to.first_point[c];
                ++k)
             {
-              StateRow written;
-              from.state(from.first_point[found->second] + k, written);
-              StateRow row(written.values());
-              to.state(to.first_point[c] + k, row);
-              to.material[to.first_point[c] + k] =
-                from.material[from.first_point[found->second] + k];
+              from.get(from.first_point[found->second] + k, row.data());
+              to.set(to.first_point[c] + k, row.data());
             }
     }
   } // namespace
@@ -115,12 +112,12 @@ namespace geocone
     const Scene                                             &scene,
     const BackgroundMesh                                    &mesh,
     const Space                                             &space,
-    MaterialPoints                                           known,
+    const MaterialPoints                                    &known,
     const std::function<bool(const BackgroundMesh::Cell &)> &is_there)
   {
     MaterialPoints points;
-    points.n_nodes   = space.nodes_per_cell();
-    points.n_history = scene.materials.n_history();
+    points.n_nodes = space.nodes_per_cell();
+    points.use(false, scene.materials.n_history());
     CellValues values(space, mesh, stress_quadrature(space, mesh));
     std::vector<types::global_dof_index> nodes;
     HistoryStart                         start;
@@ -138,7 +135,7 @@ namespace geocone
             const unsigned int p        = points.n_points();
             const Point<dim>  &x        = values.position[q];
             const unsigned int material = cell->material_id();
-            points.resize(p + 1, false);
+            points.set_size(p + 1);
             points.weight[p]   = values.weight[q];
             points.position[p] = x;
             points.material[p] = material;
@@ -150,7 +147,7 @@ namespace geocone
                                            x, material, points.stress[p]))),
                       space.band_width(BackgroundMesh::size_of(cell)),
                       x,
-                      points.history.data() + points.n_history * p);
+                      points.history_of(p));
             for (unsigned int c = 0; c < dim; ++c)
               for (unsigned int i = 0; i < points.n_nodes; ++i)
                 points.gradients.push_back(values.gradient(i, q)[c]);

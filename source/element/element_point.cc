@@ -449,19 +449,19 @@ namespace geocone
 
   std::unique_ptr<ElementPoint>
   make_element_point(const ConstitutiveLaw &law,
-                     const PointComponents  components,
+                     const StressComponents components,
                      const Tensor6         &stress,
                      std::string           &changed)
   {
     const auto *subloading = dynamic_cast<const Subloading *>(&law);
-    if (components == PointComponents::all && subloading == nullptr)
+    if (components == StressComponents::all && subloading == nullptr)
       throw InputError("Element/Components",
                        "3D",
                        "automatic | plane strain | axisymmetric for this "
                        "material",
                        "a point of it has the stresses of the plane and zz");
-    const bool has_zz = components == PointComponents::axisymmetric;
-    if (has_zz || components == PointComponents::plane_strain ||
+    const bool has_zz = components == StressComponents::axisymmetric;
+    if (has_zz || components == StressComponents::plane_strain ||
         subloading == nullptr)
       {
         if (stress[4] != 0. || stress[5] != 0.)

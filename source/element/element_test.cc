@@ -63,7 +63,7 @@ namespace geocone
                        "1 + e with the void ratio e");
     Tensor6 stress;
     std::copy(initial_stress.begin(), initial_stress.end(), stress.begin());
-    if (components == PointComponents::axisymmetric)
+    if (components == StressComponents::axisymmetric)
       materials.set_axisymmetric();
     point = make_element_point(materials.law(0), components, stress, changed);
     column_names = columns();

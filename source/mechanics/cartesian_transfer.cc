@@ -133,7 +133,7 @@ namespace geocone
     std::vector<std::size_t>   points_in(axis.n_intervals, 0);
     for (const PointArrays &group : groups)
       for (unsigned int p = 0; p < group.n_points(); ++p)
-        ++points_in[axis.interval(group[PointArrays::x][p])];
+        ++points_in[axis.interval(group.position[0][p])];
     Utilities::MPI::sum(points_in, comm, points_in);
     slab_begin = grid.slabs(points_in, n_ranks);
   }
@@ -144,40 +144,13 @@ namespace geocone
     const CartesianGrid::Axis &axis = grid.axes[0];
     for (PointArrays &group : groups)
       {
-        std::map<unsigned int, std::vector<double>> leaving;
-        std::vector<unsigned int>                   staying;
+        std::vector<unsigned int> owner(group.n_points());
         for (unsigned int p = 0; p < group.n_points(); ++p)
-          {
-            const int          column = axis.interval(group[PointArrays::x][p]);
-            const unsigned int owner  = std::upper_bound(slab_begin.begin() + 1,
-                                                        slab_begin.end() - 1,
-                                                        column) -
-                                       slab_begin.begin() - 1;
-            if (owner == rank)
-              {
-                staying.push_back(p);
-                continue;
-              }
-            std::vector<double> &message = leaving[owner];
-            for (unsigned int field = 0; field < group.n_fields(); ++field)
-              message.push_back(group[field][p]);
-            message.push_back(group.id[p]);
-          }
-        if (Utilities::MPI::logical_or(!leaving.empty(), comm))
-          {
-            if (staying.size() < group.n_points())
-              group.reorder(staying);
-            const unsigned int size = group.n_fields() + 1;
-            const auto  arriving = Utilities::MPI::some_to_some(comm, leaving);
-            std::size_t n        = group.n_points();
-            for (const auto &from_rank : arriving)
-              n += from_rank.second.size() / size;
-            group.reserve(n);
-            for (const auto &[sender, message] : arriving)
-              for (std::size_t i = 0; i < message.size(); i += size)
-                group.append(&message[i],
-                             static_cast<unsigned int>(message[i + size - 1]));
-          }
+          owner[p] = std::upper_bound(slab_begin.begin() + 1,
+                                      slab_begin.end() - 1,
+                                      axis.interval(group.position[0][p])) -
+                     slab_begin.begin() - 1;
+        geocone::migrate(group, owner, comm);
         group.pad();
       }
   }
@@ -193,7 +166,7 @@ namespace geocone
         for (const PointArrays &group : groups)
           for (unsigned int p = 0; p < group.n_points(); ++p)
             {
-              const int i    = axis.interval(group[PointArrays::x + d][p]);
+              const int i    = axis.interval(group.position[d][p]);
               cells[d].begin = std::min(cells[d].begin, i - margin);
               cells[d].end   = std::max(cells[d].end, i + 1 + margin);
             }
@@ -226,9 +199,9 @@ namespace geocone
         const auto cell_of = [&](const unsigned int p) {
           std::size_t cell = 0;
           for (unsigned int d = 0; d < dim; ++d)
-            cell = cell * cells[d].size() +
-                   (grid.axes[d].interval(group[PointArrays::x + d][p]) -
-                    cells[d].begin);
+            cell =
+              cell * cells[d].size() +
+              (grid.axes[d].interval(group.position[d][p]) - cells[d].begin);
           return cell;
         };
         count.assign(n_cells + 1, 0);

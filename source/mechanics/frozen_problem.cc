@@ -126,7 +126,7 @@ namespace geocone
     p.material             = gather(points.material, comm);
     p.weight               = gather(points.weight, comm);
     p.mass                 = gather(points.mass, comm);
-    p.n_history            = points.n_history;
+    p.history.width        = points.n_history();
     p.history              = gather(points.history, comm);
     const std::vector<double> stresses = gather(flat(points.stress), comm);
     for (std::size_t i = 0; i < stresses.size(); i += n_mandel)
@@ -298,7 +298,7 @@ namespace geocone
           "the arrays of its points differ in length");
     check(p.history.size() % n == 0,
           "the histories of its points differ in length");
-    p.n_history = p.history.size() / n;
+    p.history.width = p.history.size() / n;
     // Of former files: one for all points of a cell.
     if (p.volumetric_gradients.size() == dim * p.n_cells() * functions)
       {
@@ -316,7 +316,8 @@ namespace geocone
           "the functions of its points differ in number");
     for (const double weight : p.weight)
       check(weight > 0., "it has points without a volume");
-    for (const auto *masses : {&p.mass, &frozen.mass})
+    for (const std::vector<double> *masses :
+         {static_cast<std::vector<double> *>(&p.mass), &frozen.mass})
       for (const double mass : *masses)
         check(mass >= 0., "it has negative masses");
     check(n_dofs % dim == 0, "it has half a node");
@@ -374,10 +375,10 @@ namespace geocone
     remembering(const MaterialPoints &frozen, const Materials &materials)
     {
       MaterialPoints points = frozen;
-      if (frozen.n_history >
+      if (frozen.n_history() >
           1) // the memory of such a law would not be the last
         return points;
-      points.n_history = 2;
+      points.history.width = 2;
       points.history.assign(2 * points.material.size(), 0.);
       bool remembered = false;
       for (unsigned int i = 0; i < points.material.size(); ++i)
@@ -389,7 +390,7 @@ namespace geocone
                 const Mandel &s = points.stress[i];
                 law.initialise(
                   stress_of(extended(s, 0.)), 0., &points.history[2 * i]);
-                if (frozen.n_history == 1)
+                if (frozen.n_history() == 1)
                   points.history[2 * i] = frozen.history[i];
                 remembered = true;
               }
@@ -441,7 +442,7 @@ namespace geocone
                          "materials lack: the file is damaged\n  remedy:  "
                          "freeze the step again ('Output/Freeze steps')");
         if (materials[m].has_history() &&
-            materials[m].n_history() > points.n_history)
+            materials[m].n_history() > points.n_history())
           throw RunError("the frozen problem lacks the history of its points, "
                          "of which the material '" +
                          materials.name(m) +

@@ -190,7 +190,7 @@ namespace geocone
     increment.strain    = ArrayView<const Mandel>(&strain[run.begin], n);
     increment.stress_n  = ArrayView<const Mandel>(&points.stress[run.begin], n);
     increment.history_n = points.history_of(run.begin);
-    increment.n_history = points.n_history;
+    increment.n_history = points.n_history();
     increment.step      = step_law();
     if (!strain_zz.empty())
       increment.strain_zz = &strain_zz[run.begin];
@@ -212,7 +212,7 @@ namespace geocone
           Response response;
           response.stress  = ArrayView<Mandel>(stresses.data(), n);
           response.mode    = ArrayView<Mode>(modes.data(), n);
-          response.history = history.data() + points.n_history * run.begin;
+          response.history = history.data() + points.n_history() * run.begin;
           materials[run.material].update(increment_of(run), response);
         }
     return history;

@@ -59,65 +59,31 @@ namespace geocone
     const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
     for (unsigned int g = 0; g < groups.size(); ++g)
       {
-        PointArrays &group = groups[g];
-        group.pad();
-        group.cell.resize(group.n_points(), numbers::invalid_unsigned_int);
-
         // Points in other ranks' cells go there, the others know their place.
-        std::vector<CellSearch::Place>              places;
-        std::map<unsigned int, std::vector<double>> leaving;
-        std::vector<unsigned int>                   staying;
+        PointArrays              &group = groups[g];
+        std::vector<unsigned int> owner(group.n_points(), rank);
+        unsigned int              n_staying = 0;
         for (unsigned int p = 0; p < group.n_points(); ++p)
           {
             const unsigned int c     = group.cell[p];
-            auto               place = search.find(group.position(p),
+            auto               place = search.find(group.position.of(p),
                                      c < mesh.triangulation().n_active_cells()
                                                      ? search.cell(c)
                                                      : Cell());
-            if (place && search.owner(place->cell) != rank)
+            if (place)
+              owner[p] = search.owner(place->cell);
+            else
               {
-                std::vector<double> &message =
-                  leaving[search.owner(place->cell)];
-                for (unsigned int field = 0; field < group.n_fields(); ++field)
-                  message.push_back(group[field][p]);
-                message.push_back(group.id[p]);
-                message.push_back(place->cell->active_cell_index());
-                for (unsigned int d = 0; d < dim; ++d)
-                  message.push_back(place->unit[d]);
-                continue;
-              }
-            if (!place)
-              {
-                lost.push_back(
-                  {{g, static_cast<unsigned int>(staying.size())}});
+                lost.push_back({{g, n_staying}});
                 place = CellSearch::Place{*mesh.own_cells().begin(), {}};
               }
             group.cell[p] = place->cell->active_cell_index();
-            staying.push_back(p);
-            places.push_back(*place);
+            group.unit[p] = place->unit;
+            n_staying += owner[p] == rank;
           }
-        if (staying.size() < group.n_points())
-          group.reorder(staying);
-        if (Utilities::MPI::logical_or(!leaving.empty(), comm))
-          {
-            const unsigned int n_fields = group.n_fields();
-            for (const auto &[sender, message] :
-                 Utilities::MPI::some_to_some(comm, leaving))
-              for (std::size_t i = 0; i < message.size();
-                   i += n_fields + 2 + dim)
-                {
-                  const double *const extra = &message[i + n_fields];
-                  group.append(&message[i],
-                               static_cast<unsigned int>(extra[0]));
-                  group.cell.push_back(static_cast<unsigned int>(extra[1]));
-                  Point<dim> unit;
-                  for (unsigned int d = 0; d < dim; ++d)
-                    unit[d] = extra[2 + d];
-                  places.push_back({search.cell(group.cell.back()), unit});
-                }
-          }
+        migrate(group, owner, comm);
         group.pad();
-        evaluate(group, places, functions[g]);
+        evaluate(group, functions[g]);
       }
     write.fill(0.);
     mass.fill(0.);
@@ -132,9 +98,7 @@ namespace geocone
   }
 
   void
-  MeshTransfer::evaluate(const PointArrays                    &group,
-                         const std::vector<CellSearch::Place> &places,
-                         Functions                            &at) const
+  MeshTransfer::evaluate(const PointArrays &group, Functions &at) const
   {
     const unsigned int padded = group.n_padded();
     at.nodes.resize(n * padded);
@@ -144,13 +108,11 @@ namespace geocone
     std::vector<Tensor<1, dim>> gradient(n);
     for (unsigned int p = 0; p < padded; ++p)
       {
-        // Padding is at the place of the last point.
-        const CellSearch::Place &place =
-          places[std::min<std::size_t>(p, places.size() - 1)];
-        space.evaluate(place.cell, place.unit, &at.N[p * n], gradient.data());
+        const unsigned int c    = group.cell[p];
+        const Cell         cell = search.cell(c);
+        space.evaluate(cell, group.unit[p], &at.N[p * n], gradient.data());
         const Tensor<2, dim> inverse =
-          mesh.inverse_jacobian(place.cell, place.unit);
-        const unsigned int c = place.cell->active_cell_index();
+          mesh.inverse_jacobian(cell, group.unit[p]);
         for (unsigned int i = 0; i < n; ++i)
           {
             const Tensor<1, dim> slope = gradient[i] * inverse;

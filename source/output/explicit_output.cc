@@ -186,7 +186,6 @@ namespace geocone
   {
     if (!with_fields)
       return;
-    using Field = PointArrays::Field;
     FieldTable table;
     for (const PointArrays &group : groups)
       table.n_nodes += group.n_points();
@@ -201,48 +200,50 @@ namespace geocone
               *next++ = value(group, p, d);
       };
     };
-    const auto add = [&](const std::string &name, const unsigned int field) {
-      table.columns.push_back(
-        {name,
-         1,
-         filled(1, [field](const auto &group, const unsigned int p, int) {
-           return group[field][p];
-         })});
+    const auto add = [&](const std::string &name, const auto &value) {
+      table.columns.push_back({name, 1, filled(1, value)});
     };
     table.positions =
       filled(dim, [](const auto &group, const unsigned int p, const int d) {
-        return group[Field::x + d][p];
+        return group.position[d][p];
       });
     table.columns.push_back(
       {"velocity",
        dim,
        filled(dim, [](const auto &group, const unsigned int p, const int d) {
-         return group[Field::v + d][p];
+         return group.velocity[d][p];
        })});
     table.columns.push_back(
       {"displacement",
        dim,
        filled(dim, [](const auto &group, const unsigned int p, const int d) {
-         return group[Field::x + d][p] - group[Field::x_start + d][p];
+         return group.position[d][p] - group.start[d][p];
        })});
     table.columns.push_back(
       {"material", 1, filled(1, [](const auto &group, const unsigned int, int) {
-         return double(group.material);
+         return double(group.of_material);
        })});
-    add("volume", Field::volume);
+    add("volume", [](const auto &group, const unsigned int p, int) {
+      return group.weight[p];
+    });
     if (scene->geometry
           .is_axisymmetric()) // what a point is in the plane of pictures
       table.columns.push_back(
         {"area",
          1,
          filled(1, [this](const auto &group, const unsigned int p, int) {
-           return group[Field::volume][p] /
-                  Geometry::measure(scene->geometry.symmetry,
-                                    group.position(p));
+           return group.weight[p] / Geometry::measure(scene->geometry.symmetry,
+                                                      group.position.of(p));
          })});
     for (int i = 0; i < n_mandel; ++i)
-      add(std::string("stress_") + tensor_component[i], Field::stress + i);
-    add("cumulative_plastic_strain", Field::plastic_strain);
+      add(std::string("stress_") + tensor_component[i],
+          [i](const auto &group, const unsigned int p, int) {
+            return group.stress[i][p];
+          });
+    add("cumulative_plastic_strain",
+        [](const auto &group, const unsigned int p, int) {
+          return group.cumulative_plastic_strain[p];
+        });
 
     // What any of the laws can show; where a law cannot, not a number.
     for (const std::string &name : scene->materials.shown_names())
@@ -262,8 +263,8 @@ namespace geocone
                        const PointArrays &group,
                        double            *values) const
   {
-    ShownValue          shown(scene->materials.law(group.material), name);
-    std::vector<double> history(group.n_history);
+    ShownValue          shown(scene->materials.law(group.of_material), name);
+    std::vector<double> history(group.n_history());
     for (unsigned int p = 0; p < group.n_points(); ++p)
       {
         group.copy_history(p, history.data());

@@ -3,6 +3,7 @@
 
 // The state of the explicit material point method as part of a checkpoint.
 #include <geocone/base/exceptions.h>
+#include <geocone/discretisation/point_record.h>
 #include <geocone/time_stepping/explicit_mpm.h>
 
 #include <deal.II/base/mpi.h>
@@ -12,11 +13,6 @@
 namespace geocone
 {
   using namespace dealii;
-
-  namespace
-  {
-    using Field = PointArrays::Field;
-  }
 
   void
   ExplicitMPM::state_of_all(StateRow &row)
@@ -52,22 +48,19 @@ namespace geocone
     StateRow list;
     for (PointArrays &group : groups)
       {
-        unsigned int material = group.material, n_fields = group.n_fields();
-        list(material, group.fading, n_fields);
+        unsigned int material  = group.of_material;
+        std::string  variables = group.variables();
+        list(material, group.fading, variables);
       }
     archive.write_row("groups", list);
     for (unsigned int g = 0; g < groups.size(); ++g)
       {
         const PointArrays  &group = groups[g];
-        std::vector<double> values;
-        values.reserve(group.n_points() * (group.n_fields() + 1));
+        std::vector<double> rows;
+        rows.reserve(group.n_points() * group.n_numbers());
         for (unsigned int p = 0; p < group.n_points(); ++p)
-          {
-            for (unsigned int field = 0; field < group.n_fields(); ++field)
-              values.push_back(group[field][p]);
-            values.push_back(group.id[p]);
-          }
-        archive.write("points " + std::to_string(g), values);
+          group.add_row(p, rows);
+        archive.write("points " + std::to_string(g), rows);
       }
     // The run that goes on and one that is resumed start from the same nodes.
     must_refresh = true;
@@ -89,7 +82,7 @@ namespace geocone
       {
         Point<dim> x;
         for (unsigned int d = 0; d < dim; ++d)
-          x[d] = all[i * size + Field::x + d];
+          x[d] = all[i * size + d]; // the first numbers of a row
         if (transfer->owns(x))
           owner[i] = rank;
       }
@@ -132,23 +125,22 @@ namespace geocone
     groups.clear();
     while (!list.at_end())
       {
-        unsigned int material = 0, n_fields = 0;
-        bool         fading = false;
-        list(material, fading, n_fields);
+        unsigned int material = 0;
+        bool         fading   = false;
+        std::string  variables;
+        list(material, fading, variables);
         if (material >= scene->materials.size())
           throw RunError("the checkpoint has other materials");
-        groups.emplace_back(
-          material, scene->materials.law(material).n_history(), affine);
+        groups.push_back(make_group(material));
         PointArrays &group = groups.back();
         group.fading       = fading;
-        if (group.n_fields() != n_fields)
-          throw RunError("the checkpoint has other variables of points");
-        const std::vector<double> values = points_of_rank(
-          archive, "points " + std::to_string(groups.size() - 1), n_fields + 1);
-        group.reserve(values.size() / (n_fields + 1));
-        for (std::size_t i = 0; i < values.size(); i += n_fields + 1)
-          group.append(&values[i],
-                       static_cast<unsigned int>(values[i + n_fields]));
+        check_variables(variables, group.variables());
+        const unsigned int        size = group.n_numbers();
+        const std::vector<double> rows = points_of_rank(
+          archive, "points " + std::to_string(groups.size() - 1), size);
+        group.set_capacity(rows.size() / size);
+        for (std::size_t i = 0; i < rows.size(); i += size)
+          group.append(&rows[i]);
         group.pad();
       }
     must_refresh = true;

@@ -21,8 +21,6 @@ namespace geocone
 
   namespace
   {
-    using Field = PointArrays::Field;
-
     /** Adds the wall time of its scope to a number of seconds. */
     class Stopwatch
     {
@@ -191,7 +189,7 @@ namespace geocone
       {
         std::vector<unsigned int> staying;
         for (unsigned int p = 0; p < group.n_points(); ++p)
-          if (group[Field::mass][p] > 0.)
+          if (group.mass[p] > 0.)
             staying.push_back(p);
         if (staying.size() < group.n_points())
           group.reorder(staying);
@@ -205,20 +203,24 @@ namespace geocone
     PointArrays       &group = groups[g];
     const unsigned int n =
       std::min(PointBlock::capacity, group.n_padded() - first);
-    const auto array = [&](const unsigned int field) {
-      return group[field] + first;
-    };
-    TransferBlock points = {
-      n, g, first, {}, {}, {}, array(Field::volume), array(Field::mass), {}};
+    TransferBlock points = {n,
+                            g,
+                            first,
+                            {},
+                            {},
+                            {},
+                            group.weight.data() + first,
+                            group.mass.data() + first,
+                            {}};
     for (unsigned int d = 0; d < dim; ++d)
       {
-        points.x[d] = array(Field::x + d);
-        points.v[d] = array(Field::v + d);
+        points.x[d] = group.position[d] + first;
+        points.v[d] = group.velocity[d] + first;
       }
     for (int i = 0; i < n_mandel; ++i)
-      points.s[i] = array(Field::stress + i);
+      points.s[i] = group.stress[i] + first;
     for (unsigned int i = 0; i < dim * dim && affine; ++i)
-      points.c[i] = array(group.first_affine() + i);
+      points.c[i] = group.affine[i] + first;
     return points;
   }
 
@@ -233,9 +235,9 @@ namespace geocone
     for (unsigned int g = 0; g < groups.size(); ++g)
       {
         PointArrays           &group = groups[g];
-        const ConstitutiveLaw &law   = scene->materials.law(group.material);
-        history.resize(group.n_history);
-        point_history.resize(group.n_history);
+        const ConstitutiveLaw &law   = scene->materials.law(group.of_material);
+        history.resize(group.n_history());
+        point_history.resize(group.n_history());
         for (unsigned int first = 0; first < group.n_padded();
              first += PointBlock::capacity)
           {
@@ -255,8 +257,8 @@ namespace geocone
               {
                 if (axisymmetric)
                   strain_around_axis(what, dt, points);
-                for (unsigned int k = 0; k < group.n_history; ++k)
-                  history[k] = group[group.first_history() + k] + first;
+                for (unsigned int k = 0; k < group.n_history(); ++k)
+                  history[k] = group.history[k] + first;
                 std::array<const double *, dim * dim> l;
                 for (unsigned int i = 0; i < dim * dim; ++i)
                   l[i] = scratch.l[i];
@@ -264,7 +266,7 @@ namespace geocone
                              l,
                              points.s,
                              history.data(),
-                             group[Field::plastic_strain] + first,
+                             group.cumulative_plastic_strain.data() + first,
                              scratch.work,
                              scratch.wave_modulus,
                              dt,
@@ -331,7 +333,7 @@ namespace geocone
   ExplicitMPM::force_around_axis(const TransferBlock &points)
   {
     const PointArrays     &group = groups[points.group];
-    const ConstitutiveLaw &law   = scene->materials.law(group.material);
+    const ConstitutiveLaw &law   = scene->materials.law(group.of_material);
     for (unsigned int k = 0; k < points.n; ++k)
       {
         group.copy_history(points.first + k, point_history.data());
@@ -350,7 +352,7 @@ namespace geocone
                   "  remedy:  enlarge 'Mesh/Box', hold the side, or set "
                   "'Particles/Outflow' = count",
                   group.id[p],
-                  text_of_place(group.position(p)).c_str());
+                  text_of_place(group.position.of(p)).c_str());
   }
 
   void
@@ -362,9 +364,10 @@ namespace geocone
     const double tolerance = 1e-6 * transfer->cell_size();
     for (unsigned int p = points.first; p < points.first + points.n; ++p)
       {
-        const Point<dim> place     = group.position(p);
-        const bool       is_finite = std::isfinite(place.square()) &&
-                               std::isfinite(group.velocity(p).norm_square());
+        const Point<dim> place = group.position.of(p);
+        const bool       is_finite =
+          std::isfinite(place.square()) &&
+          std::isfinite(group.velocity.of(p).norm_square());
         if (is_finite && transfer->reaches(place))
           continue;
         Point<dim> nearest;
@@ -379,8 +382,8 @@ namespace geocone
             nearest = transfer->stored_place();
             for (unsigned int d = 0; d < dim; ++d)
               {
-                group[Field::v + d][p] = 0.;
-                group[Field::x + d][p] = nearest[d];
+                group.velocity[d][p] = 0.;
+                group.position[d][p] = nearest[d];
               }
             continue;
           }
@@ -406,7 +409,7 @@ namespace geocone
             some_left = true;
           }
         for (unsigned int d = 0; d < dim; ++d)
-          group[Field::x + d][p] = nearest[d];
+          group.position[d][p] = nearest[d];
       }
   }
 
@@ -540,13 +543,13 @@ namespace geocone
     if (obstacle.empty() && !(sums.least_volume > 0.))
       for (const PointArrays &group : groups)
         for (unsigned int p = 0; p < group.n_points() && obstacle.empty(); ++p)
-          if (!(group[Field::volume][p] > 0.) && group[Field::mass][p] > 0.)
+          if (!(group.weight[p] > 0.) && group.mass[p] > 0.)
             obstacle = format("the volume of point %u at (%s) has become "
                               "zero or negative\n"
                               "  remedy:  take a smaller 'Explicit/Courant "
                               "number' or 'Explicit/Time step', or splines",
                               group.id[p],
-                              text_of_place(group.position(p)).c_str());
+                              text_of_place(group.position.of(p)).c_str());
     double largest[6] = {
       sums.wave_speed2,
       sums.speed2,

@@ -20,11 +20,6 @@ namespace geocone
 {
   using namespace dealii;
 
-  namespace
-  {
-    using Field = PointArrays::Field;
-  } // namespace
-
   void
   ExplicitMPM::seed_columns(const CartesianGrid      &grid,
                             std::vector<std::string> &remarks)
@@ -52,6 +47,15 @@ namespace geocone
       remarks);
   }
 
+  PointArrays
+  ExplicitMPM::make_group(const unsigned int material) const
+  {
+    return {material,
+            scene->materials.law(material).n_history(),
+            affine,
+            transfer->keeps_cells()};
+  }
+
   void
   ExplicitMPM::seed_points(
     const std::vector<std::size_t>                   &n,
@@ -60,53 +64,57 @@ namespace geocone
   {
     for (unsigned int m = 0; m < scene->materials.size(); ++m)
       {
-        groups.emplace_back(m, scene->materials.law(m).n_history(), affine);
-        groups.back().reserve(n[m]);
+        groups.push_back(make_group(m));
+        groups.back().set_capacity(n[m]);
       }
     unsigned int       next = 0;
     const unsigned int here =
       std::accumulate(n.begin(), n.end(), std::size_t(0));
     MPI_Exscan(&here, &next, 1, MPI_UNSIGNED, MPI_SUM, comm);
-    HistoryStart start;
-    double       largest_mass = 0.;
+    HistoryStart        start;
+    double              largest_mass = 0.;
+    std::vector<double> values;
     for_each([&](const Seed &seed) {
       if (start.is_refused())
         return;
       PointArrays           &group = groups[seed.material];
       const ConstitutiveLaw &law   = scene->materials.law(seed.material);
-      std::vector<double>    values(group.n_fields(), 0.);
+      const unsigned int     p     = group.append();
+      group.id[p]                  = next++;
+      if (transfer->keeps_cells())
+        group.cell[p] = numbers::invalid_unsigned_int;
       for (unsigned int d = 0; d < dim; ++d)
         {
-          values[Field::x + d]       = seed.position[d];
-          values[Field::x_start + d] = seed.position[d];
-          values[Field::v + d]       = seed.velocity[d];
+          group.position[d][p] = seed.position[d];
+          group.start[d][p]    = seed.position[d];
+          group.velocity[d][p] = seed.velocity[d];
         }
       const auto components = components_of(seed.stress);
       for (int i = 0; i < n_mandel; ++i)
-        values[Field::stress + i] = components[i];
-      values[Field::volume] = seed.volume;
-      values[Field::mass]   = seed.volume * law.density();
-      largest_mass          = std::max(largest_mass, values[Field::mass]);
+        group.stress[i][p] = components[i];
+      group.weight[p] = seed.volume;
+      group.mass[p]   = seed.volume * law.density();
+      largest_mass    = std::max(largest_mass, group.mass[p]);
       const ConstitutiveLaw::Stress stress =
         stress_of(extended(seed.stress, seed.stress_zz));
-      for (unsigned int k = 0; k < group.first_history(); ++k)
-        if (!std::isfinite(values[k]))
+      if (!std::isfinite(seed.velocity.norm()) ||
+          !std::isfinite(seed.stress.norm()))
+        {
           start.refuse(format("the initial stress or velocity at (%s) is "
                               "not a finite number\n  remedy:  check the "
                               "formulas in 'Initial stress' and 'Initial "
                               "velocity'",
                               text_of_place(seed.position).c_str()));
-      if (start.is_refused())
-        return;
-      start.set(law,
-                stress,
-                space.band_width(seed.cell),
-                seed.position,
-                values.data() + group.first_history());
-      sums.wave_speed2 = std::max(
-        sums.wave_speed2,
-        law.wave_modulus(stress, values.data() + group.first_history()) /
-          law.density());
+          return;
+        }
+      values.resize(group.n_history());
+      start.set(
+        law, stress, space.band_width(seed.cell), seed.position, values.data());
+      for (unsigned int k = 0; k < values.size(); ++k)
+        group.history[k][p] = values[k];
+      sums.wave_speed2 =
+        std::max(sums.wave_speed2,
+                 law.wave_modulus(stress, values.data()) / law.density());
       sums.speed2 = std::max(sums.speed2, seed.velocity.norm_square());
       if (affine)
         {
@@ -114,9 +122,8 @@ namespace geocone
             seed.position, length_of(seed.volume));
           for (unsigned int c = 0; c < dim; ++c)
             for (unsigned int d = 0; d < dim; ++d)
-              values[group.first_affine() + dim * c + d] = gradient[c][d];
+              group.affine[dim * c + d][p] = gradient[c][d];
         }
-      group.append(values.data(), next++);
     });
     start.check<InputError>(comm);
     start.remark(comm, remarks);
@@ -135,9 +142,10 @@ namespace geocone
       for (PointArrays &group : groups)
         {
           for (unsigned int d = 0; d < dim; ++d)
-            std::copy_n(
-              group[Field::x + d], group.n_padded(), group[Field::x_start + d]);
-          std::fill_n(group[Field::plastic_strain], group.n_padded(), 0.);
+            std::copy_n(group.position[d], group.n_padded(), group.start[d]);
+          std::fill(group.cumulative_plastic_strain.begin(),
+                    group.cumulative_plastic_strain.end(),
+                    0.);
         }
     if (stage.reset_velocity)
       {
@@ -149,19 +157,20 @@ namespace geocone
         HistoryStart start;
         for (PointArrays &group : groups)
           {
-            const ConstitutiveLaw &law = scene->materials.law(group.material);
-            const unsigned int     n   = group.n_history;
-            std::vector<double>    values(n);
+            const ConstitutiveLaw &law =
+              scene->materials.law(group.of_material);
+            const unsigned int  n = group.n_history();
+            std::vector<double> values(n);
             for (unsigned int p = 0; p < group.n_points() && n > 0; ++p)
               {
                 group.copy_history(p, values.data());
                 start.set(law,
                           law.whole(group.stress_components(p), values.data()),
                           law.size(values.data()),
-                          group.position(p),
+                          group.position.of(p),
                           values.data());
                 for (unsigned int k = 0; k < n; ++k)
-                  group[group.first_history() + k][p] = values[k];
+                  group.history[k][p] = values[k];
               }
             group.pad();
           }
@@ -186,7 +195,7 @@ namespace geocone
       for (unsigned int p = 0; p < group.n_points(); ++p)
         {
           ++n_all;
-          n_removed += stage.removes(group.position(p));
+          n_removed += stage.removes(group.position.of(p));
         }
     n_removed              = Utilities::MPI::sum(n_removed, comm);
     n_all                  = Utilities::MPI::sum(n_all, comm);
@@ -199,26 +208,25 @@ namespace geocone
     for (PointArrays &group : groups)
       {
         std::vector<unsigned int> staying;
-        fading.emplace_back(group.material, group.n_history, affine);
+        fading.push_back(make_group(group.of_material));
         fading.back().fading = true;
-        std::vector<double> values(group.n_fields());
+        std::vector<double> row(group.n_numbers());
         for (unsigned int p = 0; p < group.n_points(); ++p)
           {
-            if (!stage.removes(group.position(p)))
+            if (!stage.removes(group.position.of(p)))
               {
                 staying.push_back(p);
                 continue;
               }
-            removed_mass += group[Field::mass][p];
+            removed_mass += group.mass[p];
             for (unsigned int d = 0; d < dim; ++d)
-              momentum[d] += group[Field::mass][p] * group[Field::v + d][p];
+              momentum[d] += group.mass[p] * group.velocity[d][p];
             if (at_once)
               take_away(group, p);
             else
               {
-                for (unsigned int field = 0; field < values.size(); ++field)
-                  values[field] = group[field][p];
-                fading.back().append(values.data(), group.id[p]);
+                group.get(p, row.data());
+                fading.back().append(row.data());
               }
           }
         if (staying.size() < group.n_points())
@@ -246,15 +254,15 @@ namespace geocone
   void
   ExplicitMPM::take_away(PointArrays &group, const unsigned int p)
   {
-    const double m = group[Field::mass][p];
+    const double m = group.mass[p];
     sum.removed_mass += m;
     for (unsigned int d = 0; d < dim; ++d)
-      sum.removed_momentum[d] += m * group[Field::v + d][p];
+      sum.removed_momentum[d] += m * group.velocity[d][p];
     sum.removed_energy += kinetic_energy(group, p);
     sum.removed_potential -=
-      m * (scene->gravity.at(1e300) * (group.position(p) - datum));
-    group[Field::mass][p]   = 0.;
-    group[Field::volume][p] = 0.;
+      m * (scene->gravity.at(1e300) * (group.position.of(p) - datum));
+    group.mass[p]   = 0.;
+    group.weight[p] = 0.;
   }
 
   void
@@ -265,16 +273,16 @@ namespace geocone
       {
         // The cross-section that is left shrinks; what goes is counted.
         const unsigned int p = points.first + k;
-        const double       m = group[Field::mass][p];
+        const double       m = group.mass[p];
         sum.removed_energy += (1. - fade) * kinetic_energy(group, p);
         sum.removed_potential -=
           (1. - fade) * m *
-          (scene->gravity.at(1e300) * (group.position(p) - datum));
+          (scene->gravity.at(1e300) * (group.position.of(p) - datum));
         sum.removed_mass += (1. - fade) * m;
         for (unsigned int d = 0; d < dim; ++d)
-          sum.removed_momentum[d] += (1. - fade) * m * group[Field::v + d][p];
-        group[Field::mass][p] *= fade;
-        group[Field::volume][p] *= fade;
+          sum.removed_momentum[d] += (1. - fade) * m * group.velocity[d][p];
+        group.mass[p] *= fade;
+        group.weight[p] *= fade;
       }
   }
 
@@ -287,13 +295,13 @@ namespace geocone
           {
             sum.stopped_energy += kinetic_energy(group, p);
             for (unsigned int d = 0; d < dim; ++d)
-              sum.impulse[d] -= group[Field::mass][p] * group[Field::v + d][p];
+              sum.impulse[d] -= group.mass[p] * group.velocity[d][p];
           }
         for (unsigned int d = 0; d < dim; ++d)
-          std::fill_n(group[Field::v + d], group.n_padded(), 0.);
+          std::fill_n(group.velocity[d], group.n_padded(), 0.);
         if (affine)
           for (unsigned int i = 0; i < dim * dim; ++i)
-            std::fill_n(group[group.first_affine() + i], group.n_padded(), 0.);
+            std::fill_n(group.affine[i], group.n_padded(), 0.);
       }
     must_refresh = true;
   }

@@ -14,16 +14,11 @@ namespace geocone
 {
   using namespace dealii;
 
-  namespace
-  {
-    using Field = PointArrays::Field;
-  }
-
   double
   ExplicitMPM::kinetic_energy(const PointArrays &group,
                               const unsigned int p) const
   {
-    return group[Field::mass][p] * group.velocity(p).norm_square() / 2.;
+    return group.mass[p] * group.velocity.of(p).norm_square() / 2.;
   }
 
   double
@@ -32,7 +27,7 @@ namespace geocone
     double mass = 0.;
     for (const PointArrays &group : groups)
       for (unsigned int p = 0; p < group.n_points(); ++p)
-        mass += group[Field::mass][p];
+        mass += group.mass[p];
     return mass;
   }
 
@@ -47,18 +42,18 @@ namespace geocone
     double fastest = -1.;
     for (const PointArrays &group : groups)
       {
-        const ConstitutiveLaw &law = scene->materials.law(group.material);
-        std::vector<double>    values(group.n_history);
+        const ConstitutiveLaw &law = scene->materials.law(group.of_material);
+        std::vector<double>    values(group.n_history());
         for (unsigned int p = 0; p < group.n_points(); ++p)
           {
-            const double     m = group[Field::mass][p];
-            const Point<dim> x = group.position(p);
+            const double     m = group.mass[p];
+            const Point<dim> x = group.position.of(p);
             if (!(m > 0.))
               continue; // it has left
             ++s.n_points;
-            const Tensor<1, dim> v = group.velocity(p);
+            const Tensor<1, dim> v = group.velocity.of(p);
             s.mass += m;
-            s.volume += group[Field::volume][p];
+            s.volume += group.weight[p];
             s.kinetic += m * v.norm_square() / 2.;
             s.potential -= m * (g * (x - datum));
             s.momentum += m * v;
@@ -74,13 +69,13 @@ namespace geocone
               }
             s.largest_speed          = std::max(s.largest_speed, v.norm());
             s.largest_plastic_strain = std::max(
-              s.largest_plastic_strain, group[Field::plastic_strain][p]);
+              s.largest_plastic_strain, group.cumulative_plastic_strain[p]);
             group.copy_history(p, values.data());
             const double c2 =
               law.wave_modulus(
                 law.whole(group.stress_components(p), values.data()),
                 values.data()) *
-              group[Field::volume][p] / m;
+              group.weight[p] / m;
             if (c2 > fastest)
               {
                 fastest          = c2;
@@ -138,10 +133,10 @@ namespace geocone
         for (const PointArrays &group : groups)
           for (unsigned int p = 0; p < group.n_points(); ++p)
             {
-              const double place = (group[Field::x][p] - left) * per_width;
+              const double place = (group.position[0][p] - left) * per_width;
               if (place >= 0. && place <= part.size())
                 part[std::min<std::size_t>(place, part.size() - 1)] +=
-                  group[Field::mass][p];
+                  group.mass[p];
             }
         Utilities::MPI::sum(part, comm, part);
         std::size_t i = 0;

@@ -4,7 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/base/over_ranks.h>
-#include <geocone/discretisation/cell_record.h>
+#include <geocone/discretisation/point_record.h>
 #include <geocone/discretisation/quadrature_points.h>
 #include <geocone/time_stepping/implicit_fem.h>
 
@@ -358,7 +358,7 @@ namespace geocone
                       p,
                       scene->materials[points.material[p]],
                       points.stress[p],
-                      history.data() + std::size_t(points.n_history) * p));
+                      history.data() + std::size_t(points.n_history()) * p));
         sums[1] += points.weight[p] * ends.back().dissipation;
       }
     sum_over_ranks(sums, v.get_mpi_communicator());
@@ -426,23 +426,9 @@ namespace geocone
   }
 
   void
-  ImplicitFEM::save(Archive &archive, MaterialPoints &points)
+  ImplicitFEM::save(Archive &archive, const MaterialPoints &points)
   {
-    CellRecord cells;
-    StateRow   row;
-    for (unsigned int c = 0; c < points.n_cells(); ++c)
-      {
-        const std::size_t before = row.values().size();
-        for (unsigned int p = points.first_point[c];
-             p < points.first_point[c + 1];
-             ++p)
-          points.state(p, row);
-        if (scene->loading.changes_body())
-          row(points.material[points.first_point[c]]);
-        cells.add(points.cells[c], row.values().size() - before);
-      }
-    archive.write("points/cells", cells.numbers);
-    archive.write("points/state", row.values());
+    save_points(archive, points);
     if (scene->loading.changes_body())
       fading.save(archive, *mesh, *space);
     if (obstacles->exists())
@@ -458,36 +444,24 @@ namespace geocone
   void
   ImplicitFEM::load(const Archive &archive, MaterialPoints &points)
   {
-    const std::vector<double> numbers = archive.read("points/state");
-    const CellRecord cells(archive.read("points/cells"), numbers.size());
+    const PointRecord record(archive, points);
     if (scene->loading.changes_body())
       {
         points = quadrature_points_of(
           *scene, *mesh, *space, {}, [&](const BackgroundMesh::Cell &cell) {
-            return cells.has(cell);
+            return record.has(cell);
           });
         fading.load(archive, *mesh, *space);
         begun = false;
       }
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       {
-        const auto [begin, end] = cells.range(points.cells[c]);
-        StateRow row(
-          std::vector<double>(numbers.begin() + begin, numbers.begin() + end));
-        for (unsigned int p = points.first_point[c];
-             p < points.first_point[c + 1];
-             ++p)
-          points.state(p, row);
-        if (scene->loading.changes_body())
-          {
-            unsigned int material = 0;
-            row(material);
-            std::fill(points.material.begin() + points.first_point[c],
-                      points.material.begin() + points.first_point[c + 1],
-                      material);
-          }
-        if (!row.at_end())
+        const auto   rows  = record.of(points.cells[c]);
+        unsigned int first = points.first_point[c];
+        if (rows.size() != points.first_point[c + 1] - first)
           throw RunError("the checkpoint has other points");
+        for (const double *row : rows)
+          points.set(first++, row);
       }
     if (obstacles->exists())
       {

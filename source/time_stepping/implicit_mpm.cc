@@ -150,15 +150,14 @@ namespace geocone
                                "Discretisation/Method = FEM");
     moving = std::make_unique<MovingConditions>(*scene, *mesh, *space);
 
-    std::string warning = particles.prepare(*scene, *mesh, *space);
+    std::string warning = particles.prepare(*scene, *mesh, *space, points);
     if (integration == Integration::midpoint &&
         advection == Advection::particle_velocity)
       warning += std::string(warning.empty() ? "" : "; ") +
                  "the midpoint rule with Advection = particle velocity lets "
                  "the total energy grow where particles and nodes move "
                  "differently: take the grid velocity";
-    points = particles.collect(*mesh, *space);
-    datum  = mesh->lower_corner();
+    datum = mesh->lower_corner();
 
     constraints = std::make_unique<Constraints>(*scene, *mesh, *space);
     scene->absorbing.refuse("MPM", "set Discretisation/Method = FEM");
@@ -508,9 +507,8 @@ namespace geocone
     for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
       had_mass[i] = constraints->has_mass(i);
     kinematics.velocity = v;
-    particles.move(points);
-    points = particles.collect(*mesh, *space);
-    begun  = false;
+    particles.sort(points);
+    begun = false;
 
     report.energies = state_energies(kinematics, points, t + h);
     report.largest_plastic_strain =
@@ -544,12 +542,10 @@ namespace geocone
   {
     if (!begun)
       begin(points, timer);
-    particles.store(points); // what a reset may have changed
     BodyChange change;
     change.before = state_energies(kinematics, points, t);
     Vector     difference;
     const auto take = [&](const double duration) {
-      points = particles.collect(*mesh, *space);
       begin(points, timer);
       difference -= net_force(points, t);
       for (unsigned int i = 0; i < difference.locally_owned_size(); ++i)
@@ -569,7 +565,7 @@ namespace geocone
           Utilities::MPI::sum(stays.size(), comm),
           "points"));
         difference = net_force(points, t);
-        particles.keep(stays);
+        particles.keep(stays, points);
         take(stage.removal_duration);
       }
     if (!stage.added_materials.empty())
@@ -582,7 +578,8 @@ namespace geocone
                          name) > 0)
             {
               change.remarks.push_back(
-                format("added %lu points of the material '", particles.add(m)) +
+                format("added %lu points of the material '",
+                       particles.add(m, points)) +
                 name + "'");
               added.push_back(m);
             }
@@ -593,7 +590,6 @@ namespace geocone
         for (const std::string &remark : change_materials(
                stage, *scene, *space, force.get_mpi_communicator(), points))
           change.remarks.push_back(remark);
-        particles.store(points);
         begin(points, timer);
       }
     change.after = state_energies(kinematics, points, t);
@@ -601,9 +597,8 @@ namespace geocone
   }
 
   void
-  ImplicitMPM::save(Archive &archive, MaterialPoints &points)
+  ImplicitMPM::save(Archive &archive, const MaterialPoints &points)
   {
-    particles.store(points); // what a reset may have changed
     if (scene->loading.changes_body())
       {
         StateRow row;
@@ -611,7 +606,7 @@ namespace geocone
         archive.write_row("added", row);
         fading.save(archive, *mesh, *space);
       }
-    particles.save(archive, *mesh);
+    particles.save(archive, points);
     Vector mass(velocity_L);
     for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
       mass.local_element(i) = had_mass.empty() || had_mass[i];
@@ -629,10 +624,10 @@ namespace geocone
       {
         archive.read_row("added")(added);
         for (const unsigned int material : added)
-          particles.add(material); // nor will they be again
+          particles.forget(material); // they will not be again
         fading.load(archive, *mesh, *space);
       }
-    particles.load(archive, *mesh);
+    particles.load(archive, points);
     Vector mass(velocity_L);
     load_nodes(archive, "had mass", *mesh, *space, mass);
     had_mass.resize(mass.locally_owned_size());
@@ -641,7 +636,6 @@ namespace geocone
     StateRow row = archive.read_row("sides");
     moving->state(row);
     obstacles->state(row);
-    points = particles.collect(*mesh, *space);
-    begun  = false;
+    begun = false;
   }
 } // namespace geocone

@@ -64,7 +64,7 @@ namespace geocone
                     stress_of(stress),
                     space.band_width(BackgroundMesh::size_of(points.cells[c])),
                     points.position[p],
-                    points.history.data() + points.n_history * p);
+                    points.history_of(p));
           if (!points.mass.empty())
             points.mass[p] = points.weight[p] * materials[to].density();
         }

@@ -66,8 +66,8 @@ check(const std::string &element,
                "Materials/soil/Cohesion = 50",
                "Materials/soil/Dilatancy angle = " + dilatancy});
   setup.prepare();
-  setup.particles.prepare(setup.scene, setup.mesh, setup.space);
-  MaterialPoints points = setup.particles.collect(setup.mesh, setup.space);
+  MaterialPoints points;
+  setup.particles.prepare(setup.scene, setup.mesh, setup.space, points);
   if (b_bar)
     points.volumetric_gradients = mean_gradients(points);
   else

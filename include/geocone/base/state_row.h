@@ -35,12 +35,6 @@ namespace geocone
       , row(std::move(values))
     {}
 
-    /** Over numbers that are elsewhere, of which there are enough. */
-    StateRow(double *numbers, const bool reads)
-      : reads(reads)
-      , place(numbers)
-    {}
-
     bool
     is_read() const
     {
@@ -160,12 +154,7 @@ namespace geocone
     void
     number(double &x)
     {
-      if (place != nullptr)
-        {
-          double &there       = *place++;
-          (reads ? x : there) = reads ? there : x;
-        }
-      else if (!reads)
+      if (!reads)
         row.push_back(x);
       else if (next < row.size())
         x = row[next++];
@@ -181,8 +170,7 @@ namespace geocone
 
     const bool          reads;
     std::vector<double> row;
-    std::size_t         next  = 0;
-    double             *place = nullptr; ///< or null: in row
+    std::size_t         next = 0;
   };
 } // namespace geocone
 

@@ -4,10 +4,7 @@
 #ifndef geocone_discretisation_material_points_h
 #define geocone_discretisation_material_points_h
 
-#include <geocone/base/state_row.h>
-#include <geocone/base/types.h>
-
-#include <deal.II/base/point.h>
+#include <geocone/discretisation/point_state.h>
 
 #include <deal.II/grid/tria.h>
 
@@ -17,10 +14,11 @@ namespace geocone
 {
   /**
    * Where the continuum lives, on this rank: contiguous arrays over points that
-   * are sorted by cell. This is all that the incremental problem knows of FEM
-   * or MPM. Everything here belongs to t_n and is const during a step.
+   * are sorted by cell, with the functions there. This is all that the incremental
+   * problem knows of FEM or MPM. Everything here belongs to t_n and is const during a
+   * step.
    */
-  struct MaterialPoints
+  struct MaterialPoints : PointState<PointValues>
   {
     unsigned int
     n_points() const
@@ -61,58 +59,32 @@ namespace geocone
      */
     std::vector<double> volumetric_gradients;
 
-    /** Index of the material of each point. */
-    std::vector<unsigned int> material;
-
-    /** Volume that a point stands for, per unit thickness (m^2), or around the axis
-     *  (m^3). */
-    std::vector<double> weight;
-
-    std::vector<dealii::Point<dim>> position;
-
-    /** State at t_n: stress (Pa), plastic strain, and the integral of the norm
-     *  of the plastic strain rate. */
-    std::vector<Mandel> stress;
-    std::vector<Mandel> plastic_strain;
-    std::vector<double> cumulative_plastic_strain;
-
-    /** Norm of the plastic strain rate over the last step (1/s). */
-    std::vector<double> plastic_strain_rate;
-
-    /** History variables of the laws (ConstitutiveLaw::n_history()): n_history
-     *  per point, of which a law may take fewer. */
-    unsigned int        n_history = 0;
-    std::vector<double> history;
-
     /** Those of a point, or null where there are none. */
     const double *
     history_of(const unsigned int point) const
     {
-      return history.data() + static_cast<std::size_t>(n_history) * point;
+      return history.data() + static_cast<std::size_t>(n_history()) * point;
+    }
+    double *
+    history_of(const unsigned int point)
+    {
+      return history.data() + static_cast<std::size_t>(n_history()) * point;
     }
 
-    /** @name Of points that move, at t_n; empty otherwise */
-    /** @{ */
-    std::vector<double>                 mass; ///< (kg/m)
-    std::vector<dealii::Tensor<1, dim>> velocity;
-    std::vector<dealii::Tensor<1, dim>> displacement; ///< since the last reset
-    std::vector<dealii::Tensor<2, dim>> affine; ///< of APIC: dv/dx about it
-    std::vector<unsigned int>           id;     ///< counted through all ranks
-    /** 1 + the condition that holds a particle, or 0. */
-    std::vector<unsigned int> held_by;
-    /** @} */
+    unsigned int
+    n_history() const
+    {
+      return history.width;
+    }
 
-    /**
-     * The variables that go with a point from step to step, one by one: a new
-     * one is named here. What moves has all of them, what stays those that a step
-     * changes.
-     */
+    /** The variables in use from now on: points that stay have neither mass nor
+     *  velocity, nor what follows from them. */
     void
-    state(const unsigned int point, StateRow &row);
+    use(const bool moving, const unsigned int n_history);
 
-    /** Makes room for @p n points with n_history. */
+    /** Adds a point with the numbers of a row. */
     void
-    resize(const unsigned int n, const bool moving);
+    append(const double *row);
   };
 
   /** Fills the volumetric gradients: in each cell the projection of grad N, weighted by

@@ -13,14 +13,16 @@
 
 #include <map>
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace geocone
 {
   /**
-   * The particles of the material point method: the owner of their state between
-   * steps, which finds their cells and sends them to other ranks. A step works on the contiguous copy that collect() makes, and
-   * hands it back to move().
+   * The particles of the material point method: seeds them, finds their cells, sends
+   * them to the ranks that own these, and evaluates the functions where they are.
+   * Their state is all in MaterialPoints, sorted by cell and number.
    */
   class Particles
   {
@@ -33,40 +35,43 @@ namespace geocone
      * @throws InputError for wrong parameters or an empty region
      */
     std::string
-    prepare(const Scene &scene, const BackgroundMesh &mesh, const Space &space);
+    prepare(const Scene          &scene,
+            const BackgroundMesh &mesh,
+            const Space          &space,
+            MaterialPoints       &points);
 
-    /** The particles as arrays, sorted by cell, with N and grad N. */
-    MaterialPoints
-    collect(const BackgroundMesh &mesh, const Space &space) const;
-
-    /** Takes away those whose place in collect() is not true. */
+    /** Takes away those that do not stay. */
     void
-    keep(const std::vector<bool> &stays);
+    keep(const std::vector<bool> &stays, MaterialPoints &points) const;
 
     /** Adds those of a material that a stage adds. Collective.
      *  @return how many, of all ranks */
     unsigned long
-    add(const unsigned int material);
+    add(const unsigned int material, MaterialPoints &points);
 
-    /** Takes the state and the positions from the arrays that collect() made. */
+    /** Forgets those that a stage of a resumed run has added. */
     void
-    store(MaterialPoints &points);
+    forget(const unsigned int material)
+    {
+      waiting.erase(material);
+    }
 
     /**
-     * As store(), and sorts the particles into their new cells and ranks.
+     * Sorts the particles, which have moved, into their new cells and ranks.
+     * Collective.
      * @throws StepFailure if a particle leaves the mesh and may not
      */
     void
-    move(MaterialPoints &points);
+    sort(MaterialPoints &points);
 
     /** @name The state, as part of a checkpoint. Collective. */
     /** @{ */
     void
-    save(Archive &archive, const BackgroundMesh &mesh);
+    save(Archive &archive, const MaterialPoints &points);
 
     /** In place of what is there. */
     void
-    load(const Archive &archive, const BackgroundMesh &mesh);
+    load(const Archive &archive, MaterialPoints &points);
     /** @} */
 
     /** Particles that left the mesh, of all ranks. */
@@ -84,19 +89,14 @@ namespace geocone
     }
 
   private:
-    /** Who is where: the cell by its active cell index. */
-    struct Place
-    {
-      unsigned int       id, cell;
-      dealii::Point<dim> position, unit;
-    };
-    static constexpr unsigned int unknown_cell =
-      dealii::numbers::invalid_unsigned_int;
+    /** Sorts them. @return a text of one of those that have left the mesh, and their
+     *  number, of this rank */
+    std::pair<std::string, unsigned int>
+    find_cells(MaterialPoints &points) const;
 
-    /** Finds the cells and ranks of all particles. Collective.
-     *  @return those of this rank that have left the mesh, and are no more */
-    std::vector<Place>
-    sort();
+    /** What depends on the cells of the points: functions, nodes. */
+    void
+    evaluate(MaterialPoints &points) const;
 
     /**
      * The unit coordinates that a particle of elements is given: at least a part
@@ -112,22 +112,14 @@ namespace geocone
     double  margin = 0.; ///< of inside(); splines need none
 
     std::unique_ptr<CellSearch> search;
-    std::vector<Place>          places; ///< sorted by cell, and in it by id
-    std::vector<double>         states; ///< n_state numbers of each
 
-    /** Particles of a material that a stage will add. */
-    struct Waiting
-    {
-      std::vector<dealii::Point<dim>> position;
-      std::vector<unsigned int>       id;
-      std::vector<double>             states;
-    };
-    std::map<unsigned int, Waiting> waiting; ///< by material
+    /** Particles of materials that stages will add. */
+    std::map<unsigned int, MaterialPoints> waiting;
 
-    MPI_Comm     comm;
-    unsigned int n_history  = 0; ///< history variables of a particle
-    unsigned int n_state    = 0; ///< numbers of MaterialPoints::state()
-    unsigned int n_lost_all = 0;
+    const BackgroundMesh *mesh  = nullptr;
+    const Space          *space = nullptr;
+    MPI_Comm              comm;
+    unsigned int          n_lost_all = 0;
   };
 } // namespace geocone
 

@@ -75,7 +75,7 @@ namespace geocone
     const Scene                                             &scene,
     const BackgroundMesh                                    &mesh,
     const Space                                             &space,
-    MaterialPoints                                           known,
+    const MaterialPoints                                    &known,
     const std::function<bool(const BackgroundMesh::Cell &)> &is_there);
 } // namespace geocone
 

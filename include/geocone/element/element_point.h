@@ -94,7 +94,7 @@ namespace geocone
   };
 
   /** Which components a point has. */
-  enum class PointComponents
+  enum class StressComponents
   {
     automatic, ///< all if the law has them
     plane_strain,
@@ -110,7 +110,7 @@ namespace geocone
    */
   std::unique_ptr<ElementPoint>
   make_element_point(const ConstitutiveLaw &law,
-                     const PointComponents  components,
+                     const StressComponents components,
                      const Tensor6         &stress,
                      std::string           &changed);
 } // namespace geocone

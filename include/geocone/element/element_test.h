@@ -105,11 +105,11 @@ namespace geocone
     MixedControl  mixed_control;
     ElementOutput element_output;
 
-    Choice<PointComponents> components = {
-      {{"automatic", PointComponents::automatic},
-       {"plane strain", PointComponents::plane_strain},
-       {"axisymmetric", PointComponents::axisymmetric},
-       {"3D", PointComponents::all}}};
+    Choice<StressComponents> components = {
+      {{"automatic", StressComponents::automatic},
+       {"plane strain", StressComponents::plane_strain},
+       {"axisymmetric", StressComponents::axisymmetric},
+       {"3D", StressComponents::all}}};
 
     std::vector<double> initial_stress = {-100e3, -100e3, -100e3, 0., 0., 0.};
     double              initial_volume = 2.;

@@ -99,6 +99,14 @@ namespace geocone
       return false;
     }
 
+    /** Whether points know their cells (PointState::cell and unit), which sort()
+     *  finds. */
+    virtual bool
+    keeps_cells() const
+    {
+      return false;
+    }
+
     /** The place of the domain that is nearest to x. */
     virtual dealii::Point<dim>
     nearest_in_domain(const dealii::Point<dim> &x) const = 0;

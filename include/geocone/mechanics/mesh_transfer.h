@@ -44,6 +44,11 @@ namespace geocone
     {
       return true;
     }
+    bool
+    keeps_cells() const override
+    {
+      return true;
+    }
 
     void
     gather(const TransferBlock &points, BlockScratch &scratch) override;
@@ -116,9 +121,7 @@ namespace geocone
 
     /** Evaluates the functions of all points of a group, and its padding. */
     void
-    evaluate(const PointArrays                    &group,
-             const std::vector<CellSearch::Place> &places,
-             Functions                            &functions) const;
+    evaluate(const PointArrays &group, Functions &functions) const;
 
     /** Those of a point of a block. */
     PointFunctions

@@ -255,6 +255,10 @@ namespace geocone
     void
     seed_columns(const CartesianGrid &grid, std::vector<std::string> &remarks);
 
+    /** Room for points of a material. */
+    PointArrays
+    make_group(const unsigned int material) const;
+
     /** Makes the points. @param n their numbers on this rank by material
      *  @param for_each calls its argument with each seed of this rank */
     void

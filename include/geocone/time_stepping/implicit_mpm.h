@@ -72,7 +72,7 @@ namespace geocone
                 MaterialPoints      &points) override;
 
     void
-    save(Archive &archive, MaterialPoints &points) override;
+    save(Archive &archive, const MaterialPoints &points) override;
     void
     load(const Archive &archive, MaterialPoints &points) override;
 

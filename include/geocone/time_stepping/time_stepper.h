@@ -252,7 +252,7 @@ namespace geocone
      *  Collective. */
     /** @{ */
     virtual void
-    save(Archive &archive, MaterialPoints &points) = 0;
+    save(Archive &archive, const MaterialPoints &points) = 0;
 
     /** In place of what prepare() has made.
      *  @throws RunError if it does not fit */

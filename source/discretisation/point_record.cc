@@ -1,0 +1,58 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/discretisation/point_record.h>
+
+namespace geocone
+{
+  void
+  check_variables(const std::string &written, const std::string &here)
+  {
+    if (written != here)
+      throw RunError("the checkpoint has other variables of points (" +
+                     written + ") than this run (" + here + ")");
+  }
+
+  void
+  save_points(Archive &archive, const MaterialPoints &points)
+  {
+    StateRow    list;
+    std::string variables = points.variables();
+    list(variables);
+    archive.write_row("points/variables", list);
+    CellRecord          cells;
+    std::vector<double> rows;
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      {
+        const unsigned int first = points.first_point[c],
+                           last  = points.first_point[c + 1];
+        cells.add(points.cells[c], last - first);
+        for (unsigned int p = first; p < last; ++p)
+          points.add_row(p, rows);
+      }
+    archive.write("points/cells", cells.numbers);
+    archive.write("points/state", rows);
+  }
+
+  PointRecord::PointRecord(const Archive &archive, const MaterialPoints &like)
+    : size(like.n_numbers())
+  {
+    std::string variables;
+    archive.read_row("points/variables")(variables);
+    check_variables(variables, like.variables());
+    rows  = archive.read("points/state");
+    cells = std::make_unique<CellRecord>(archive.read("points/cells"),
+                                         rows.size() / size);
+  }
+
+  std::vector<const double *>
+  PointRecord::of(const BackgroundMesh::Cell &cell) const
+  {
+    const auto [begin, end] = cells->range(cell);
+    std::vector<const double *> of_cell;
+    for (std::size_t i = begin; i < end; ++i)
+      of_cell.push_back(&rows[i * size]);
+    return of_cell;
+  }
+} // namespace geocone
