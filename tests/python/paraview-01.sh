@@ -53,7 +53,7 @@ def opened_by(path, version):
     def open_file(name):
         opened.append(os.path.normpath(name))
         return source
-    source = MagicMock()
+    source = MagicMock(TimestepValues=[0., 1.])
     source.GetDataInformation.return_value.GetBounds.return_value = (0., 2., 0., 1., 0., 0.)
     simple = MagicMock()
     simple.OpenDataFile.side_effect = open_file
@@ -103,7 +103,8 @@ assert 0.05 < view["radius"] < 0.1  # two by two in cells of 0.25 m
 PYTHON
 if command -v pvbatch > /dev/null; then
   for name in fem mpm explicit bounds solid balls; do
-    xvfb-run -a pvbatch --force-offscreen-rendering "$name/paraview_state.py" "$name.png"
+    # The server is not to start anew when VTK closes its first window.
+    xvfb-run -a -s "-noreset -screen 0 1280x1024x24" pvbatch --force-offscreen-rendering "$name/paraview_state.py" "$name.png"
     /usr/bin/python3 -c "
 from PIL import Image
 colors = Image.open('$name.png').convert('RGB').getcolors(1 << 24)

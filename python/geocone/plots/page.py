@@ -11,6 +11,7 @@ from pathlib import Path
 
 import matplotlib
 import numpy as np
+from PIL import Image
 
 from geocone.files import add_to_list, write_whole
 from geocone.plots import points, rates
@@ -20,6 +21,7 @@ from geocone.style import STRAINS, PlotError, Skipped, draw_water
 TEMPLATE = Path(__file__).with_name("run.html")
 MOST_FRAMES = 16
 MOST_BYTES = 4_500_000  # of a page, in pictures
+LARGE = 100_000  # bytes of a picture
 
 # What a reader asks for first, and what it is called.
 TOPICS = {"safety": "Factor of safety", "bounds": "Bounds", "limit_load": "Load",
@@ -120,7 +122,12 @@ def is_wide(png):
 
 
 def as_data(content):
-    """A picture as a page holds it."""
+    """A picture as a page holds it: a large one with 256 colours, a third of its bytes."""
+    if len(content) > LARGE:
+        picture = Image.open(io.BytesIO(content)).convert("RGB")
+        stream = io.BytesIO()
+        picture.quantize(256, dither=Image.Dither.NONE).save(stream, "PNG")
+        content = min(content, stream.getvalue(), key=len)
     return "data:image/png;base64," + base64.b64encode(content).decode()
 
 

@@ -69,8 +69,15 @@ def show(look, source, view):
         shown.Ambient, shown.Diffuse, shown.Specular = 1., 0., 0.
 
 
-def main():
-    """Makes a layout with a view of each look, their cameras linked."""
+def last_time(source):
+    """The last time of a reader, which tells a single one as a number."""
+    times = source.TimestepValues
+    return times if isinstance(times, float) else times[-1]
+
+
+def main(picture):
+    """Makes a layout with a view of each look, their cameras linked; of a fixed size for
+    a picture."""
     sources, views = {}, []
     for look in RUN["views"]:
         view = simple.CreateView("RenderView")
@@ -92,10 +99,11 @@ def main():
         (layout.SplitVertical if RUN["wide"] else layout.SplitHorizontal)(0, 0.5)
     for place, view in enumerate(views, 1 if len(views) > 1 else 0):
         layout.AssignView(place, view)
-    layout.SetSize(1200, 1000 if RUN["wide"] else 600)
+    if picture:
+        layout.SetSize(1200, 1000 if RUN["wide"] else 600)
     scene = simple.GetAnimationScene()
     scene.UpdateAnimationUsingDataTimeSteps()
-    scene.GoToLast()
+    scene.AnimationTime = max(last_time(sources[look["series"]]) for look in RUN["views"])
     for look, view in zip(RUN["views"], views):
         series, warp = look["series"], look["warp"]
         source = sources[(series, warp) if warp else series]
@@ -112,7 +120,8 @@ def main():
         if not RUN["towards"]:  # the box fills the view, but for the place of the bar
             low_x, high_x, low_y, high_y, *_ = source.GetDataInformation().GetBounds()
             width, height = view.ViewSize
-            scale = 0.55 * max(high_y - low_y, 1.2 * (high_x - low_x) * height / width)
+            scale = (0.55 * max(high_y - low_y, 1.2 * (high_x - low_x) * height / width) +
+                     (look["radius"] or 0.))
             view.CameraParallelScale = scale
             view.CameraFocalPoint[0] += 0.15 * scale * width / height
             view.CameraPosition[0] = view.CameraFocalPoint[0]
@@ -123,6 +132,8 @@ def main():
     return layout
 
 
-whole = main()
-if __name__ == "__main__" and len(sys.argv) == 2 and sys.argv[1].endswith(".png"):
-    simple.SaveScreenshot(sys.argv[1], whole)
+wanted = (sys.argv[1] if __name__ == "__main__" and len(sys.argv) == 2 and
+          sys.argv[1].endswith(".png") else None)
+whole = main(wanted)
+if wanted:
+    simple.SaveScreenshot(wanted, whole)
