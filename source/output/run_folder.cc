@@ -185,8 +185,7 @@ namespace geocone
                        printable(folder),
                        "the folder of a run by geocone",
                        "it has no parameters.prm");
-    const nlohmann::ordered_json summary =
-      read_summary(folder + "/summary.json");
+    const Json  summary = read_summary(folder + "/summary.json");
     std::string original;
     if (summary.contains("run") && summary["run"].is_object())
       if (const auto path = summary["run"].find("parameter_file");

@@ -16,8 +16,6 @@
 
 namespace geocone
 {
-  using Json = nlohmann::ordered_json;
-
   namespace
   {
     /** The program's end of the pipe to its watcher. */

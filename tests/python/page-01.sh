@@ -30,7 +30,8 @@ class Page(html.parser.HTMLParser):
         self.words.append(data)
 page = Page()
 page.feed(text)
-assert len(page.images) >= 4, len(page.images)
+# Among them that of an elastic body, which has no plastic strain.
+assert len(page.images) == 5, len(page.images)
 for source in page.images:
     kind, data = source.split(",", 1)
     assert kind == "data:image/png;base64"
@@ -42,6 +43,8 @@ assert [one["max"] for one in page.inputs] == [str(steps)], page.inputs
 words = " ".join(page.words)
 summary = json.loads(pathlib.Path("run/summary.json").read_text())
 assert f"{summary['energy']['kinetic_J_per_m']:.6g}" in words
+assert "kinetic (J/m)" in words and "front x (m)" in words
+assert "Largest shear stress of the material points" in words
 assert "set Friction coefficient" in words and "0.3" in words
 PYTHON
 # What a file says is shown, not run.
@@ -54,4 +57,46 @@ if command -v chromium > /dev/null; then
   chromium --headless --no-sandbox --disable-gpu --dump-dom "file://$PWD/moved.html" \
     > dom 2> /dev/null
   grep -q '<output id="shown">0 s</output>' dom
+  # Nothing is wider than the page, on a desk or on a telephone; a picture that is tapped
+  # is scrolled within its own place.
+  for width in 1280 400; do
+    sed 's|</body>|<script>document.querySelector(".pictures img").click();</script></body>|' \
+      run/report.html > page.html
+    cat > frame.html <<HTML
+<iframe src="page.html" style="width: ${width}px; height: 900px" onload="
+  const root = this.contentDocument.documentElement;
+  document.title = root.scrollWidth <= root.clientWidth &amp;&amp;
+    root.querySelectorAll('.large img').length == 1 ? 'fits' : 'too wide'"></iframe>
+HTML
+    chromium --headless --no-sandbox --disable-gpu --allow-file-access-from-files \
+      --dump-dom "file://$PWD/frame.html" > dom 2> /dev/null
+    grep -q '<title>fits</title>' dom
+  done
 fi
+# Names with their units, the answer in front, and what a run failed of.
+PYTHONPATH=$root/python /usr/bin/python3 -B - <<'PYTHON'
+import copy, geocone
+from geocone.plots import page
+for key, name in {"angular_N_m_s_per_m": "angular (N m s/m)", "volume_m2": "volume (m2)",
+                  "stress_xx_Pa_least": "stress xx least (Pa)", "p_Pa": "p (Pa)",
+                  "largest_speed_m_per_s": "largest speed (m/s)", "steps": "steps",
+                  "numerical_loss_max_relative": "numerical loss max relative"}.items():
+    assert page.name_of(key) == name, page.name_of(key)
+run = geocone.read("run")
+assert page.answer_of(run) == ""  # nothing is loaded to its limit
+def answer(**topics):
+    other = copy.copy(run)
+    other.summary = topics
+    return page.answer_of(other)
+assert answer(limit_load={"value": 8442.8, "unit": "N/m"}, reference={
+    "quantity": "limit_load/value", "expected": 8288.21, "relative_error": 0.018652}) == (
+        "Limit load: 8442.8 N/m; reference 8288.21 (+1.87 %)")
+assert answer(bounds={"lower": 8231.21, "upper": 8303.44, "unit": "N/m"}) == (
+    "Between 8231.21 and 8303.44 N/m")
+assert answer(bounds={"lower": 1., "upper": 2., "unit": "-"}, safety={
+    "factor": 1.38164, "lower": 1.38123, "upper": 1.38203}) == (
+        "Factor of safety: 1.3816 (between 1.3812 and 1.382)")
+assert answer(safety={"factor": None, "lower": None, "upper": None}) == ""
+assert page.text_of("failed: it stopped remedy: smaller steps") == (
+    "failed: it stopped Remedy: smaller steps")
+PYTHON

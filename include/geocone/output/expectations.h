@@ -4,15 +4,13 @@
 #ifndef geocone_output_expectations_h
 #define geocone_output_expectations_h
 
-#include <nlohmann/json.hpp>
+#include <geocone/output/json.h>
 
 #include <string>
 #include <vector>
 
 namespace geocone
 {
-  using Json = nlohmann::ordered_json;
-
   /**
    * A statement about a number of summary.json, "TOPIC/NAME <= NUMBER",
    * ">= NUMBER" or "= NUMBER +- NUMBER": so a parameter file carries its own

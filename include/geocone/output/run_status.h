@@ -4,7 +4,7 @@
 #ifndef geocone_output_run_status_h
 #define geocone_output_run_status_h
 
-#include <nlohmann/json.hpp>
+#include <geocone/output/json.h>
 
 #include <string>
 
@@ -43,14 +43,14 @@ namespace geocone
   };
 
   /** The summary in a file; empty if there is none that can be read. */
-  nlohmann::ordered_json
+  Json
   read_summary(const std::string &file_name);
 
   /**
    * The topic "run" of a summary: the program's process and host, when it began
    * and when it was seen last (UTC, ISO 8601).
    */
-  nlohmann::ordered_json
+  Json
   run_topic();
 
   /** Seconds of CPU that this rank has used. */

@@ -15,6 +15,8 @@ of an explicit run energy.png, runout.png, points.png (plastic strain or shear s
 six times), slide.png where points are taken away, structure.png and loading.png of soils
 with such ratios; of an element test
 stress_strain.png, stress_path.png, compression.png and ratios.png.
+Of each run also report.html, a page with all of it, and, of fields, paraview_state.py,
+which opens them in ParaView.
 """
 
 import argparse
@@ -66,10 +68,20 @@ def draw_run(run, folder, times=None):
         finish()  # the page holds the pictures
         from geocone.plots import page
         print(page.write_page(run, folder, pictures))
+        write_state(run, folder)
     except (PlotError, ReadError, OSError):
         raise
     except Exception as problem:  # damaged results may fail anywhere
         raise PlotError(f"what is in '{run.folder}' cannot be drawn: {problem!r}")
+
+
+def write_state(run, folder):
+    """Writes the script that opens the run's fields in ParaView, where there are any."""
+    from geocone.plots import paraview
+    try:
+        print(paraview.write_state(run, folder))
+    except (Missing, Skipped) as reason:
+        print(f"{folder / paraview.NAME} is not written: {reason}")
 
 
 def numbers(text):
@@ -93,6 +105,9 @@ def main(arguments, prog="plot"):
                         help="times of the pictures of points (s)")
     parser.add_argument("--animation", action="store_true",
                         help="only draw points.gif, a film of the points")
+    parser.add_argument("--paraview", action="store_true",
+                        help="only write paraview_state.py, which opens the fields in "
+                        "ParaView")
     call = parser.parse_args(arguments)
     # Fonts lack characters of some names; what is not finite is not drawn.
     warnings.simplefilter("ignore")
@@ -117,6 +132,11 @@ def main(arguments, prog="plot"):
                 from geocone.plots import animation
                 (below or run.folder).mkdir(parents=True, exist_ok=True)
                 animation.draw(run, (below or run.folder) / "points.gif")
+                continue
+            if call.paraview:
+                from geocone.plots import paraview
+                (below or run.folder).mkdir(parents=True, exist_ok=True)
+                print(paraview.write_state(run, below or run.folder))
                 continue
             draw_run(run, below or run.folder, call.times)
         finish()

@@ -5,19 +5,23 @@ and needs nothing else to be looked at."""
 
 import base64
 import io
+import re
+import struct
 from pathlib import Path
 
 import matplotlib
 import numpy as np
+from PIL import Image
 
 from geocone.files import add_to_list, write_whole
-from geocone.plots import points
+from geocone.plots import points, rates
 from geocone.reader import Missing, ReadError
 from geocone.style import STRAINS, PlotError, Skipped, draw_water
 
 TEMPLATE = Path(__file__).with_name("run.html")
 MOST_FRAMES = 16
 MOST_BYTES = 4_500_000  # of a page, in pictures
+LARGE = 100_000  # bytes of a picture
 
 # What a reader asks for first, and what it is called.
 TOPICS = {"safety": "Factor of safety", "bounds": "Bounds", "limit_load": "Load",
@@ -25,15 +29,27 @@ TOPICS = {"safety": "Factor of safety", "bounds": "Bounds", "limit_load": "Load"
           "reference": "Reference", "contact": "Contact", "failure": "Failure",
           "points": "Observed points", "motion": "Motion", "energy": "Energy",
           "newton": "Newton's method", "quality": "Quality of the solution",
-          "state": "State", "size": "Size", "cost": "Cost"}
+          "state": "State", "start": "At the start", "final": "At the end",
+          "extremes": "Least and most", "size": "Size", "cost": "Cost"}
 CAPTIONS = {
     "load_displacement.png": "Load against displacement",
     "safety.png": "Displacement while the strength is reduced",
     "bounds.png": "Both bounds and their gap",
     "mechanism.png": "Where the bounds differ, and the mechanisms of both",
     "plastic_strain_rate.png": "Where the soil flows at the end",
+    "plastic_strain_rate_points.png": "The same, of the material points",
     "plastic_strain.png": "Plastic strain of the material points",
+    "shear_stress.png": "Largest shear stress of the material points",
+    "points.png": "The material points at some times", "runout.png": "How far it runs",
+    "slide.png": "The slide", "structure.png": "Structure of the soil",
+    "loading.png": "Loading ratio of the soil",
+    "stress_strain.png": "Stress against strain", "stress_path.png": "Stress path",
+    "compression.png": "Compression", "ratios.png": "Ratios of the soil's memory",
     "energy.png": "Energies", "newton.png": "Newton's method: residuals"}
+# The unit at the end of a name of the summary, as in "angular_N_m_s_per_m".
+UNIT = re.compile(r"_((?:(?:MB|Pa|kg|J|N|m|m2|m3|s)_)*(?:MB|Pa|kg|J|N|m|m2|m3|s)"
+                  r"(?:_per_(?:m|s))?)(_least|_most)?$")
+LONG = 32  # texts from here on have a line of their own
 
 
 def text_of(value):
@@ -44,27 +60,79 @@ def text_of(value):
         return "yes" if value else "no"
     if isinstance(value, float):
         return f"{value:.6g}"
-    return str(value)
+    return " Remedy: ".join(part.strip() for part in str(value).split("remedy:"))
+
+
+def name_of(key):
+    """A name of the summary in words, with its unit: "work_J_per_m" is "work (J/m)"."""
+    words = UNIT.sub(lambda found: f"{found[2] or ''} (" + found[1]
+                     .replace("_per_", "/").replace("_", " ") + ")", f"_{key}")
+    return words.replace("_", " ").strip()
+
+
+def title_of(topic):
+    """What a topic of the summary is called."""
+    return TOPICS.get(topic, topic.replace("_", " ").capitalize())
+
+
+def answer_of(run):
+    """The number for which the run was made, in a line; empty if there is no single one."""
+    def number(key):
+        value = run.value(key)
+        return None if isinstance(value, (str, bool)) else value
+
+    known = number("reference/expected")
+    error = number("reference/relative_error")
+    beside = ("" if known is None or error is None else
+              f"; reference {known:.6g} ({100. * error:+.2f} %)")
+    quantity = run.value("reference/quantity")
+    if number("safety/factor") is not None:
+        lower, upper = number("safety/lower"), number("safety/upper")
+        between = ("" if lower is None or upper is None else
+                   f" (between {lower:.5g} and {upper:.5g})")
+        return (f"Factor of safety: {number('safety/factor'):.5g}{between}" +
+                beside * (quantity == "safety/factor"))
+    if number("bounds/lower") is not None and number("bounds/upper") is not None:
+        unit = run.value("bounds/unit")
+        return (f"Between {number('bounds/lower'):.6g} and {number('bounds/upper'):.6g}" +
+                f" {unit}" * (unit not in (None, "-")) +
+                beside * (quantity == "bounds/middle"))
+    if number("limit_load/value") is not None:
+        return (f"Limit load: {number('limit_load/value'):.6g} "
+                f"{run.value('limit_load/unit')}" +
+                beside * (quantity == "limit_load/value"))
+    return ""
 
 
 def numbers_of(run):
-    """The topics of the summary: title, and rows of name and value."""
+    """The topics of the summary: title, and rows of name, value and whether it is long."""
     known = {key: run.summary[key] for key in TOPICS if key in run.summary}
     others = {key: value for key, value in run.summary.items()
               if key not in TOPICS and isinstance(value, dict) and key != "run"}
-    return [(TOPICS.get(key, key.replace("_", " ")),
-             [(name.replace("_", " "), text_of(value)) for name, value in topic.items()
-              if not isinstance(value, (dict, list))])
+    return [(title_of(key),
+             [(name_of(name), text_of(value), len(text_of(value)) > LONG)
+              for name, value in topic.items() if not isinstance(value, (dict, list))])
             for key, topic in {**known, **others}.items() if isinstance(topic, dict)]
 
 
+def is_wide(png):
+    """Whether a picture is so wide that half of the page would make it too small."""
+    width, height = struct.unpack(">II", png[16:24])
+    return width > 2.5 * height
+
+
 def as_data(content):
-    """A picture as a page holds it."""
+    """A picture as a page holds it: a large one with 256 colours, a third of its bytes."""
+    if len(content) > LARGE:
+        picture = Image.open(io.BytesIO(content)).convert("RGB")
+        stream = io.BytesIO()
+        picture.quantize(256, dither=Image.Dither.NONE).save(stream, "PNG")
+        content = min(content, stream.getvalue(), key=len)
     return "data:image/png;base64," + base64.b64encode(content).decode()
 
 
 def frame_of(run, field, look, values, norm):
-    """A small picture of the points at a time."""
+    """A small picture of the body at a time."""
     figure, (axes,) = points.panels(1, look.box)
     look.finish(axes)
     drawn = look.collection(axes, field, values)
@@ -79,18 +147,31 @@ def frame_of(run, field, look, values, norm):
     return stream.getvalue()
 
 
+class CellsLook(points.Look):
+    """How the cells of some fields in the plane are looked at."""
+
+    def collection(self, axes, field, values):
+        """The cells of a field, in the colours of their values."""
+        return rates.cells_of(field, values)
+
+
 def frames_of(run):
-    """The points at the times of output, or at some of them: pictures for a slider,
-    and what they show; nothing where there is one time only."""
+    """The body at the times of output, or at some of them: pictures for a slider, and
+    what they show; nothing where there is one time only. In the plane, points that stay
+    are shown by their cells."""
     try:
-        times = run.times("points")
+        last, = run.states("points")
+        cells = "displacement" not in last.data and last.points.shape[1] == 2
+        series = "cells" if cells else "points"
+        times = run.times(series)
         if len(times) < 2:
             return [], ""
         chosen = np.unique(np.linspace(0, len(times) - 1,
                                        min(len(times), MOST_FRAMES)).astype(int))
-        fields = run.states("points", tuple(int(i) for i in chosen))
+        fields = run.states(series, tuple(int(i) for i in chosen))
         values, label, norm, _ = points.strain_or_shear(fields)
-        look = points.look_at(fields, values, lambda size: 0.5 * size)
+        look = (CellsLook(fields, lambda size: 0.5 * size) if cells else
+                points.look_at(fields, values, lambda size: 0.5 * size))
     except (Missing, Skipped):
         return [], ""
     return [{"time": f"{field.time:.4g} s",
@@ -109,16 +190,21 @@ def write_page(run, folder, names):
         raise PlotError(f"report.html needs python3-jinja2: {error}")
     frames, shown = frames_of(run)
     size, pictures = sum(len(frame["data"]) for frame in frames), []
+    left_out = []
     for name in names:
         path = folder / name
+        if name == "plastic_strain.png" and not path.is_file():
+            path = path.with_name("shear_stress.png")  # of an elastic body
         if not path.is_file():
             continue
-        data = as_data(path.read_bytes())
+        content = path.read_bytes()
+        data = as_data(content)
+        if size + len(data) > MOST_BYTES:
+            left_out.append(path.name)
+            continue
         size += len(data)
-        if size <= MOST_BYTES:
-            pictures.append({"name": name, "data": data,
-                             "caption": CAPTIONS.get(name, name.rsplit(".", 1)[0]
-                                                     .replace("_", " "))})
+        pictures.append({"data": data, "wide": is_wide(content),
+                         "caption": CAPTIONS.get(path.name, path.stem.replace("_", " "))})
     try:
         parameters = (run.folder / "parameters.prm").read_text(errors="replace")
     except OSError:
@@ -128,8 +214,8 @@ def write_page(run, folder, names):
                                      undefined=jinja2.StrictUndefined)
     try:
         page = environment.from_string(TEMPLATE.read_text()).render(
-            run=run, numbers=numbers_of(run), pictures=pictures, frames=frames,
-            shown=shown, parameters=parameters)
+            run=run, status=text_of(run.status), answer=answer_of(run), numbers=numbers_of(run), pictures=pictures,
+            left_out=left_out, frames=frames, shown=shown, parameters=parameters)
     except jinja2.TemplateError as problem:
         raise ReadError(f"the page of '{run.folder}' cannot be made: {problem}")
     path = folder / "report.html"

@@ -1,0 +1,15 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_output_json_h
+#define geocone_output_json_h
+
+#include <nlohmann/json.hpp>
+
+namespace geocone
+{
+  /** JSON as summary.json has it: entries stay in the order in which they came. */
+  using Json = nlohmann::ordered_json;
+} // namespace geocone
+
+#endif
