@@ -91,6 +91,14 @@ namespace geocone
       return history.data() + static_cast<std::size_t>(n_history) * point;
     }
 
+    /** Excess pore pressure p (Pa), the last history variable where there is
+     *  undrained soil (Materials::are_undrained()). */
+    double
+    excess_pressure(const unsigned int point) const
+    {
+      return history_of(point + 1)[-1];
+    }
+
     /** @name Of points that move, at t_n; empty otherwise */
     /** @{ */
     std::vector<double>                 mass; ///< (kg/m)

@@ -32,6 +32,7 @@ CAPTIONS = {
     "bounds.png": "Both bounds and their gap",
     "mechanism.png": "Where the bounds differ, and the mechanisms of both",
     "plastic_strain_rate.png": "Where the soil flows at the end",
+    "excess_pore_pressure.png": "Excess pore pressure at the end",
     "plastic_strain.png": "Plastic strain of the material points",
     "energy.png": "Energies", "newton.png": "Newton's method: residuals"}
 
