@@ -56,6 +56,8 @@ namespace geocone
                            "move the point into the body");
         if (!place->cell->is_locally_owned())
           continue;
+        in_cell[i].position = places[i];
+        in_cell[i].cell     = place->cell->active_cell_index();
         space.cell_nodes(place->cell, nodes);
         in_cell[i].values.resize(nodes.size());
         space.evaluate(
@@ -192,6 +194,39 @@ namespace geocone
                 sums[(dim + 1) * i + d] = points.displacement[p][d];
             }
     return gather(sums);
+  }
+
+  std::vector<double>
+  ObservedPoints::pressures(const MaterialPoints &points) const
+  {
+    const unsigned int  n = std::max(in_cell.size(), id.size());
+    std::vector<double> sums(2 * n, 0.); // pressures, and who knows them
+    const auto          take = [&](const unsigned int i, const unsigned int p) {
+      sums[i]     = points.excess_pressure(p);
+      sums[n + i] = 1.;
+    };
+    for (unsigned int c = 0; c < points.n_cells() && !in_cell.empty(); ++c)
+      for (unsigned int i = 0; i < n; ++i)
+        if (points.cells[c]->active_cell_index() == in_cell[i].cell)
+          {
+            unsigned int nearest = points.first_point[c];
+            for (unsigned int p = nearest; p < points.first_point[c + 1]; ++p)
+              if (is_nearer(points.position[p],
+                            points.position[nearest],
+                            in_cell[i].position))
+                nearest = p;
+            take(i, nearest);
+          }
+    for (unsigned int p = 0; p < points.n_points() && in_cell.empty(); ++p)
+      for (unsigned int i = 0; i < n; ++i)
+        if (points.id[p] == id[i])
+          take(i, p);
+    sum_over_ranks(sums, comm);
+    std::vector<double> result(n, std::numeric_limits<double>::quiet_NaN());
+    for (unsigned int i = 0; i < n; ++i)
+      if (sums[n + i] > 0.)
+        result[i] = sums[i];
+    return result;
   }
 
   std::vector<Tensor<1, dim>>

@@ -50,6 +50,9 @@ namespace geocone
                        tau,
                        "0 | automatic with the method 'point'",
                        "its path has increments and no time to remember");
+    materials.refuse_undrained("the method 'point'",
+                               "hold the volume of the point by its path "
+                               "instead: its stresses are effective ones");
     mixed_control.prepare();
     if (initial_stress.size() != 6)
       throw InputError("Element/Initial stress",

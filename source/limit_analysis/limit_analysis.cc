@@ -128,6 +128,10 @@ namespace geocone
                                "strict bounds are those of plane strain; take "
                                "an incremental run");
     scene.materials.prepare();
+    scene.materials.refuse_undrained(
+      "'Analysis/Kind' = " + analysis.word(),
+      "bounds know no stress before the load, on which undrained strength "
+      "depends: take Tresca with that strength, or steps");
     scene.regions.prepare(scene.geometry);
     scene.gravity.prepare();
     scene.water.prepare(scene.gravity);
@@ -136,7 +140,8 @@ namespace geocone
     scene.absorbing.refuse("'Analysis/Kind' = " + analysis.word(),
                            "nothing moves fast here: leave it out");
     scene.obstacles.prepare();
-    scene.observation.prepare(scene.supports(), scene.materials, scene.gravity);
+    scene.observation.prepare(
+      scene.supports(), scene.materials, scene.gravity, false);
     for (const auto &condition : scene.dirichlet.list)
       if (condition->moves())
         throw InputError(condition->parameter("Imposed on"),

@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/materials/constitutive_law.h>
 
+#include <cmath>
 #include <limits>
 
 namespace geocone
@@ -12,6 +13,14 @@ namespace geocone
     : dealii::ParameterAcceptor("/" + section)
   {
     add_parameter("Density", rho, "Mass density rho (kg/m^3), > 0.");
+    add_parameter(
+      "Pore fluid bulk modulus",
+      pore_fluid,
+      "K_w/n (Pa) of undrained soil, with the porosity n: c, phi, E and nu are "
+      "those of effective stresses, to which the pores add an excess pressure "
+      "that grows by dp = -K_w/n tr(de). 100 to 1000 times the bulk modulus of "
+      "the soil (Skempton's B = 0.99 to 0.999) is as good as incompressible. "
+      "0: drained.");
   }
 
   std::string
@@ -30,6 +39,11 @@ namespace geocone
         rho,
         "rho > 0 kg/m^3",
         "without inertia and gravity any positive value will do");
+    require(pore_fluid >= 0. && std::isfinite(pore_fluid),
+            "Pore fluid bulk modulus",
+            pore_fluid,
+            ">= 0 Pa, finite",
+            "water has 2.2e9 Pa; 0 is drained soil");
   }
 
   void

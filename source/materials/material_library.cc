@@ -166,6 +166,26 @@ namespace geocone
       });
   }
 
+  bool
+  Materials::are_undrained() const
+  {
+    return std::any_of(list.begin(), list.end(), [](const auto &law) {
+      return law->fluid_modulus() > 0.;
+    });
+  }
+
+  void
+  Materials::refuse_undrained(const std::string &what,
+                              const std::string &remedy) const
+  {
+    for (unsigned int i = 0; i < list.size(); ++i)
+      if (list[i]->fluid_modulus() > 0.)
+        throw InputError("Materials/" + names[i] + "/Pore fluid bulk modulus",
+                         list[i]->fluid_modulus(),
+                         "0 with " + what,
+                         remedy);
+  }
+
   void
   Materials::check_closed_form(const std::string &method) const
   {
@@ -185,7 +205,7 @@ namespace geocone
     unsigned int most = 0;
     for (const auto &law : list)
       most = std::max(most, law->n_history());
-    return most;
+    return most + are_undrained();
   }
 
   std::vector<std::string>

@@ -17,14 +17,17 @@ namespace geocone
 
   AbsorbingBoundary::AbsorbingBoundary(const Scene          &scene,
                                        const BackgroundMesh &mesh,
-                                       const Space          &space)
+                                       const Space          &space,
+                                       const bool            of_particles)
     : conditions(scene.absorbing)
     , space(space)
   {
     if (!exists())
       return;
     for (unsigned int m = 0; m < scene.materials.size(); ++m)
-      if (!scene.materials[m].has_constant_stiffness())
+      if (const auto *law =
+            dynamic_cast<const Material *>(&scene.materials.law(m));
+          law == nullptr || !law->has_constant_stiffness())
         throw InputError("Materials/" + scene.materials.name(m) + "/Type",
                          ParameterFile::value(
                            "Materials/" + scene.materials.name(m) + "/Type"),
@@ -44,11 +47,18 @@ namespace geocone
           space,
           *conditions.list[c],
           [&](const BackgroundMesh::Cell &cell, const FacePoint &point) {
-            const Material   &law = scene.materials[cell->material_id()];
+            // Within the body, not on its border.
+            const unsigned int material =
+              of_particles
+                ? scene.regions.material_at(
+                    point.position - 1e-6 * cell->diameter() * point.normal, 0)
+                : cell->material_id();
+            const Material   &law = scene.materials[material];
             const Elasticity &e   = law.elasticity();
             const double      rho = law.density(),
-                         of_p     = std::sqrt(rho * (e.lambda + e.two_G)),
-                         of_s     = std::sqrt(rho * e.two_G / 2.);
+                         of_p     = std::sqrt(
+                           rho * (e.lambda + e.two_G + law.fluid_modulus())),
+                         of_s = std::sqrt(rho * e.two_G / 2.);
             for (unsigned int i = 0; i < point.nodes.size(); ++i)
               {
                 const double       w   = point.weight * point.values[i];
@@ -103,15 +113,21 @@ namespace geocone
     incoming = 0.;
     for (const Dashpot &dashpot : dashpots)
       {
-        Tensor<1, dim> v_in;
-        for (unsigned int d = 0; d < dim; ++d)
-          if (const auto &component =
-                conditions.list[dashpot.condition]->components[d])
-            v_in[d] = component->value(space.node_positions()[dashpot.node], t);
-        const Tensor<1, dim> force = 2. * (dashpot.C * v_in);
+        const Tensor<1, dim> force = 2. * (dashpot.C * velocity_in(dashpot, t));
         for (unsigned int d = 0; d < dim; ++d)
           incoming.local_element(dim * dashpot.node + d) += force[d];
       }
+  }
+
+  Tensor<1, dim>
+  AbsorbingBoundary::velocity_in(const Dashpot &dashpot, const double t) const
+  {
+    Tensor<1, dim> v_in;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (const auto &component =
+            conditions.list[dashpot.condition]->components[d])
+        v_in[d] = component->value(space.node_positions()[dashpot.node], t);
+    return v_in;
   }
 
   void

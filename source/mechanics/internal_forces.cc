@@ -52,6 +52,11 @@ namespace geocone
         strain_zz.resize(points.n_points());
         tangent_zz.resize(points.n_points());
       }
+    if (materials.are_undrained())
+      {
+        pressure.resize(points.n_points());
+        total.resize(points.n_points());
+      }
   }
 
   void
@@ -139,14 +144,16 @@ namespace geocone
     const double      factor  = h * points.weight[p];
     OutOfPlaneTangent C       = tangent_zz[p];
     const Elasticity  elastic = elasticity_at_start(materials, points, p);
+    const double      fluid   = fluid_modulus(p);
     C.by_zz *= 1. - blend;
     C.of_zz *= 1. - blend;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        C.by_zz[d] += blend * elastic.lambda;
-        C.of_zz[d] += blend * elastic.lambda;
+        C.by_zz[d] += blend * elastic.lambda + fluid;
+        C.of_zz[d] += blend * elastic.lambda + fluid;
       }
-    C.zz = (1. - blend) * C.zz + blend * (elastic.lambda + elastic.two_G);
+    C.zz =
+      (1. - blend) * C.zz + blend * (elastic.lambda + elastic.two_G) + fluid;
     // Forces B' by_zz along the columns of the hoop strain, and alike for its rows.
     double column[m] = {}, row[m] = {};
     add_force<n>(&points.gradients[m * p], C.by_zz, column);
@@ -215,7 +222,21 @@ namespace geocone
           response.history = history.data() + points.n_history() * run.begin;
           materials[run.material].update(increment_of(run), response);
         }
+    for (unsigned int p = 0; p < pressure.size(); ++p)
+      history[points.n_history * (p + 1) - 1] = pressure[p];
     return history;
+  }
+
+  void
+  InternalForces::update_pressures()
+  {
+    for (unsigned int p = 0; p < pressure.size(); ++p)
+      {
+        const double volume_strain = trace(whole_strain(p));
+        pressure[p] =
+          points.excess_pressure(p) - fluid_modulus(p) * volume_strain;
+        total[p] = stress[p] - pressure[p] * unit_tensor<n_mandel>();
+      }
   }
 
   void
@@ -244,16 +265,28 @@ namespace geocone
       }
     else
       update_materials(false);
+    update_pressures();
     sum_forces(
-      stress, [&](const unsigned int p) { return stress_zz[p]; }, part);
+      total_stress(),
+      [&](const unsigned int p) {
+        return is_undrained() ? stress_zz[p] - pressure[p] : stress_zz[p];
+      },
+      part);
   }
 
   void
   InternalForces::forces_at_start(Vector &part) const
   {
+    std::vector<Mandel> total_n;
+    for (unsigned int p = 0; p < pressure.size(); ++p)
+      total_n.push_back(points.stress[p] -
+                        points.excess_pressure(p) * unit_tensor<n_mandel>());
     sum_forces(
-      points.stress,
-      [&](const unsigned int p) { return whole_stress_n(p)[dim]; },
+      is_undrained() ? total_n : points.stress,
+      [&](const unsigned int p) {
+        return whole_stress_n(p)[place_of_normal[2]] -
+               (is_undrained() ? points.excess_pressure(p) : 0.);
+      },
       part);
   }
 
@@ -317,9 +350,10 @@ namespace geocone
            p < points.first_point[c + 1];
            ++p)
         {
-          const Elasticity e      = elasticity_at_start(materials, points, p);
-          const double     direct = e.lambda + e.two_G, shear = e.two_G / 2.;
-          const double     factor = h * points.weight[p];
+          Elasticity e = elasticity_at_start(materials, points, p);
+          e.lambda += fluid_modulus(p);
+          const double direct = e.lambda + e.two_G, shear = e.two_G / 2.;
+          const double factor = h * points.weight[p];
           for (unsigned int i = 0; i < n; ++i)
             {
               double g[dim], square = 0.;
@@ -378,8 +412,9 @@ namespace geocone
                 terms += std::sqrt(square) * speed[i];
               }
             const double stress =
-              elasticity_at_start(materials, points, p).normal_stiffness() * h *
-              terms;
+              (elasticity_at_start(materials, points, p).normal_stiffness() +
+               dim * fluid_modulus(p)) *
+              h * terms;
             sum += squares * std::pow(points.weight[p] * stress, 2);
           }
       }
@@ -413,6 +448,10 @@ namespace geocone
                 C[q] = (1. - blend) * C[q] +
                        (blend * h * points.weight[p]) *
                          elasticity_at_start(materials, points, p).stiffness();
+              if (is_undrained())
+                C[q] += (h * points.weight[p] * fluid_modulus(p)) *
+                        unit_tensor<n_mandel>() *
+                        unit_tensor<n_mandel>().transpose();
             }
           const double *const g = &points.gradients[dim * n * first];
           const double *const volumetric =
@@ -441,6 +480,10 @@ namespace geocone
     part.reinit(dst);
     std::vector<Mandel> rate(points.n_points());
     std::vector<double> rate_zz(strain_zz.size());
+    const auto          of_fluid = [&](const unsigned int p) {
+      return fluid_modulus(p) *
+             (trace(rate[p]) + (is_axisymmetric() ? rate_zz[p] : 0.));
+    };
     with_n_nodes(points.n_nodes, [&](const auto n_constant) {
       constexpr int n = n_constant;
       for (unsigned int c = 0; c < points.n_cells(); ++c)
@@ -455,11 +498,14 @@ namespace geocone
               Mandel change = tangent[p] * rate[p];
               if (is_axisymmetric())
                 change += rate_zz[p] * tangent_zz[p].by_zz;
+              if (is_undrained())
+                change += of_fluid(p) * unit_tensor<n_mandel>();
               return points.weight[p] * change;
             },
             [&](const unsigned int p) {
-              return points.weight[p] * (tangent_zz[p].of_zz.dot(rate[p]) +
-                                         tangent_zz[p].zz * rate_zz[p]);
+              return points.weight[p] *
+                     (tangent_zz[p].of_zz.dot(rate[p]) +
+                      tangent_zz[p].zz * rate_zz[p] + of_fluid(p));
             },
             cell_f);
           turned.forces_to_dofs(c, cell_f);
@@ -526,8 +572,10 @@ namespace geocone
   InternalForces::work(const unsigned int p) const
   {
     const SpatialMandel s = whole_stress(p);
-    return {
-      s.dot(materials[points.material[p]].elastic_strain(whole_stress_n(p), s)),
-      s.dot(plastic_strain_increment(p))};
+    double              elastic =
+      s.dot(materials[points.material[p]].elastic_strain(whole_stress_n(p), s));
+    if (is_undrained())
+      elastic -= pressure[p] * trace(whole_strain(p));
+    return {elastic, s.dot(plastic_strain_increment(p))};
   }
 } // namespace geocone

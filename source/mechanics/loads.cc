@@ -116,11 +116,21 @@ namespace geocone
   void
   Loads::evaluate(Vector       &force,
                   const Vector &weight_per_g,
-                  const double  t) const
+                  const double  t,
+                  const Stage  *stage,
+                  const bool    raised) const
   {
+    const auto counts = [&](const std::string &load) {
+      return stage == nullptr || stage->raises(load) == raised;
+    };
+    std::vector<bool> acts;
+    for (const auto &condition : scene.tractions.list)
+      acts.push_back(counts(condition->name));
     force = 0.;
     for (const auto &[c, point] : loaded)
       {
+        if (!acts[c])
+          continue;
         const BoundaryCondition &condition = *scene.tractions.list[c];
         Tensor<1, dim>           traction;
         for (unsigned int d = 0; d < dim; ++d)
@@ -142,10 +152,11 @@ namespace geocone
     if (scene.gravity.acts())
       {
         const Tensor<1, dim> g = scene.gravity.at(t);
-        for (unsigned int dof = 0; dof < force.locally_owned_size(); ++dof)
-          force.local_element(dof) +=
-            g[dof % dim] * weight_per_g.local_element(dof);
-        if (scene.water.acts())
+        if (counts("weight"))
+          for (unsigned int dof = 0; dof < force.locally_owned_size(); ++dof)
+            force.local_element(dof) +=
+              g[dof % dim] * weight_per_g.local_element(dof);
+        if (scene.water.acts() && !raised)
           force.add(g[1] / scene.gravity.at(1e300)[1], of_water);
       }
   }

@@ -144,7 +144,10 @@ namespace geocone
   }
 
   void
-  MovingConditions::add_tractions(Vector &force, const double t) const
+  MovingConditions::add_tractions(Vector      &force,
+                                  const double t,
+                                  const Stage *stage,
+                                  const bool   raised) const
   {
     if (loads.empty())
       return;
@@ -153,12 +156,15 @@ namespace geocone
       for (const MovingBoundary::Line &line : side.boundary.lines)
         {
           part_in_mesh.push_back(0.);
+          const BoundaryCondition &load = *scene.tractions.list[side.condition];
+          const bool               acts =
+            stage == nullptr || stage->raises(load.name) == raised;
           for (const BoundaryPoint &point :
                points_on_line(mesh, space, line.a, line.b))
             {
               part_in_mesh.back() += point.weight;
-              add_traction(
-                *scene.tractions.list[side.condition], line, point, t, force);
+              if (acts)
+                add_traction(load, line, point, t, force);
             }
         }
     check_in_mesh(scene.tractions, loads, part_in_mesh);

@@ -46,7 +46,8 @@ namespace geocone
     q.resize(0);
     asked.clear();
     row_sum.resize(0);
-    given = 0;
+    given        = 0;
+    sum_of_loads = 0.;
   }
 
   void
@@ -213,6 +214,60 @@ namespace geocone
     for (unsigned int j = 0; j < touched.size(); ++j)
       H.col(j) = independent.col(columns[j]);
     return std::nullopt;
+  }
+
+  bool
+  Multipliers::add_loads(const Vector   &force,
+                         const double    velocity,
+                         const Unknowns &unknowns,
+                         const Vector   &prescribed)
+  {
+    comm = force.get_mpi_communicator();
+    // The sums of the sizes, of those that can do work, and what prescribed
+    // velocities let them do.
+    std::array<double, 3> sums = {};
+    for (unsigned int i = 0; i < force.locally_owned_size(); i += dim)
+      {
+        double square = 0., free = 0.;
+        for (unsigned int d = i; d < i + dim; ++d)
+          {
+            const double f = force.local_element(d);
+            square += f * f;
+            free += unknowns.is_free(d) ? f * f : 0.;
+            if (unknowns.is_prescribed(d))
+              sums[2] += f * prescribed.local_element(d);
+          }
+        sums[0] += std::sqrt(square);
+        sums[1] += std::sqrt(free);
+      }
+    sum_over_ranks(sums, comm);
+    if (!(sums[1] > rounding * sums[0]))
+      return false;
+    sum_of_loads = sums[0];
+
+    // The row in the columns of the others, and new columns.
+    std::vector<int> column(force.locally_owned_size(), -1);
+    for (unsigned int j = 0; j < touched.size(); ++j)
+      column[touched[j]] = j;
+    for (unsigned int i = 0; i < column.size(); ++i)
+      if (column[i] < 0 && unknowns.is_free(i) && force.local_element(i) != 0.)
+        {
+          column[i] = touched.size();
+          touched.push_back(i);
+        }
+    const unsigned int n           = H.rows();
+    MatrixXd           all         = MatrixXd::Zero(n + 1, touched.size());
+    all.topLeftCorner(n, H.cols()) = H;
+    for (unsigned int j = 0; j < touched.size(); ++j)
+      all(n, j) = force.local_element(touched[j]) / sum_of_loads;
+    H = std::move(all);
+    q.conservativeResize(n + 1);
+    q[n] = velocity - sums[2] / sum_of_loads;
+    row_sum.conservativeResize(n + 1);
+    row_sum[n] = 0.; // no component of a condition's
+    keys.push_back({numbers::invalid_unsigned_int, 0, 0});
+    ++given;
+    return true;
   }
 
   VectorXd

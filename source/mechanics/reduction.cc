@@ -37,6 +37,9 @@ namespace geocone
       refuse("another one without inertia",
              "the stresses alone determine the velocities by the mass: set "
              "Time stepping/Inertia = true, or take automatic");
+    if (materials.are_undrained())
+      refuse("another one with undrained soil",
+             "it solves for effective stresses alone: take automatic");
     if (problem.inertia->consistent_part() > 0.)
       refuse("another one with a consistent mass",
              "set Material point method/Consistent mass part = 0, or take "

@@ -298,7 +298,7 @@ namespace geocone
             momentum = std::max(momentum, momentum_residual(record).norm());
             loss     = std::max(loss, std::abs(numerical_loss(record)));
           }
-        add_points(last.displacements, summary);
+        add_points(last.displacements, {}, summary);
         summary["explicit"] = {{"time_s", last.time},
                                {"steps", n},
                                {"smallest_step_s", least},

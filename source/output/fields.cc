@@ -80,13 +80,15 @@ namespace geocone
 
     /** What is written of each cell: the material, and means. */
     std::vector<std::string>
-    names_of_means()
+    names_of_means(const Materials &materials)
     {
       std::vector<std::string> names = {"material"};
       for (int i = 0; i < n_spatial; ++i)
         names.push_back(std::string("stress_") + tensor_component[i]);
       names.push_back("plastic_strain_rate");
       names.push_back("cumulative_plastic_strain");
+      if (materials.are_undrained())
+        names.push_back("excess_pore_pressure");
       return names;
     }
 
@@ -128,7 +130,7 @@ namespace geocone
     // At the nodes of the parts: places, the fields on nodes; means of the cells.
     std::vector<double>              places;
     std::vector<std::vector<double>> vectors(on_nodes.size());
-    const std::vector<std::string>   names = names_of_means();
+    const std::vector<std::string>   names = names_of_means(materials);
     std::vector<std::vector<double>> means(names.size());
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       {
@@ -148,6 +150,8 @@ namespace geocone
                       components_of(points.stress[p]), points.history_of(p));
             mean[1 + n_spatial] += V * points.plastic_strain_rate[p];
             mean[2 + n_spatial] += V * points.cumulative_plastic_strain[p];
+            if (mean.size() > 3 + n_spatial)
+              mean[3 + n_spatial] += V * points.excess_pressure(p);
           }
         for (double &value : mean)
           value /= area;
@@ -234,6 +238,9 @@ namespace geocone
                                             points.history_of(p));
         });
       }
+    if (materials.are_undrained())
+      add("excess_pore_pressure",
+          [&](const std::size_t p) { return points.excess_pressure(p); });
     add_tensor("plastic_strain", points.plastic_strain);
     add("plastic_strain_rate",
         [&](const std::size_t p) { return points.plastic_strain_rate[p]; });

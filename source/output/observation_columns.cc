@@ -9,8 +9,12 @@ namespace geocone
 {
   void
   add_points(const std::vector<dealii::Tensor<1, dim>> &displacements,
+             const std::vector<double>                 &excess_pressures,
              Json                                      &summary)
   {
+    for (unsigned int i = 0; i < excess_pressures.size(); ++i)
+      summary["points"][format("excess_pore_pressure_%u_Pa", i + 1)] =
+        std::isfinite(excess_pressures[i]) ? Json(excess_pressures[i]) : Json();
     for (unsigned int i = 0; i < displacements.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
         {

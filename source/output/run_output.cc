@@ -53,6 +53,13 @@ namespace geocone
       add("strength factor (-)", [this](const Record &r) {
         return scene->loading.strength_factor(r.time);
       });
+    if (scene->loading.raises_loads())
+      {
+        add("load factor (-)",
+            [](const Record &r) { return r.last.load_factor; });
+        add("displacement of raised loads (m)",
+            [](const Record &r) { return r.raised; });
+      }
     add("iterations (-)", [](const Record &r) { return r.iterations; });
     add("substeps (-)", [](const Record &r) { return r.substeps; });
     add("failed substeps (-)", [](const Record &r) { return r.failures; });
@@ -121,6 +128,12 @@ namespace geocone
       [](const Record &r, const unsigned int i, const unsigned int d) {
         return r.displacements[i][d];
       });
+    if (scene->materials.are_undrained())
+      for (unsigned int i = 0; i < observation.points.size(); ++i)
+        table.add(
+          format("excess pore pressure of point %u (Pa)", i + 1),
+          [i](const Record &r) { return r.pressures[i]; },
+          Finite::may_be);
     if (!writes)
       return;
     statistics.open(path + "/statistics.csv", table.names(), resumes);
@@ -243,7 +256,7 @@ namespace geocone
     // The last but one load, if the support has moved on in one direction and
     // the load was about the same before and after it.
     const std::size_t n = records.size();
-    if (n < 3 || scene->observation.conditions.empty())
+    if (n < 3 || !scene->observation.has_load())
       return;
     const StepRecord &a = records[n - 3], &b = records[n - 2],
                      &c = records[n - 1];

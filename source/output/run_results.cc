@@ -55,7 +55,7 @@ namespace geocone
     Json         delay;
     const auto   n   = records.size();
     const double tau = scene->materials.least_friction_memory();
-    if (n > 1 && !scene->observation.conditions.empty())
+    if (n > 1 && scene->observation.has_load())
       {
         const StepRecord &a = records[n - 2], &b = records[n - 1];
         if (b.time > a.time && b.load != 0.)
@@ -220,10 +220,10 @@ namespace geocone
       }
 
     Json json;
-    if (!scene->observation.conditions.empty())
+    if (scene->observation.has_load())
       json["limit_load"] = limit_load();
     if (!records.empty())
-      add_points(records.back().displacements, json);
+      add_points(records.back().displacements, records.back().pressures, json);
     json["newton"] = {
       {"steps", records.size()},
       {"substeps", substeps},

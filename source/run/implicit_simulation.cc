@@ -155,6 +155,9 @@ namespace geocone
       log.print(options.name + ": " + text);
     mesh.take_sizes(
       [&](const MeshParameters &parameters) {
+        scene.materials.refuse_undrained(
+          "Mesh/Type = from the bounds",
+          "bounds are those of drained strength: take another mesh");
         auto [sizes, bracket] = sizes_of_scene(parameters, scene, comm, log);
         run_output.set_bracket(bracket);
         return sizes;
@@ -174,6 +177,13 @@ namespace geocone
       outside_strength(points, scene.materials, comm)};
     warnings.erase(std::remove(warnings.begin(), warnings.end(), ""),
                    warnings.end());
+    if (scene.materials.are_undrained() && !space.has_b_bar() &&
+        (method.is_mpm() || space.degree() < 3))
+      warnings.push_back("undrained soil keeps its volume, which " +
+                         space.element() +
+                         " cannot everywhere: loads come out too high; take "
+                         "quadrilaterals with Discretisation/B-bar = true" +
+                         (method.is_mpm() ? "" : ", or a cubic element"));
     if (method.is_mpm())
       observed_points.prepare_points(scene, points, comm);
     else
@@ -234,7 +244,10 @@ namespace geocone
   ImplicitSimulation::begin_stage(const Stage &stage, const double t)
   {
     if (stage.reset_displacement)
-      stepper->reset(kinematics, points);
+      {
+        stepper->reset(kinematics, points);
+        raised = 0.;
+      }
     if (stage.changes_body())
       {
         const BodyChange change =
@@ -325,6 +338,8 @@ namespace geocone
           }
         done    = size == left ? h : done + size;
         reached = t + done;
+        raised +=
+          size * scene.loading.stage_at(reached - size / 2.).raising_velocity;
         ++present.substeps;
         if (run_output.verbosity == 1 && done < h && present.substeps % 20 == 0)
           log.progress(format("step %u  t = %.4g s  %u substeps, %u iterations "
@@ -421,7 +436,15 @@ namespace geocone
       }
     present.displacements =
       observed_points.displacements(points, kinematics.displacement);
-    if (!observation.conditions.empty())
+    if (scene.materials.are_undrained())
+      present.pressures = observed_points.pressures(points);
+    present.raised = raised;
+    if (observation.of_raised_loads)
+      {
+        present.displacement = raised;
+        present.load = std::abs(observation.factor) * present.last.load_factor;
+      }
+    else if (!observation.conditions.empty())
       {
         const double sign = observation.factor < 0. ? -1. : 1.;
         present.displacement =
@@ -437,7 +460,7 @@ namespace geocone
   ImplicitSimulation::progress_of_step() const
   {
     const std::string result =
-      scene.observation.conditions.empty()
+      !scene.observation.has_load()
         ? format("kinetic energy = %.3g %s  plastic strain <= %.3g",
                  present.last.energies.kinetic,
                  scene.geometry.unit("J/m").c_str(),
@@ -499,6 +522,7 @@ namespace geocone
         is_in_step,
         present,
         reached,
+        raised,
         kinematics.supports);
   }
 

@@ -60,6 +60,18 @@ namespace geocone
                   "it is cut, ends the stage and the run as wanted: loads that "
                   "grow in time are raised until the body carries no more. "
                   "summary.json tells until when it did (topic 'failure').");
+    add_parameter(
+      "Raised loads",
+      raised_loads,
+      "FEM and MPM: names in 'Tractions/Names', and 'weight': what they exert "
+      "is multiplied by a load factor which is found in each step, so that "
+      "they move the body at the 'Raising velocity', also where they can grow "
+      "no more. Other loads are as given.");
+    add_parameter(
+      "Raising velocity",
+      raising_velocity,
+      "Mean velocity (m/s) along the raised loads, F.v/sum |F| with their "
+      "forces F on the nodes; > 0, or < 0 to take them back.");
     add_parameter("Damping",
                   damping,
                   "Explicit MPM: local damping, the part (0 to 1) of each "
@@ -161,6 +173,7 @@ namespace geocone
          {std::pair<std::string, std::string>(
             "Added materials",
             added_materials.empty() ? "" : added_materials.front()),
+          {"Raised loads", raises_loads() ? raised_loads.front() : ""},
           {"Changed materials",
            changed_materials.empty() ? "" : changed_materials.begin()->first}})
       if (!material.empty())
@@ -223,6 +236,14 @@ namespace geocone
                        strength_factor,
                        "0, or 0.01 to 1000",
                        "3 with 'Until failure' = true is usual");
+    if (raises_loads()
+          ? !(raising_velocity != 0. && std::isfinite(raising_velocity))
+          : raising_velocity != 0.)
+      throw InputError(section + "Raising velocity",
+                       raising_velocity,
+                       "a number other than zero where loads are raised, and 0 "
+                       "elsewhere",
+                       "give 'Raised loads' and the velocity, both or none");
     if (!(damping >= 0. && damping < 1.))
       throw InputError(section + "Damping",
                        damping,
@@ -267,6 +288,22 @@ namespace geocone
     return removes() &&
            (removed_polygon.empty() || contains(removed_polygon, x)) &&
            (!removed_where || removed_where->value(x, 0.) > 0.);
+  }
+
+  bool
+  Stage::raises(const std::string &load) const
+  {
+    return std::find(raised_loads.begin(), raised_loads.end(), load) !=
+           raised_loads.end();
+  }
+
+  std::string
+  Stage::text_of_no_work() const
+  {
+    return "'Loading/" + name +
+           "/Raised loads': they exert no force on what can move\n"
+           "  remedy:  check their values in this stage, and whether their "
+           "places are held";
   }
 
   double
@@ -342,6 +379,24 @@ namespace geocone
     return factor;
   }
 
+  const Stage &
+  LoadingProgramme::stage_at(const double t) const
+  {
+    double end = 0.;
+    for (const auto &stage : stages)
+      if (end += stage->duration; t < end)
+        return *stage;
+    return *stages.back();
+  }
+
+  bool
+  LoadingProgramme::raises_loads() const
+  {
+    return std::any_of(stages.begin(), stages.end(), [](const auto &stage) {
+      return stage->raises_loads();
+    });
+  }
+
   bool
   LoadingProgramme::changes_body() const
   {
@@ -370,7 +425,8 @@ namespace geocone
   }
 
   void
-  LoadingProgramme::prepare(const std::vector<std::string> &materials)
+  LoadingProgramme::prepare(const std::vector<std::string> &materials,
+                            const std::vector<std::string> &tractions)
   {
     if (stages.empty())
       throw InputError(
@@ -388,6 +444,16 @@ namespace geocone
     for (const auto &stage : stages)
       {
         stage->prepare();
+        for (const std::string &load : stage->raised_loads)
+          if (std::count(tractions.begin(), tractions.end(), load) +
+                (load == "weight") !=
+              1)
+            throw InputError(
+              "Loading/" + stage->name + "/Raised loads",
+              load,
+              "'weight' and names in 'Tractions/Names', of which "
+              "none may be 'weight'",
+              "check the spelling");
         for (const auto &[from, to] : stage->changed_materials)
           for (const std::string &material : {from, to})
             check_name("Loading/" + stage->name + "/Changed materials",

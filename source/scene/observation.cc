@@ -42,7 +42,8 @@ namespace geocone
                   factor,
                   "Load = factor x reaction of the support on the body: -1 "
                   "makes a downward load positive, -2 where only half of a "
-                  "symmetric body is modelled.");
+                  "symmetric body is modelled. Without 'Conditions', of loads "
+                  "that are raised: |factor| x load factor.");
     add_parameter("Reference",
                   value,
                   "Load to compare with: none, a number (N/m), or Prandtl, the "
@@ -78,7 +79,8 @@ namespace geocone
   void
   Observation::prepare(const std::vector<std::string> &supports,
                        const Materials                &materials,
-                       const Gravity                  &gravity)
+                       const Gravity                  &gravity,
+                       const bool                      raises_loads)
   {
     conditions.clear();
     for (const std::string &name : names)
@@ -92,6 +94,7 @@ namespace geocone
                            "check the spelling");
         conditions.push_back(found - supports.begin());
       }
+    of_raised_loads = raises_loads && conditions.empty();
     component = observed == Component::x ? 0 : observed == Component::y ? 1 : 2;
     if (!std::isfinite(factor) || factor == 0. || std::abs(factor) > 1e6)
       throw InputError("Observation/Factor",
@@ -125,7 +128,7 @@ namespace geocone
     reference_name.clear();
     if (value == "none")
       return;
-    if (conditions.empty())
+    if (!has_load())
       throw InputError("Observation/Reference",
                        value,
                        "none, where no condition is observed",
@@ -178,6 +181,14 @@ namespace geocone
                        ">= 0 Pa, finite",
                        "give the pressure beside the footing");
     const double phi = law->phi;
+    if (materials.law(index).fluid_modulus() > 0.)
+      throw InputError(
+        "Observation/Reference",
+        value,
+        "none or a number (N/m) on undrained soil, whose strength is that of "
+        "the stress before the load",
+        "without dilatancy s_u = c cos(phi) + p sin(phi), p the mean effective "
+        "pressure in the plane; a strip bears (2 + pi) s_u times its width");
     // Weight adds to the load of a soil with friction, and to none other.
     if (phi > 0. && materials.law(index).density() > 0. && gravity.acts())
       throw InputError(

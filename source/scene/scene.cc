@@ -63,9 +63,18 @@ namespace geocone
         is_added.push_back(loading.adds(names.back()));
         is_made.push_back(loading.makes(names.back()));
       }
-    loading.prepare(names);
+    std::vector<std::string> loads;
+    for (const auto &traction : tractions.list)
+      loads.push_back(traction->name);
+    loading.prepare(names, loads);
     regions.prepare(geometry, is_made);
     gravity.prepare();
+    for (const auto &stage : loading.stages)
+      if (stage->raises("weight") && !gravity.acts())
+        throw InputError("Loading/" + stage->name + "/Raised loads",
+                         "weight",
+                         "names of tractions where there is no gravity",
+                         "set 'Gravity/Acceleration', e.g. 0, -9.81");
     water.prepare(gravity);
     initial_velocity.prepare();
     initial_stress.prepare(gravity, geometry, regions, water, is_added);
@@ -92,7 +101,7 @@ namespace geocone
           throw InputError(
             "Water/Table", "given", "empty with " + where, remedy);
       }
-    observation.prepare(supports(), materials, gravity);
+    observation.prepare(supports(), materials, gravity, loading.raises_loads());
     if (observation.reference_name == "Prandtl")
       geometry.refuse_axis("'Observation/Reference' = Prandtl",
                            "it is the load of a strip; set it to none or to "

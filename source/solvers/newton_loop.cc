@@ -11,8 +11,9 @@
 namespace geocone
 {
   std::optional<double>
-  NewtonLoop::factorise(const double wanted, const StepWorkspace &work)
+  NewtonLoop::factorise(const double asked, const StepWorkspace &work)
   {
+    const double wanted = std::max(asked, work.problem.least_blend());
     // A few apex points can make a Jacobian without mass singular.
     for (const double least : {0., 1e-6, 1e-3, 0.1})
       {

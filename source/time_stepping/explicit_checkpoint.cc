@@ -29,6 +29,8 @@ namespace geocone
         progress.begun,
         progress.now,
         progress.report);
+    if (boundary)
+      boundary->state(row);
   }
 
   void

@@ -99,6 +99,10 @@ namespace geocone
     scene->water.refuse("explicit MPM",
                         "set Discretisation/Method = FEM or MPM, or give "
                         "buoyant densities");
+    scene->materials.refuse_undrained("explicit MPM",
+                                      "set Discretisation/Method = FEM or MPM, "
+                                      "or take Tresca with the undrained "
+                                      "strength");
     scene->regions.refuse_fixed("explicit MPM");
     scene->obstacles.refuse("explicit MPM",
                             "set Discretisation/Method = FEM or MPM, or hold "
@@ -115,11 +119,17 @@ namespace geocone
                            "prescribe velocities on sides of the background "
                            "mesh, or set Discretisation/Method = MPM");
       }
-    scene->tractions.refuse(
-      "explicit MPM",
-      "give a layer of soil instead of a surcharge, or set "
-      "Discretisation/Method = MPM");
-    scene->absorbing.refuse("explicit MPM", "set Discretisation/Method = FEM");
+    if (acts_on_sides())
+      scene->geometry.refuse_axis(
+        "tractions or absorbing sides with explicit MPM",
+        "set Discretisation/Method = FEM, or give a layer of soil instead of a "
+        "surcharge");
+  }
+
+  bool
+  ExplicitMPM::acts_on_sides() const
+  {
+    return !scene->tractions.list.empty() || !scene->absorbing.list.empty();
   }
 
   std::vector<std::string>
@@ -134,7 +144,7 @@ namespace geocone
 
     std::vector<std::string> remarks;
     const auto               lines = mesh.uniform_lines(*scene, method);
-    if (fast_path && !lines[0].empty())
+    if (fast_path && !lines[0].empty() && !acts_on_sides())
       {
         space.choose_element(false, true, method);
         const CartesianGrid grid(space.degree(), lines);
@@ -169,8 +179,14 @@ namespace geocone
     least_radius = 1e-6 * transfer->cell_size();
     if (const auto given = scene->observation.moment_centre())
       std::fill(transfer->centres.begin(), transfer->centres.end(), *given);
-    nodes = std::make_unique<NodalUpdate>(
-      *transfer, scene->dirichlet, rule.flip_part(), least_mass, sum);
+    if (acts_on_sides())
+      boundary = std::make_unique<BoundaryForces>(*scene, mesh, space);
+    nodes = std::make_unique<NodalUpdate>(*transfer,
+                                          scene->dirichlet,
+                                          rule.flip_part(),
+                                          least_mass,
+                                          boundary.get(),
+                                          sum);
     refresh();
     if (fixed_step > stability_limit() && !allow_unstable)
       throw InputError("Explicit/Time step",
@@ -476,6 +492,8 @@ namespace geocone
     gravity = scene->gravity.at(t + dt / 2.);
     sums    = PassSums();
     fade    = fade_end > t ? std::max(0., 1. - dt / (fade_end - t)) : 0.;
+    if (boundary)
+      boundary->begin_step(t + dt / 2.);
     const NodalUpdate::Step at_nodes = {
       t, dt, gravity, stage.damping, measures_force};
     const auto exchange = [&](const bool with_mass) {
@@ -486,6 +504,8 @@ namespace geocone
       const Stopwatch watch(clock.grid);
       sum.impulse[0] += dt * hoop_force;
       nodes->accelerate(at_nodes, velocity_is_read, moves);
+      if (boundary)
+        boundary->move(*transfer, dt);
     };
     // A transfer that must be refreshed before the next step would be given what
     // that needs in vain.

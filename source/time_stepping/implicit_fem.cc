@@ -70,6 +70,10 @@ namespace geocone
                        "a formula",
                        "0 without inertia",
                        "set Time stepping/Inertia = true");
+    if (scene->loading.raises_loads())
+      scene->obstacles.refuse("stages with 'Raised loads'",
+                              "leave one of them out; bodies that press are "
+                              "held by 'Boundary conditions'");
     check_round_body(*scene, space_);
     check_midpoint(integration, scene->materials, "Time stepping/Integration");
     points = make_quadrature_points(*scene, mesh_, space_);
@@ -301,11 +305,27 @@ namespace geocone
     Vector         prescribed = problem->make_vector();
     constraints->set_values(prescribed, solved_at);
     // Where dofs are turned, the problem has its vectors along them.
+    const Stage &stage = scene->loading.stage_at(t + h / 2.);
     if (has_force())
       {
-        loads->evaluate(force, weight_per_g, solved_at);
+        loads->evaluate(force,
+                        weight_per_g,
+                        solved_at,
+                        stage.raises_loads() ? &stage : nullptr);
         fading.add_to(force, solved_at);
         constraints->turn(force);
+      }
+    Vector raised;
+    if (scene->loading.raises_loads())
+      constraints->multipliers.clear();
+    if (stage.raises_loads())
+      {
+        raised = problem->make_vector();
+        loads->evaluate(raised, weight_per_g, solved_at, &stage, true);
+        constraints->turn(raised);
+        if (!constraints->multipliers.add_loads(
+              raised, stage.raising_velocity, *constraints, prescribed))
+          throw StepFailure(stage.text_of_no_work());
       }
     velocity_n = kinematics.velocity;
     constraints->turn(velocity_n);
@@ -334,6 +354,17 @@ namespace geocone
       return report;
 
     TimerOutput::Scope scope(timer, "commit");
+    if (stage.raises_loads())
+      {
+        // From here on they are loads like others.
+        report.load_factor =
+          constraints->multipliers.load_factor(problem->multipliers());
+        force.add(report.load_factor, raised);
+        for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
+          if (constraints->is_prescribed(i))
+            residual.local_element(i) -=
+              report.load_factor * raised.local_element(i);
+      }
     report.unknowns              = constraints->n_rows;
     const InternalForces &forces = problem->internal_forces();
     report.quality               = forces.quality();
@@ -399,7 +430,7 @@ namespace geocone
       kinematics.velocity = v;
     kinematics.displacement.add(h, v);
     report.reactions = constraints->reactions(
-      residual, points, forces.trial_stress(), solved_at);
+      residual, points, forces.total_stress(), solved_at);
     if (obstacles->exists())
       {
         for (const Reaction &reaction :

@@ -140,6 +140,10 @@ namespace geocone
     if (!scene->tractions.list.empty())
       scene->geometry.refuse_axis("tractions on particles",
                                   "set Discretisation/Method = FEM");
+    if (scene->loading.raises_loads())
+      scene->obstacles.refuse("stages with 'Raised loads'",
+                              "leave one of them out; bodies that press are "
+                              "held by 'Boundary conditions'");
     check_round_body(*scene, *space);
     check_midpoint(
       integration, scene->materials, "Material point method/Integration");
@@ -160,7 +164,8 @@ namespace geocone
     datum = mesh->lower_corner();
 
     constraints = std::make_unique<Constraints>(*scene, *mesh, *space);
-    scene->absorbing.refuse("MPM", "set Discretisation/Method = FEM");
+    absorbing =
+      std::make_unique<AbsorbingBoundary>(*scene, *mesh, *space, true);
     obstacles = std::make_unique<ObstacleContact>(*scene, *mesh, *space, false);
     check_obstacles(points);
     system = std::make_unique<LinearSystem>(
@@ -244,6 +249,8 @@ namespace geocone
               : 0.;
       velocity_L.update_ghost_values();
     }
+    if (absorbing->exists())
+      problem->add(*absorbing);
     system->set_pattern(*problem, timer);
     begun = true;
   }
@@ -355,12 +362,18 @@ namespace geocone
   }
 
   void
-  ImplicitMPM::evaluate_force(const MaterialPoints &points, const double t)
+  ImplicitMPM::evaluate_force(const MaterialPoints &points,
+                              const double          t,
+                              const Stage          *stage,
+                              const bool            raised)
   {
-    force                  = 0.;
-    const Tensor<1, dim> g = scene->gravity.at(t);
-    moving->add_tractions(force, t);
-    if (scene->water.acts())
+    force = 0.;
+    const bool has_weight =
+      stage == nullptr || stage->raises("weight") == raised;
+    const Tensor<1, dim> g =
+      has_weight ? scene->gravity.at(t) : Tensor<1, dim>();
+    moving->add_tractions(force, t, stage, raised);
+    if (scene->water.acts() && !raised)
       add_water(points, t);
     for (unsigned int dof = 0; dof < force.locally_owned_size(); ++dof)
       force.local_element(dof) =
@@ -415,19 +428,32 @@ namespace geocone
       begin(points, timer);
     const TimeStep step(integration, t, h);
     const double   solved_h = step.solved_h;
+    const Stage   &stage    = scene->loading.stage_at(t + h / 2.);
+    const bool     raises   = stage.raises_loads();
     StepReport     report;
     Vector v = problem->make_vector(), residual = problem->make_vector();
+    Vector raised;
     {
       TimerOutput::Scope scope(timer, "transfer");
       constraints->set_values(v, step.solved_at);
       moving->make_rows(points, v, step.solved_at, *constraints);
-      evaluate_force(points, step.solved_at);
+      if (raises)
+        {
+          evaluate_force(points, step.solved_at, &stage, true);
+          raised = force;
+          if (!constraints->multipliers.add_loads(
+                raised, stage.raising_velocity, *constraints, v))
+            throw StepFailure(stage.text_of_no_work());
+        }
+      evaluate_force(points, step.solved_at, raises ? &stage : nullptr);
       fading.add_to(force, step.solved_at);
     }
     report.unknowns    = constraints->n_rows;
     report.multipliers = constraints->multipliers.n_rows();
     report.rows        = constraints->multipliers.n_given();
 
+    if (absorbing->exists())
+      absorbing->begin_step(step.solved_at, *constraints);
     problem->begin_step(
       solved_h,
       &force,
@@ -463,7 +489,20 @@ namespace geocone
 
     // From here on the step is accepted.
     const InternalForces &internal = problem->internal_forces();
-    Works                 work     = works(step, v, residual);
+    if (raises)
+      {
+        // And the loads that are raised are like others.
+        report.load_factor =
+          constraints->multipliers.load_factor(problem->multipliers());
+        force.add(report.load_factor, raised);
+        for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
+          if (constraints->is_prescribed(i))
+            residual.local_element(i) -=
+              report.load_factor * raised.local_element(i);
+      }
+    Works work = works(step, v, residual);
+    if (absorbing->exists())
+      work.of_others += h * absorbing->power(v);
     if (obstacles->exists())
       {
         report.contact = obstacles->report(problem->contact(), v, h);
@@ -471,7 +510,7 @@ namespace geocone
       }
     report.quality   = internal.quality();
     report.reactions = constraints->reactions(
-      residual, points, internal.trial_stress(), step.solved_at);
+      residual, points, internal.total_stress(), step.solved_at);
     if (obstacles->exists())
       for (const Reaction &reaction : obstacles->reactions(problem->contact()))
         report.reactions.push_back(reaction);

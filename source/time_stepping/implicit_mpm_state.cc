@@ -224,7 +224,12 @@ namespace geocone
     sum_over_ranks(sums, v.get_mpi_communicator());
     const Multipliers &rows = constraints->multipliers;
     if (rows.n_rows() > 0)
-      sums[1] += step.h * problem->multipliers().dot(rows.multiply(v));
+      {
+        Eigen::VectorXd lambda = problem->multipliers();
+        if (rows.has_loads()) // they are in the force
+          lambda[lambda.size() - 1] = 0.;
+        sums[1] += step.h * lambda.dot(rows.multiply(v));
+      }
     return {sums[0], sums[1]};
   }
 

@@ -17,11 +17,13 @@ namespace geocone
                            const BoundaryConditions &conditions,
                            const double              flip_part,
                            const double              least_mass,
+                           const BoundaryForces     *boundary,
                            Balance                  &sum)
     : transfer(transfer)
     , conditions(conditions)
     , flip_part(flip_part)
     , least_mass(least_mass)
+    , boundary(boundary)
     , sum(sum)
     , support_impulse(conditions.list.size())
   {
@@ -150,10 +152,19 @@ namespace geocone
         for (unsigned int d = 0; d < dim; ++d)
           f[change_of_node + d] += m * g[d];
       }
+    if (boundary != nullptr)
+      boundary->add_tractions(transfer);
     if (step.measures_force)
       measure_unbalanced_force();
     if (step.damping > 0.)
       damp(step);
+    if (boundary != nullptr)
+      {
+        const BoundaryForces::Done done =
+          boundary->add_dashpots(transfer, dt, least_mass, is_held);
+        sum.support_work += done.work;
+        sum.impulse += done.impulse;
+      }
 
     // What conditions hold has its velocity from them; the reaction is what the
     // points get of momentum beyond the forces.

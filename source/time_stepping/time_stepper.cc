@@ -97,6 +97,10 @@ namespace geocone
     for (unsigned int p = 0; p < points.n_points(); ++p)
       sum += points.weight[p] * materials[points.material[p]].elastic_energy(
                                   points.stress[p], points.history_of(p));
+    if (materials.are_undrained())
+      for (unsigned int p = 0; p < points.n_points(); ++p)
+        sum += points.weight[p] * materials[points.material[p]].fluid_energy(
+                                    points.excess_pressure(p));
     return Utilities::MPI::sum(sum, comm);
   }
 

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // The incremental problem over particles in an elastoplastic state, with and
-// without mean gradients (B-bar) and a consistent mass: the assembled Jacobian
+// without mean gradients (B-bar), a consistent mass and a fluid in the pores: the
+// assembled Jacobian
 // and apply_tangent() must be the derivative of the residual, one stored
 // triangle must be that of the whole matrix, B-bar must give every point of a
 // cell the mean volumetric strain of the cell and leave the deviator as it is,
@@ -56,7 +57,8 @@ void
 check(const std::string &element,
       const bool         b_bar,
       const double       consistent_part,
-      const std::string &dilatancy)
+      const std::string &dilatancy,
+      const std::string &fluid = "0")
 {
   Setup setup("discretisation/box.prm",
               {"Discretisation/Element = " + element,
@@ -64,7 +66,8 @@ check(const std::string &element,
                "Particles/Layout = random",
                "Particles/Number = 300",
                "Materials/soil/Cohesion = 50",
-               "Materials/soil/Dilatancy angle = " + dilatancy});
+               "Materials/soil/Dilatancy angle = " + dilatancy,
+               "Materials/soil/Pore fluid bulk modulus = " + fluid});
   setup.prepare();
   MaterialPoints points;
   setup.particles.prepare(setup.scene, setup.mesh, setup.space, points);
@@ -78,11 +81,12 @@ check(const std::string &element,
                         -300. + 50. * some(7 * p + 1),
                         30. * some(7 * p + 2)};
   if (speaks())
-    std::printf("%s, %s, consistent part %g, dilatancy %s\n",
+    std::printf("%s, %s, consistent part %g, dilatancy %s%s\n",
                 element.c_str(),
                 b_bar ? "B-bar" : "plain",
                 consistent_part,
-                dilatancy.c_str());
+                dilatancy.c_str(),
+                fluid == "0" ? "" : ", undrained");
 
   const auto &layout = setup.space.partitioner();
   Vector      mass(layout);
@@ -260,4 +264,6 @@ main(int argc, char **argv)
   check("B-spline 2", false, 0.6, "25");
   check("B-spline 3", false, 0.6, "25");
   check("B-spline 3", false, 0.6, "10");
+  check("Q1", true, 0.6, "25", "1e8");
+  check("B-spline 3", false, 0.6, "10", "1e8");
 }

@@ -1,5 +1,6 @@
 # Runs in which stages remove, add and change material go on with the same bits from a
-# checkpoint within a stage, while forces fade, and from one at the end of a stage.
+# checkpoint within a stage, while forces fade, and from one at the end of a stage; so do
+# undrained soil, loads that are raised, and loaded sides of explicit runs.
 program=$1 root=$2 folder=$3
 rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
 
@@ -27,3 +28,8 @@ resumed points_dug_within excavated_column_mpm.prm
 resumed points_dug_before excavated_column_mpm.prm 'Loading/dig/Step size = 1e6'
 resumed points_built_within built_column_mpm.prm
 resumed points_built_before built_column_mpm.prm 'Loading/build 4/Step size = 1e6'
+# Excess pore pressures, the way of loads that are raised, and sides that move and absorb.
+resumed undrained ../undrained/biaxial.prm
+resumed raised ../raised/softening_square.prm
+resumed sides ../../tests/explicit/traction_wave-01.prm 'Loading/shake/Duration = 0.2' \
+  'Output/Report for tests = none' 'Output/Expectations ='

@@ -60,6 +60,11 @@ METHODS = {
     "stages mpm": ("../prm/stages/excavated_column_mpm.prm", {
         "Mesh/Cell size": "0.015625", "Loading/weight/Step size": "2.5e5",
         "Loading/dig/Step size": "5e4"}),
+    # Excess pore pressures, and a load factor.
+    "undrained": ("fem/undrained_footing-01.prm", {"Loading/push/Output every": "2"}),
+    "raised": ("fem/raised_footing-01.prm", {"Loading/raise/Output every": "2"}),
+    # Sides that move and absorb, by explicit steps.
+    "sides": ("explicit/traction_wave-01.prm", {"Loading/shake/Output every": "5"}),
     # One point of a law with history.
     "point": ("element/cyclic_shear-01.prm", {
         "Path/forth/Increments": "30000", "Path/failure/Increments": "30000",

@@ -77,6 +77,14 @@ namespace geocone
       return history.width;
     }
 
+    /** Excess pore pressure p (Pa), the last history variable where there is
+     *  undrained soil (Materials::are_undrained()). */
+    double
+    excess_pressure(const unsigned int point) const
+    {
+      return history_of(point + 1)[-1];
+    }
+
     /** The variables in use from now on: points that stay have neither mass nor
      *  velocity, nor what follows from them. */
     void

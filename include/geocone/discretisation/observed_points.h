@@ -48,12 +48,21 @@ namespace geocone
     displacements(const std::vector<PointArrays> &groups) const;
     /** @} */
 
+    /** Excess pore pressures of undrained soil (Pa): of the material point nearest to
+     *  a place of a mesh, in its cell, or of the one that is followed. */
+    std::vector<double>
+    pressures(const MaterialPoints &points) const;
+
   private:
     /** A place in a cell of this rank. */
     struct InCell
     {
       std::vector<unsigned int> nodes; ///< local; none where not in the cells
       std::vector<double>       values;
+      dealii::Point<dim>        position;
+
+      /** Number among all cells of this rank. */
+      unsigned int cell = dealii::numbers::invalid_unsigned_int;
     };
 
     /** A material point that may be the nearest one. */

@@ -49,6 +49,21 @@ namespace geocone
       return rho;
     }
 
+    /** K_w/n (Pa) of the fluid in the pores of soil that is undrained: the excess
+     *  pressure of a point grows by dp = -K_w/n tr(de). 0: drained. */
+    double
+    fluid_modulus() const
+    {
+      return pore_fluid;
+    }
+
+    /** What the fluid stores at an excess pressure, per volume (J/m^3). */
+    double
+    fluid_energy(const double pressure) const
+    {
+      return pore_fluid > 0. ? pressure * pressure / (2. * pore_fluid) : 0.;
+    }
+
     /**
      * K0 (-), the ratio of horizontal to vertical effective stress in level
      * ground that has never been strained sideways, and which the law can bear
@@ -152,7 +167,8 @@ namespace geocone
             const char        *remedy) const;
 
   private:
-    double rho = 2000.;
+    double rho        = 2000.;
+    double pore_fluid = 0.;
   };
 
   /** One of what a law can show, or not a number if it cannot. */

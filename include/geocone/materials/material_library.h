@@ -55,6 +55,14 @@ namespace geocone
     bool
     are_spatial() const;
 
+    /** Whether there is undrained soil (ConstitutiveLaw::fluid_modulus()). */
+    bool
+    are_undrained() const;
+
+    /** @throws InputError if there is, with what knows none */
+    void
+    refuse_undrained(const std::string &what, const std::string &remedy) const;
+
     unsigned int
     size() const
     {
@@ -118,7 +126,8 @@ namespace geocone
     bool
     symmetric() const;
 
-    /** Most history variables of a law. */
+    /** Most history variables of a law, and after those, where there is undrained
+     *  soil, the excess pore pressure. */
     unsigned int
     n_history() const;
 

@@ -23,10 +23,12 @@ namespace geocone
   class AbsorbingBoundary : public Term
   {
   public:
-    /** @throws InputError if a part has no face */
+    /** @param of_particles whether the soil at a side is that of the regions, and not
+     *  of the cells @throws InputError if a part has no face */
     AbsorbingBoundary(const Scene          &scene,
                       const BackgroundMesh &mesh,
-                      const Space          &space);
+                      const Space          &space,
+                      const bool            of_particles = false);
 
     /** Whether the scene has any. */
     bool
@@ -61,14 +63,23 @@ namespace geocone
     double
     power(const Vector &v) const;
 
-  private:
     /** Of a node of this rank, by one condition. */
     struct Dashpot
     {
       unsigned int           node, condition;
       dealii::Tensor<2, dim> C; ///< kg/(m s), per thickness
     };
+    const std::vector<Dashpot> &
+    all() const
+    {
+      return dashpots;
+    }
 
+    /** v_in of a dashpot (m/s). */
+    dealii::Tensor<1, dim>
+    velocity_in(const Dashpot &dashpot, const double t) const;
+
+  private:
     /** dst_i += C_i x_i */
     void
     add_product(Vector &dst, const Vector &x) const;

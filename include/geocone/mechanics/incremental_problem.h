@@ -247,6 +247,18 @@ namespace geocone
       return Vector(layout);
     }
 
+    /**
+     * The least elastic blend of linearise() that the solver should take: where loads
+     * are raised to the limit, the Jacobian without their row is singular, as the
+     * body flows. What the blend changes is next to nothing, since the row fixes how
+     * fast it does.
+     */
+    double
+    least_blend() const
+    {
+      return unknowns.multipliers.has_loads() ? 1e-8 : 0.;
+    }
+
     /** Size h of the step (s). */
     double
     time_step() const

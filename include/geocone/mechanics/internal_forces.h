@@ -59,6 +59,10 @@ namespace geocone
   /**
    * The internal forces of a step,
    *   sum_p V_p B_p' s_p(v),   s_p(v) = material(h B_p v, state at t_n).
+   * Undrained soil has an excess pore pressure beside it,
+   *   p_p(v) = p_p - K_w/n tr(h B_p v),
+   * and what is in equilibrium is the total stress s_p - p_p I; the law, its modes and
+   * its checks are those of the effective stress s_p.
    * The state at t_n is const; the trial states, which are those of the last
    * residual(), live here.
    */
@@ -134,6 +138,12 @@ namespace geocone
     {
       return stress;
     }
+    /** Less the excess pore pressure: what is in equilibrium. */
+    const std::vector<Mandel> &
+    total_stress() const
+    {
+      return is_undrained() ? total : stress;
+    }
     const std::vector<Mandel> &
     strain_increment() const
     {
@@ -159,7 +169,7 @@ namespace geocone
     /** Of a point in the step, per volume (J/m^3). */
     struct Work
     {
-      double elastic; ///< s:S(s - s_n)
+      double elastic; ///< s:S(s - s_n), and p (p - p_n)/(K_w/n) of the fluid
       double plastic; ///< s:(plastic strain increment)
     };
     Work
@@ -241,6 +251,23 @@ namespace geocone
       return !points.hoop.empty();
     }
 
+    bool
+    is_undrained() const
+    {
+      return !pressure.empty();
+    }
+
+    /** K_w/n of a point (Pa). */
+    double
+    fluid_modulus(const unsigned int point) const
+    {
+      return materials[points.material[point]].fluid_modulus();
+    }
+
+    /** The trial pressures and total stresses. */
+    void
+    update_pressures();
+
     /** Of a point at t_n, and its strain increment. */
     SpatialMandel
     whole_stress_n(const unsigned int point) const;
@@ -266,6 +293,13 @@ namespace geocone
     mutable std::vector<Mode>         mode;
     std::vector<Mode>                 previous_mode;
     mutable std::vector<MandelMatrix> tangent;
+
+    /** @name Excess pore pressure, and the stress less it: empty but for scenes with
+     *  undrained soil */
+    /** @{ */
+    std::vector<double> pressure;
+    std::vector<Mandel> total;
+    /** @} */
 
     /** @name Out of the plane: empty but for laws that are spatial, the strain and
      *  the tangent but for scenes around an axis */

@@ -41,9 +41,16 @@ namespace geocone
           const Space          &space,
           const MaterialPoints &points);
 
-    /** F at time t (N/m). */
+    /**
+     * F at time t (N/m).
+     * @param stage null: of all loads; else of those that it raises, or of the others
+     */
     void
-    evaluate(Vector &force, const Vector &weight_per_g, const double t) const;
+    evaluate(Vector       &force,
+             const Vector &weight_per_g,
+             const double  t,
+             const Stage  *stage  = nullptr,
+             const bool    raised = false) const;
 
     bool
     exist() const

@@ -30,10 +30,14 @@ namespace geocone
 
     /**
      * Adds the tractions at time t. Collective.
+     * @param stage,raised as in Loads::evaluate()
      * @throws StepFailure if a side is no longer in the mesh
      */
     void
-    add_tractions(Vector &force, const double t) const;
+    add_tractions(Vector      &force,
+                  const double t,
+                  const Stage *stage  = nullptr,
+                  const bool   raised = false) const;
 
     /**
      * Makes the rows H v = q, with q at time t. Collective.

@@ -15,6 +15,7 @@
 namespace geocone
 {
   class Constraints;
+  struct Unknowns;
 
   /**
    * General linear constraints H v = q on the free dofs, with multipliers lambda:
@@ -80,6 +81,33 @@ namespace geocone
     assemble(const Space       &space,
              const Constraints &constraints,
              const Vector      &prescribed);
+
+    /**
+     * Adds, after all others, the row F.v/sum |F_i| = velocity of loads that are
+     * raised, whose multiplier is the load factor times the sum, over the nodes, of the
+     * sizes of their forces.
+     * @param force F, with prescribed dofs, too @param prescribed as in assemble()
+     * @return whether the loads can move the body. Collective.
+     */
+    bool
+    add_loads(const Vector   &force,
+              const double    velocity,
+              const Unknowns &unknowns,
+              const Vector   &prescribed);
+
+    /** Whether the last row is that of raised loads. */
+    bool
+    has_loads() const
+    {
+      return sum_of_loads > 0.;
+    }
+
+    /** Their factor. */
+    double
+    load_factor(const Eigen::VectorXd &lambda) const
+    {
+      return lambda[lambda.size() - 1] / sum_of_loads;
+    }
 
     /** Independent rows, and all that were given. */
     unsigned int
@@ -192,9 +220,10 @@ namespace geocone
     /** condition, component, number, node (-1: target), value. */
     std::vector<std::array<double, 5>> contributions;
 
-    MPI_Comm                  comm  = MPI_COMM_SELF;
-    unsigned int              given = 0;
-    std::vector<Key>          keys;
+    MPI_Comm         comm         = MPI_COMM_SELF;
+    unsigned int     given        = 0;
+    double           sum_of_loads = 0.; ///< of raised loads (N/m), or 0
+    std::vector<Key> keys;
     std::vector<unsigned int> touched;
     Eigen::MatrixXd           H;
     Eigen::VectorXd           q; ///< without what prescribed dofs contribute

@@ -23,16 +23,15 @@ namespace geocone
    */
   template <typename Record, typename Moment, typename Displacement>
   void
-  add_observations(StatisticsTable<Record>  &table,
-                   const Observation        &observation,
+  add_observations(StatisticsTable<Record>        &table,
+                   const Observation              &observation,
                    const std::vector<std::string> &supports,
-                   const Moment             &moment,
-                   const Displacement       &displacement)
+                   const Moment                   &moment,
+                   const Displacement             &displacement)
   {
     for (unsigned int i = 0; i < observation.conditions.size(); ++i)
       table.add(
-        "moment " + supports[observation.conditions[i]] +
-          " (N m/m)",
+        "moment " + supports[observation.conditions[i]] + " (N m/m)",
         [moment, i](const Record &record) { return moment(record, i); },
         Finite::may_be);
     for (unsigned int i = 0; i < observation.points.size(); ++i)
@@ -48,6 +47,7 @@ namespace geocone
   /** The same for the topic "points" of summary.json. */
   void
   add_points(const std::vector<dealii::Tensor<1, dim>> &displacements,
+             const std::vector<double>                 &excess_pressures,
              Json                                      &summary);
 } // namespace geocone
 

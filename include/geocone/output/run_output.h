@@ -31,10 +31,12 @@ namespace geocone
     double              time         = 0.;
     double              displacement = 0.;
     double              load         = 0.;
-    std::vector<double> reactions; ///< of the observed conditions
-    std::vector<double> moments;   ///< of the same
+    double              raised       = 0.; ///< way of raised loads (m)
+    std::vector<double> reactions;         ///< of the observed conditions
+    std::vector<double> moments;           ///< of the same
     std::vector<dealii::Tensor<1, dim>> displacements; ///< of observed points
-    StepReport last; ///< of the last substep; works are of the step
+    std::vector<double> pressures; ///< in excess, of the same in undrained soil
+    StepReport          last; ///< of the last substep; works are of the step
 
     void
     state(StateRow &row)
@@ -48,9 +50,11 @@ namespace geocone
           time,
           displacement,
           load,
+          raised,
           reactions,
           moments,
           displacements,
+          pressures,
           last);
     }
   };

@@ -135,6 +135,7 @@ namespace geocone
     bool           is_in_step = false; ///< whether the step has begun
     StepRecord     present;            ///< of the present step, or the last one
     double         reached = 0.;       ///< time of the last substep solved (s)
+    double         raised  = 0.; ///< way of raised loads since a reset (m)
     /** @} */
 
     dealii::TimerOutput timer;

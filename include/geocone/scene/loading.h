@@ -59,6 +59,25 @@ namespace geocone
     /** Whether the first step that cannot be solved ends the run as wanted. */
     bool until_failure = false;
 
+    /** @name Loads that are raised: tractions by their names, and "weight". What they
+     *  exert is multiplied by a factor that is unknown; given is the mean velocity at
+     *  which they do their work (m/s) */
+    /** @{ */
+    std::vector<std::string> raised_loads;
+    double                   raising_velocity = 0.;
+    bool
+    raises_loads() const
+    {
+      return !raised_loads.empty();
+    }
+    bool
+    raises(const std::string &load) const;
+
+    /** Why none of them could be raised. */
+    std::string
+    text_of_no_work() const;
+    /** @} */
+
     /** @name How the body changes at the beginning */
     /** @{ */
 
@@ -134,9 +153,18 @@ namespace geocone
   public:
     explicit LoadingProgramme(const ParameterFile &file);
 
-    /** @param materials their names */
+    /** @param materials,tractions their names */
     void
-    prepare(const std::vector<std::string> &materials);
+    prepare(const std::vector<std::string> &materials,
+            const std::vector<std::string> &tractions);
+
+    /** The stage that a time is in. */
+    const Stage &
+    stage_at(const double t) const;
+
+    /** Whether a stage raises loads. */
+    bool
+    raises_loads() const;
 
     /** Whether a stage reduces the strength. */
     bool

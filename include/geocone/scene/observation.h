@@ -42,7 +42,17 @@ namespace geocone
     void
     prepare(const std::vector<std::string> &supports,
             const Materials                &materials,
-            const Gravity                  &gravity);
+            const Gravity                  &gravity,
+            const bool                      raises_loads);
+
+    /** Whether there is a load-displacement curve: of the first condition or, if
+     *  there is none, of loads that are raised. */
+    bool
+    has_load() const
+    {
+      return !conditions.empty() || of_raised_loads;
+    }
+    bool of_raised_loads = false;
 
     /** Indices of the observed conditions and obstacles in Scene::supports(). */
     std::vector<unsigned int> conditions;
@@ -50,7 +60,8 @@ namespace geocone
     /** 0 for x, 1 for y, 2 for z. */
     unsigned int component = 1;
 
-    /** Load = factor x reaction, e.g. -2 for a downward load on a half. */
+    /** Load = factor x reaction, e.g. -2 for a downward load on a half; or |factor| x
+     *  load factor, of raised loads. */
     double factor = -1.;
 
     /** Places whose displacement is reported. */

@@ -302,6 +302,11 @@ namespace geocone
     void
     mend_positions(const TransferBlock &points);
 
+    /** Whether the scene has tractions, or sides that absorb waves: then points are
+     *  found in the cells of a mesh, which knows its sides. */
+    bool
+    acts_on_sides() const;
+
     /** The nodes at the start of a step: what the points give to them. */
     void
     start_nodes();
@@ -376,16 +381,17 @@ namespace geocone
     bool         fast_path      = true;
     unsigned int sort_every     = 50;
 
-    const Scene                  *scene        = nullptr;
-    bool                          affine       = false;
-    bool                          axisymmetric = false;
-    const TransferKernels        *kernels      = nullptr;
-    std::unique_ptr<GridTransfer> transfer;
-    std::unique_ptr<NodalUpdate>  nodes;
-    std::vector<PointArrays>      groups;
-    BlockScratch                  scratch = {};
-    std::vector<double *>         history;       ///< pointers for the law
-    std::vector<double>           point_history; ///< of one point
+    const Scene                    *scene        = nullptr;
+    bool                            affine       = false;
+    bool                            axisymmetric = false;
+    const TransferKernels          *kernels      = nullptr;
+    std::unique_ptr<GridTransfer>   transfer;
+    std::unique_ptr<BoundaryForces> boundary; ///< or null
+    std::unique_ptr<NodalUpdate>    nodes;
+    std::vector<PointArrays>        groups;
+    BlockScratch                    scratch = {};
+    std::vector<double *>           history;       ///< pointers for the law
+    std::vector<double>             point_history; ///< of one point
 
     dealii::Point<dim>     datum;
     dealii::Tensor<1, dim> gravity; ///< in the last step

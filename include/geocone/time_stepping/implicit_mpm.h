@@ -6,6 +6,7 @@
 
 #include <geocone/base/choice.h>
 #include <geocone/discretisation/particles.h>
+#include <geocone/mechanics/absorbing_boundary.h>
 #include <geocone/mechanics/moving_conditions.h>
 #include <geocone/mechanics/point_functions.h>
 #include <geocone/time_stepping/fading_forces.h>
@@ -165,9 +166,13 @@ namespace geocone
     Vector
     net_force(const MaterialPoints &points, const double t);
 
-    /** External forces at time t, but for those that fade. */
+    /** External forces at time t, but for those that fade. @param stage,raised as in
+     *  Loads::evaluate() */
     void
-    evaluate_force(const MaterialPoints &points, const double t);
+    evaluate_force(const MaterialPoints &points,
+                   const double          t,
+                   const Stage          *stage  = nullptr,
+                   const bool            raised = false);
 
     /** vL from momentum, where the mass is partly consistent. */
     void
@@ -279,6 +284,7 @@ namespace geocone
 
     std::unique_ptr<MovingConditions>   moving;
     std::unique_ptr<ObstacleContact>    obstacles;
+    std::unique_ptr<AbsorbingBoundary>  absorbing;
     std::unique_ptr<Constraints>        constraints;
     std::optional<GhostPlaces>          ghost_places; ///< of splines that move
     std::unique_ptr<IncrementalProblem> problem;

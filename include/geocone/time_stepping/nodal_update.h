@@ -4,6 +4,7 @@
 #ifndef geocone_time_stepping_nodal_update_h
 #define geocone_time_stepping_nodal_update_h
 
+#include <geocone/mechanics/boundary_forces.h>
 #include <geocone/mechanics/constraints.h>
 #include <geocone/mechanics/grid_transfer.h>
 #include <geocone/scene/boundary_conditions.h>
@@ -20,11 +21,14 @@ namespace geocone
    */
   struct Balance
   {
-    double stress_work  = 0.;       ///< sum of s : de V (J/m)
-    double gravity_work = 0.;       ///< sum of m g dx (J/m)
-    double damping_work = 0.;       ///< taken by local damping (J/m)
-    double support_work = 0.;       ///< of prescribed velocities (J/m)
-    dealii::Tensor<1, dim> impulse; ///< of gravity, supports, damping (N s/m)
+    double stress_work  = 0.; ///< sum of s : de V (J/m)
+    double gravity_work = 0.; ///< sum of m g dx (J/m)
+    double damping_work = 0.; ///< taken by local damping (J/m)
+    /** Of prescribed velocities, tractions and absorbing sides (J/m). */
+    double support_work = 0.;
+
+    /** Of gravity, damping, and the same (N s/m). */
+    dealii::Tensor<1, dim> impulse;
 
     /** What was taken away (Stage::removes()), or left the grid. */
     double                 removed_mass = 0.;      ///< (kg/m)
@@ -66,12 +70,14 @@ namespace geocone
      * @param flip_part of the points' velocity, for the momentum that
      * conditions give by way of PIC
      * @param least_mass nodes with this mass or less are passed over (kg/m)
+     * @param boundary what acts on sides, or null
      * @param sum to which impulses and works of this rank are added
      */
     NodalUpdate(GridTransfer             &transfer,
                 const BoundaryConditions &conditions,
                 const double              flip_part,
                 const double              least_mass,
+                const BoundaryForces     *boundary,
                 Balance                  &sum);
 
     /** The step as nodes see it. */
@@ -164,6 +170,7 @@ namespace geocone
     GridTransfer             &transfer;
     const BoundaryConditions &conditions;
     const double              flip_part, least_mass;
+    const BoundaryForces     *boundary;
     Balance                  &sum;
 
     /** A component of a node whose velocity is given in this step. */

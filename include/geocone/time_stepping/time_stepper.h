@@ -27,7 +27,8 @@ namespace geocone
   struct Energies
   {
     double kinetic = 0.; ///< v'Mv/2 of the nodes (FEM) or the particles (MPM)
-    double elastic = 0.; ///< sum V s'Ss/2
+    /** sum V s'Ss/2, and of fluid in pores sum V p^2/(2 K_w/n). */
+    double elastic = 0.;
     /** MPM: -sum m g.(x - x0), x0 the lower left corner of the mesh. FEM counts
      *  the work of the weight as external instead. */
     double potential     = 0.;
@@ -108,6 +109,9 @@ namespace geocone
     /** What touches obstacles. */
     ContactReport contact;
 
+    /** By which raised loads are multiplied at its end; 1: none are. */
+    double load_factor = 1.;
+
     /** Largest cumulative plastic strain of all points. */
     double largest_plastic_strain = 0.;
 
@@ -131,6 +135,7 @@ namespace geocone
           rows,
           motion,
           contact,
+          load_factor,
           largest_plastic_strain,
           identity_error);
     }
@@ -157,7 +162,7 @@ namespace geocone
   void
   check_round_body(const Scene &scene, const Space &space);
 
-  /** sum V s'Ss/2 over the points of all ranks (J/m). */
+  /** Energies::elastic over the points of all ranks (J/m). */
   double
   elastic_energy(const MaterialPoints &points,
                  const Materials      &materials,

@@ -9,6 +9,7 @@ For each run folder, as far as the files for them exist:
   plastic_strain_rate.png          the last cells-*.vtu, with the displacement
                                    (or the velocity) of the mesh
   plastic_strain_rate_points.png   the last points-*.vtu
+  excess_pore_pressure.png         the last cells-*.vtu or points-*.vtu of undrained soil
   plastic_strain.png               points-*.vtu at several times, if they move;
                                    shear_stress.png of an elastic body instead
 of an explicit run energy.png, runout.png, points.png (plastic strain or shear stress at
@@ -44,10 +45,12 @@ def pictures_of(run, times=None):
     if run.method == "explicit MPM":
         from geocone.plots import explicit
         return explicit.pictures(run, times)
-    from geocone.plots import energy, load, newton, points, rates, safety
+    from geocone.plots import energy, load, newton, points, pressures, rates, safety
     curve = ({"safety.png": safety.draw_run} if "safety" in run.summary else
              {"load_displacement.png": load.draw_run})
-    return {**curve,
+    undrained = ({"excess_pore_pressure.png": pressures.draw_run}
+                 if pressures.is_undrained(run) else {})
+    return {**curve, **undrained,
             "newton.png": newton.draw_run,
             "energy.png": energy.draw_implicit,
             "plastic_strain_rate.png": rates.draw_cells,

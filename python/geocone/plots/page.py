@@ -38,6 +38,7 @@ CAPTIONS = {
     "mechanism.png": "Where the bounds differ, and the mechanisms of both",
     "plastic_strain_rate.png": "Where the soil flows at the end",
     "plastic_strain_rate_points.png": "The same, of the material points",
+    "excess_pore_pressure.png": "Excess pore pressure at the end",
     "plastic_strain.png": "Plastic strain of the material points",
     "shear_stress.png": "Largest shear stress of the material points",
     "points.png": "The material points at some times", "runout.png": "How far it runs",
