@@ -223,7 +223,7 @@ namespace geocone
           materials[run.material].update(increment_of(run), response);
         }
     for (unsigned int p = 0; p < pressure.size(); ++p)
-      history[points.n_history * (p + 1) - 1] = pressure[p];
+      history[points.n_history() * (p + 1) - 1] = pressure[p];
     return history;
   }
 
