@@ -282,7 +282,8 @@ namespace geocone
       total_n.push_back(points.stress[p] -
                         points.excess_pressure(p) * unit_tensor<n_mandel>());
     sum_forces(
-      is_undrained() ? total_n : points.stress,
+      is_undrained() ? total_n
+                     : static_cast<const std::vector<Mandel> &>(points.stress),
       [&](const unsigned int p) {
         return whole_stress_n(p)[place_of_normal[2]] -
                (is_undrained() ? points.excess_pressure(p) : 0.);
