@@ -89,9 +89,10 @@ namespace geocone
         const ConstitutiveLaw &law  = scene.materials.law(seed.material);
         const bool             later =
           scene.loading.adds(scene.materials.name(seed.material));
-        MaterialPoints &set = later ? waiting[seed.material] : points;
-        set.use_as(points);
-        const unsigned int p = set.n_points();
+        MaterialPoints    &set = later ? waiting[seed.material] : points;
+        const unsigned int p   = set.n_points();
+        if (p == 0)
+          set.use_as(points);
         set.set_size(p + 1);
         set.id[p]       = first + i;
         set.cell[p]     = numbers::invalid_unsigned_int;

@@ -23,6 +23,23 @@ namespace geocone
     set_size(0);
   }
 
+  namespace
+  {
+    /** Points with those that fill up the last vector. */
+    std::size_t
+    padded(const std::size_t n)
+    {
+      const std::size_t lanes = PointBlock::lanes;
+      return (n + lanes - 1) / lanes * lanes;
+    }
+  } // namespace
+
+  void
+  PointArrays::set_capacity(const std::size_t n)
+  {
+    PointState::set_capacity(padded(n));
+  }
+
   unsigned int
   PointArrays::append()
   {
@@ -35,15 +52,13 @@ namespace geocone
   void
   PointArrays::pad()
   {
-    const std::size_t lanes  = PointBlock::lanes;
-    const std::size_t padded = (n + lanes - 1) / lanes * lanes;
     set_size(n);
     if (n == 0)
       return;
     std::vector<double> last(n_numbers());
     get(n - 1, last.data());
-    set_size(padded);
-    for (std::size_t p = n; p < padded; ++p)
+    set_size(padded(n));
+    for (std::size_t p = n; p < n_padded(); ++p)
       {
         set(p, last.data());
         mass[p] = weight[p] = 0.;

@@ -71,12 +71,6 @@ namespace geocone
       return history.data() + static_cast<std::size_t>(n_history()) * point;
     }
 
-    unsigned int
-    n_history() const
-    {
-      return history.width;
-    }
-
     /** Excess pore pressure p (Pa), the last history variable where there is
      *  undrained soil (Materials::are_undrained()). */
     double

@@ -44,12 +44,6 @@ namespace geocone
       return weight.size();
     }
 
-    unsigned int
-    n_history() const
-    {
-      return history.width;
-    }
-
     /** The history variables of a point, n_history() of them. */
     void
     copy_history(const unsigned int p, double *values) const
@@ -67,6 +61,10 @@ namespace geocone
         s[i] = stress[i][p];
       return s;
     }
+
+    /** For @p n points, and what fills up the last vector, memory is taken at once. */
+    void
+    set_capacity(const std::size_t n);
 
     /** Adds a point with all numbers zero; pad() must follow before kernels see the
      *  arrays. @return its number */

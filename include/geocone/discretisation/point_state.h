@@ -60,6 +60,24 @@ namespace geocone
     }
   };
 
+  /**
+   * Point i becomes what point order[i] was, of which there are not more. The memory of
+   * @p values is kept; @p old is for their copy.
+   */
+  template <typename T>
+  void
+  put_in_order(std::vector<T>                  &values,
+               const unsigned int               width,
+               const std::vector<unsigned int> &order,
+               std::vector<T>                  &old)
+  {
+    old.assign(values.begin(), values.end());
+    values.resize(width * order.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+      for (unsigned int k = 0; k < width; ++k)
+        values[width * i + k] = old[std::size_t(width) * order[i] + k];
+  }
+
   /** A variable of points, the numbers of a point side by side. */
   template <typename T>
   class PointValues : public std::vector<T>
@@ -110,17 +128,16 @@ namespace geocone
           row, Components<T>::n, Components<T>::of((*this)[width * p + k]));
     }
 
-    /** Point i becomes what point order[i] was. */
     void
-    reorder(const std::vector<unsigned int> &order, std::vector<double> &)
+    reorder(const std::vector<unsigned int> &order, std::vector<double> &buffer)
     {
-      std::vector<T> values;
-      values.reserve(width * order.size());
-      for (const std::size_t p : order)
-        values.insert(values.end(),
-                      this->begin() + width * p,
-                      this->begin() + width * (p + 1));
-      this->swap(values);
+      if constexpr (std::is_same_v<T, double>)
+        put_in_order<double>(*this, width, order, buffer);
+      else
+        {
+          std::vector<T> old;
+          put_in_order<T>(*this, width, order, old);
+        }
     }
 
     std::size_t
@@ -197,14 +214,8 @@ namespace geocone
     void
     reorder(const std::vector<unsigned int> &order, std::vector<double> &buffer)
     {
-      buffer.resize(order.size());
       for (std::vector<double> &array : arrays)
-        {
-          for (std::size_t i = 0; i < order.size(); ++i)
-            buffer[i] = array[order[i]];
-          // Copied, not swapped: one buffer serves all arrays for ever.
-          array.assign(buffer.begin(), buffer.end());
-        }
+        put_in_order(array, 1, order, buffer);
     }
 
     std::size_t
@@ -223,7 +234,7 @@ namespace geocone
   /**
    * The state of points at t_n, of all methods: quadrature points, particles of
    * implicit steps and of explicit ones. A new variable is declared here, and named
-   * in visit(); sorting, sending to other ranks, checkpoints and stages that move
+   * in visit_all(); sorting, sending to other ranks, checkpoints and stages that move
    * points from one set to another go over that list. A set uses those variables
    * whose width is not zero.
    *
@@ -317,6 +328,13 @@ namespace geocone
         [&](const char *, auto &variable) { variable.width = widths[i++]; });
     }
 
+    /** History variables of a point. */
+    unsigned int
+    n_history() const
+    {
+      return history.width;
+    }
+
     /** Numbers of a point. */
     unsigned int
     n_numbers() const
@@ -405,7 +423,7 @@ namespace geocone
       visit("unit", state.unit);
     }
 
-    std::vector<double> buffer; ///< of reorder()
+    std::vector<double> buffer; ///< of reorder(): one for all arrays, for ever
   };
 
   /** An owner of points that are to go. */
