@@ -18,6 +18,7 @@ namespace geocone
       std::string              parameter;
       std::string              chooser;
       std::vector<std::string> values; ///< of the chooser; empty: any but none
+      std::string              other = {}; ///< or where one of these is set
     };
 
     const char *const method = "Discretisation/Method";
@@ -89,6 +90,14 @@ namespace geocone
       {"Observation/Factor", method, {"FEM", "MPM"}},
       {"Observation/Plateau tolerance", method, {"FEM", "MPM"}},
       {"Observation/Component", "Observation/Conditions", {}},
+      {"Observation/Factor",
+       "Observation/Conditions",
+       {},
+       "Loading/*/Raised loads"},
+      {"Observation/Plateau tolerance",
+       "Observation/Conditions",
+       {},
+       "Loading/*/Raised loads"},
       {"Observation/Reference", method, {"FEM", "MPM"}},
       {"Observation/Reference material", "Observation/Reference", {"Prandtl"}},
       {"Observation/Reference width", "Observation/Reference", {"Prandtl"}},
@@ -100,7 +109,9 @@ namespace geocone
       {"Mesh/Diagonals", "Mesh/Type", {"uniform", "graded"}},
       {"Mesh/Diagonals", method, {"FEM"}},
       {"Mesh/Cell size", "Geometry/Shape", {"box", "polygon", "discs"}},
-      {"Mesh/Cell size", "Mesh/Type", {"uniform", "unstructured"}},
+      {"Mesh/Cell size",
+       "Mesh/Type",
+       {"uniform", "unstructured", "from the bounds"}},
       {"Mesh/Grading points",
        "Mesh/Type",
        {"graded", "unstructured", "from the bounds"}},
@@ -214,6 +225,14 @@ namespace geocone
                   ? !value.empty()
                   : std::count(rule.values.begin(), rule.values.end(), value) >
                       0)
+              continue;
+            if (!rule.other.empty() &&
+                std::any_of(settings.begin(),
+                            settings.end(),
+                            [&](const ParameterFile::Setting &other) {
+                              return matches(rule.other, other.path, star) &&
+                                     !other.value.empty();
+                            }))
               continue;
             std::string needed;
             for (const std::string &choice : rule.values)

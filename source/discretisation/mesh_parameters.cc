@@ -39,10 +39,12 @@ namespace geocone
       ": how the rectangles of a uniform or graded mesh are cut into "
       "triangles, two by alternating or parallel diagonals, four by crossed "
       "ones.");
-    add_parameter("Cell size",
-                  cell_size,
-                  "Side of the squares of a uniform mesh (m); it is rounded to "
-                  "a whole number of cells.");
+    add_parameter(
+      "Cell size",
+      cell_size,
+      "Side of the squares of a uniform mesh (m); it is rounded to "
+      "a whole number of cells. Without grading points also that of "
+      "an unstructured mesh, and of the first one from the bounds.");
     add_parameter("Grading points",
                   grading_points,
                   "Points x, y; x, y; ... (m) around which graded and "

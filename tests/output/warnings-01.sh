@@ -51,7 +51,12 @@ grep -q "cause: .*initial stress of .* points is outside .*'Initial stress/K0' =
 ground --set 'Initial stress/K0 = automatic' --output automatic || true
 fails grep -q 'outside of the strength' log
 
-# The mesh from the bounds begins with triangles graded to the given points.
+# The mesh from the bounds begins with triangles of the cell size, or graded to the given
+# points.
+"$program" "$root/prm/safety/slope_steps.prm" --dry-run --set 'Mesh/Number of cells = 50' \
+  --set 'Mesh/Cell size = 4' >log 2>&1
+grep -q 'a mesh from the bounds: level' log
+fails grep -q 'not used by this run' log
 "$program" "$root/tests/fem/prandtl_adapted-01.prm" --output bounds \
   --set 'Mesh/Number of cells = 50' --set 'Output/Expectations =' >log 2>&1
 fails grep -q 'not used by this run' log

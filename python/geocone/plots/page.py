@@ -215,8 +215,9 @@ def write_page(run, folder, names):
                                      undefined=jinja2.StrictUndefined)
     try:
         page = environment.from_string(TEMPLATE.read_text()).render(
-            run=run, status=text_of(run.status), answer=answer_of(run), numbers=numbers_of(run), pictures=pictures,
-            left_out=left_out, frames=frames, shown=shown, parameters=parameters)
+            run=run, status=text_of(run.status), answer=answer_of(run),
+            numbers=numbers_of(run), pictures=pictures, left_out=left_out,
+            frames=frames, shown=shown, parameters=parameters)
     except jinja2.TemplateError as problem:
         raise ReadError(f"the page of '{run.folder}' cannot be made: {problem}")
     path = folder / "report.html"

@@ -1,7 +1,7 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Opens the fields of a run in ParaView 5.11 or later, and shows their last state:
-  File > Load State, or     paraview --script=paraview_state.py
+  File > Load State, or     paraview --state=paraview_state.py
   pvbatch --force-offscreen-rendering paraview_state.py PICTURE.png
 It is written by scripts/plot, and goes where the folder of the run goes."""
 
