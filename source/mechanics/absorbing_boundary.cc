@@ -110,24 +110,24 @@ namespace geocone
   AbsorbingBoundary::begin_step(const double t, const Unknowns &of_problem)
   {
     unknowns = &of_problem;
-    incoming = 0.;
-    for (const Dashpot &dashpot : dashpots)
-      {
-        const Tensor<1, dim> force = 2. * (dashpot.C * velocity_in(dashpot, t));
-        for (unsigned int d = 0; d < dim; ++d)
-          incoming.local_element(dim * dashpot.node + d) += force[d];
-      }
+    incoming_force(t, incoming);
   }
 
-  Tensor<1, dim>
-  AbsorbingBoundary::velocity_in(const Dashpot &dashpot, const double t) const
+  void
+  AbsorbingBoundary::incoming_force(const double t, Vector &force) const
   {
-    Tensor<1, dim> v_in;
-    for (unsigned int d = 0; d < dim; ++d)
-      if (const auto &component =
-            conditions.list[dashpot.condition]->components[d])
-        v_in[d] = component->value(space.node_positions()[dashpot.node], t);
-    return v_in;
+    force = 0.;
+    for (const Dashpot &dashpot : dashpots)
+      {
+        Tensor<1, dim> v_in;
+        for (unsigned int d = 0; d < dim; ++d)
+          if (const auto &component =
+                conditions.list[dashpot.condition]->components[d])
+            v_in[d] = component->value(space.node_positions()[dashpot.node], t);
+        const Tensor<1, dim> of_node = 2. * (dashpot.C * v_in);
+        for (unsigned int d = 0; d < dim; ++d)
+          force.local_element(dim * dashpot.node + d) += of_node[d];
+      }
   }
 
   void

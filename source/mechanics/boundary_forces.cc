@@ -57,14 +57,7 @@ namespace geocone
     if (absorbing.exists())
       {
         incoming.zero_out_ghost_values();
-        incoming = 0.;
-        for (const AbsorbingBoundary::Dashpot &dashpot : absorbing.all())
-          {
-            const Tensor<1, dim> v = absorbing.velocity_in(dashpot, t);
-            for (unsigned int d = 0; d < dim; ++d)
-              incoming.local_element(dim * dashpot.node + d) +=
-                2. * dashpot.C[d][d] * v[d];
-          }
+        absorbing.incoming_force(t, incoming);
         incoming.update_ghost_values();
       }
   }

@@ -7,6 +7,7 @@
 #include <geocone/discretisation/point_record.h>
 #include <geocone/discretisation/quadrature_points.h>
 #include <geocone/time_stepping/implicit_fem.h>
+#include <geocone/time_stepping/raised_loads.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -70,10 +71,7 @@ namespace geocone
                        "a formula",
                        "0 without inertia",
                        "set Time stepping/Inertia = true");
-    if (scene->loading.raises_loads())
-      scene->obstacles.refuse("stages with 'Raised loads'",
-                              "leave one of them out; bodies that press are "
-                              "held by 'Boundary conditions'");
+    RaisedLoads::check(*scene);
     check_round_body(*scene, space_);
     check_midpoint(integration, scene->materials, "Time stepping/Integration");
     points = make_quadrature_points(*scene, mesh_, space_);
@@ -315,17 +313,15 @@ namespace geocone
         fading.add_to(force, solved_at);
         constraints->turn(force);
       }
-    Vector raised;
+    RaisedLoads raised;
     if (scene->loading.raises_loads())
       constraints->multipliers.clear();
     if (stage.raises_loads())
       {
-        raised = problem->make_vector();
-        loads->evaluate(raised, weight_per_g, solved_at, &stage, true);
-        constraints->turn(raised);
-        if (!constraints->multipliers.add_loads(
-              raised, stage.raising_velocity, *constraints, prescribed))
-          throw StepFailure(stage.text_of_no_work());
+        Vector of_raised = problem->make_vector();
+        loads->evaluate(of_raised, weight_per_g, solved_at, &stage, true);
+        constraints->turn(of_raised);
+        raised.add_row(stage, of_raised, prescribed, *constraints);
       }
     velocity_n = kinematics.velocity;
     constraints->turn(velocity_n);
@@ -354,17 +350,8 @@ namespace geocone
       return report;
 
     TimerOutput::Scope scope(timer, "commit");
-    if (stage.raises_loads())
-      {
-        // From here on they are loads like others.
-        report.load_factor =
-          constraints->multipliers.load_factor(problem->multipliers());
-        force.add(report.load_factor, raised);
-        for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
-          if (constraints->is_prescribed(i))
-            residual.local_element(i) -=
-              report.load_factor * raised.local_element(i);
-      }
+    report.load_factor =
+      raised.take(*constraints, problem->multipliers(), force, residual);
     report.unknowns              = constraints->n_rows;
     const InternalForces &forces = problem->internal_forces();
     report.quality               = forces.quality();

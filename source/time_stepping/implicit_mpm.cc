@@ -5,6 +5,7 @@
 #include <geocone/base/log.h>
 #include <geocone/mechanics/particle_contact.h>
 #include <geocone/time_stepping/implicit_mpm.h>
+#include <geocone/time_stepping/raised_loads.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -140,10 +141,7 @@ namespace geocone
     if (!scene->tractions.list.empty())
       scene->geometry.refuse_axis("tractions on particles",
                                   "set Discretisation/Method = FEM");
-    if (scene->loading.raises_loads())
-      scene->obstacles.refuse("stages with 'Raised loads'",
-                              "leave one of them out; bodies that press are "
-                              "held by 'Boundary conditions'");
+    RaisedLoads::check(*scene);
     check_round_body(*scene, *space);
     check_midpoint(
       integration, scene->materials, "Material point method/Integration");
@@ -431,8 +429,8 @@ namespace geocone
     const Stage   &stage    = scene->loading.stage_at(t + h / 2.);
     const bool     raises   = stage.raises_loads();
     StepReport     report;
-    Vector v = problem->make_vector(), residual = problem->make_vector();
-    Vector raised;
+    Vector      v = problem->make_vector(), residual = problem->make_vector();
+    RaisedLoads raised;
     {
       TimerOutput::Scope scope(timer, "transfer");
       constraints->set_values(v, step.solved_at);
@@ -440,10 +438,7 @@ namespace geocone
       if (raises)
         {
           evaluate_force(points, step.solved_at, &stage, true);
-          raised = force;
-          if (!constraints->multipliers.add_loads(
-                raised, stage.raising_velocity, *constraints, v))
-            throw StepFailure(stage.text_of_no_work());
+          raised.add_row(stage, force, v, *constraints);
         }
       evaluate_force(points, step.solved_at, raises ? &stage : nullptr);
       fading.add_to(force, step.solved_at);
@@ -489,17 +484,8 @@ namespace geocone
 
     // From here on the step is accepted.
     const InternalForces &internal = problem->internal_forces();
-    if (raises)
-      {
-        // And the loads that are raised are like others.
-        report.load_factor =
-          constraints->multipliers.load_factor(problem->multipliers());
-        force.add(report.load_factor, raised);
-        for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
-          if (constraints->is_prescribed(i))
-            residual.local_element(i) -=
-              report.load_factor * raised.local_element(i);
-      }
+    report.load_factor =
+      raised.take(*constraints, problem->multipliers(), force, residual);
     Works work = works(step, v, residual);
     if (absorbing->exists())
       work.of_others += h * absorbing->power(v);

@@ -75,9 +75,9 @@ namespace geocone
       return dashpots;
     }
 
-    /** v_in of a dashpot (m/s). */
-    dealii::Tensor<1, dim>
-    velocity_in(const Dashpot &dashpot, const double t) const;
+    /** What waves that come in exert at time t: 2 C v_in (N/m). */
+    void
+    incoming_force(const double t, Vector &force) const;
 
   private:
     /** dst_i += C_i x_i */

@@ -72,10 +72,6 @@ namespace geocone
     }
     bool
     raises(const std::string &load) const;
-
-    /** Why none of them could be raised. */
-    std::string
-    text_of_no_work() const;
     /** @} */
 
     /** @name How the body changes at the beginning */
@@ -192,8 +188,6 @@ namespace geocone
     std::vector<std::string> names;
   };
 
-  class Water;
-
   /** Gravity g(t), at once or ramped up linearly over a duration. */
   class Gravity : public dealii::ParameterAcceptor
   {
@@ -221,102 +215,6 @@ namespace geocone
   private:
     dealii::Tensor<1, dim> acceleration;
     double                 ramp_duration = 0.;
-  };
-
-  /** The velocity before the first step: zero, or given by formulas. */
-  class InitialVelocity : public dealii::ParameterAcceptor
-  {
-  public:
-    InitialVelocity();
-
-    void
-    prepare();
-
-    dealii::Tensor<1, dim>
-    at(const dealii::Point<dim> &x) const;
-
-    /** Its gradient dv_i/dx_j at a point that stands for a square of this size
-     *  (m): central differences, exact for linear velocities (1/s). */
-    dealii::Tensor<2, dim>
-    gradient(const dealii::Point<dim> &x, const double size) const;
-
-    /** Whether it is not simply zero. */
-    bool
-    is_given() const;
-
-  private:
-    std::array<std::string, dim> texts;
-    std::array<Expression, dim>  components;
-  };
-
-  /**
-   * The stress before the first step: zero, given by formulas, or geostatic,
-   *   s_yy = -(surcharge + integral of rho |g| from y to the surface - u),
-   *   s_xx = K0 s_yy, s_xy = 0,
-   * with the densities of the materials met on the way up, and u what the pressure of
-   * level water is higher at y than on the surface. K0 is a number, or that
-   * of each material (ConstitutiveLaw::earth_pressure_at_rest()). Materials that a
-   * stage adds have neither stress nor weight.
-   */
-  class InitialStress : public dealii::ParameterAcceptor
-  {
-  public:
-    InitialStress();
-
-    void
-    prepare(const Gravity           &gravity,
-            const Geometry          &geometry,
-            const Regions           &regions,
-            const Water             &water,
-            const std::vector<bool> &is_added);
-
-    /** Stress at a point x of a material (Pa). */
-    Mandel
-    at(const dealii::Point<dim> &x,
-       const unsigned int        material,
-       const Materials          &materials,
-       const Regions            &regions) const;
-
-    /** Out-of-plane stress (Pa): as s_xx, unless it is given by a
-     *  formula. Laws in the plane only carry it along. */
-    double
-    zz_at(const dealii::Point<dim> &x,
-          const unsigned int        material,
-          const Mandel             &in_plane) const;
-
-  private:
-    /** Reads K0. @throws InputError */
-    void
-    prepare_k0();
-
-    void
-    check_level_ground(const Geometry &geometry) const;
-
-    /** @throws InputError if the water is not level */
-    void
-    check_level_water() const;
-
-    enum class Type
-    {
-      zero,
-      given,
-      geostatic
-    };
-    Choice<Type> type = {{{"zero", Type::zero},
-                          {"given", Type::given},
-                          {"geostatic", Type::geostatic}}};
-
-    std::array<std::string, n_mandel> texts;
-    std::array<Expression, n_mandel>  components;
-    std::string                       text_zz; ///< of plane scenes
-    Expression                        component_zz;
-    std::string                       k0_text = "0.5";
-    std::optional<double>             k0; ///< or nothing: that of each material
-    double                            surface   = 0.;
-    double                            surcharge = 0.;
-    double                            g         = 0.;
-    const Water                      *water = nullptr; ///< where there is some
-    std::vector<bool>                 is_added;        ///< by material
   };
 } // namespace geocone
 
