@@ -56,10 +56,11 @@ namespace geocone
                   "Bernstein's, which are not negative, for MPM.");
     add_parameter("B-bar",
                   b_bar,
-                  "For Q1, Q2 and Q3: the volumetric strain of a cell is "
-                  "projected onto polynomials of one degree less (for Q1 it is "
-                  "its mean over the cell's points), against locking. Of Q2 "
-                  "and Q3 only with FEM.");
+                  "Against locking, for Q1 to Q3 and splines: the volumetric "
+                  "strain of a cell is its mean over the cell's points, with "
+                  "explicit MPM over the cell; of Q2 and Q3, "
+                  "only with FEM, it is projected onto polynomials of one "
+                  "degree less.");
   }
 
   std::string
@@ -103,24 +104,19 @@ namespace geocone
                        "the stable step of elements of higher degree is very "
                        "small: take splines, or P1 or Q1 on an unstructured "
                        "mesh");
-    if (method.is_explicit() && b_bar)
-      throw InputError("Discretisation/B-bar",
-                       "true",
-                       "false with explicit MPM",
-                       "take B-spline 2 or 3, which hardly lock");
     if (basis == Basis::automatic)
       basis = method.is_mpm() ? Basis::bernstein : Basis::lagrange;
-    if (b_bar && (simplicial || kind >= Element::spline_2))
+    if (b_bar && simplicial)
       throw InputError("Discretisation/B-bar",
                        "true",
-                       "true for Q1, Q2 and Q3",
-                       "others lock little: set B-bar = false");
-    if (b_bar && method.is_mpm() && p > 1)
+                       "true on quadrilaterals and hexahedra",
+                       "set B-bar = false: elements of higher degree lock less");
+    if (b_bar && method.is_mpm() && p > 1 && kind < Element::spline_2)
       throw InputError("Discretisation/B-bar",
                        "true",
-                       "true for Q1 where particles carry the material",
-                       "elements and splines of higher degree lock little: set "
-                       "B-bar = false, or Element = Q1");
+                       "true for Q1 and splines where particles carry the "
+                       "material",
+                       "set B-bar = false, or Element = Q1, B-spline 2 or 3");
   }
 
   void

@@ -174,6 +174,15 @@ namespace geocone
     });
   }
 
+  bool
+  Materials::dilate() const
+  {
+    return std::any_of(
+      in_closed_form.begin(), in_closed_form.end(), [](const Material *law) {
+        return law != nullptr && law->dilates();
+      });
+  }
+
   void
   Materials::refuse_undrained(const std::string &what,
                               const std::string &remedy) const

@@ -389,6 +389,20 @@ namespace geocone
   }
 
   void
+  CartesianTransfer::gather_divergence(const TransferBlock &points,
+                                       BlockScratch        &scratch)
+  {
+    kernels.gather_divergence[grid.degree](view(false), points, scratch);
+  }
+
+  void
+  CartesianTransfer::scatter_mean_stress(const TransferBlock &points,
+                                         BlockScratch        &scratch)
+  {
+    kernels.scatter_mean_stress[grid.degree](view(false), points, scratch);
+  }
+
+  void
   CartesianTransfer::exchange(const bool with_mass)
   {
     if (n_ranks == 1)

@@ -174,7 +174,8 @@ namespace geocone
       stepper = &implicit_fem;
     std::vector<std::string> warnings = {
       stepper->prepare(scene, mesh, space, newton, timer, kinematics, points),
-      outside_strength(points, scene.materials, comm)};
+      outside_strength(points, scene.materials, comm),
+      warning_of_b_bar(scene, space)};
     warnings.erase(std::remove(warnings.begin(), warnings.end(), ""),
                    warnings.end());
     if (scene.materials.are_undrained() && !space.has_b_bar() &&

@@ -7,6 +7,7 @@
 #include <geocone/mechanics/cartesian_transfer.h>
 #include <geocone/mechanics/mesh_transfer.h>
 #include <geocone/time_stepping/explicit_mpm.h>
+#include <geocone/time_stepping/time_stepper.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -137,8 +138,10 @@ namespace geocone
   {
     scene        = &scene_;
     affine       = rule.is_affine();
+    b_bar        = space.has_b_bar();
     axisymmetric = scene->geometry.is_axisymmetric();
     check_parameters();
+    check_round_body(*scene, space);
     seeding.prepare(*scene);
     kernels = &transfer_kernels();
 
@@ -168,6 +171,9 @@ namespace geocone
           remarks);
       }
 
+    if (const std::string warning = warning_of_b_bar(*scene, space);
+        !warning.empty())
+      remarks.push_back(warning);
     if (affine && space.degree() == 1)
       throw InputError(ParticleTransfer::parameter,
                        rule.name(),
@@ -227,7 +233,9 @@ namespace geocone
                             {},
                             group.weight.data() + first,
                             group.mass.data() + first,
-                            {}};
+                            {},
+                            transfer->keeps_cells() ? group.cell.data() + first
+                                                    : nullptr};
     for (unsigned int d = 0; d < dim; ++d)
       {
         points.x[d] = group.position[d] + first;
@@ -266,11 +274,15 @@ namespace geocone
                   transfer->gather_values(points, scratch);
                 if (what.update.velocity && affine)
                   transfer->gather_affine(points, scratch);
+                if (what.update.strain && b_bar)
+                  transfer->gather_divergence(points, scratch);
                 kernels->update_points(
                   what.update, dt, rule.flip_part(), points, scratch);
               }
             if (what.update.strain)
               {
+                if (b_bar)
+                  kernels->replace_divergence(dt, points, scratch);
                 if (axisymmetric)
                   strain_around_axis(what, dt, points);
                 for (unsigned int k = 0; k < group.n_history(); ++k)
@@ -315,14 +327,20 @@ namespace geocone
               continue;
             if (axisymmetric && gives_force)
               force_around_axis(points);
-            kernels->prepare_scatter(
-              what.gives != Gives::force, gives_force, points, scratch);
+            const bool mean_apart = gives_force && b_bar;
+            kernels->prepare_scatter(what.gives != Gives::force,
+                                     gives_force,
+                                     mean_apart,
+                                     points,
+                                     scratch);
             const bool with_mass = what.gives == Gives::momentum_and_mass ||
                                    what.gives == Gives::all;
             if (gives_force)
               transfer->scatter(points, scratch, with_mass);
             else
               transfer->scatter_values(points, scratch, with_mass);
+            if (mean_apart)
+              transfer->scatter_mean_stress(points, scratch);
             if (affine && what.gives != Gives::force)
               transfer->scatter_affine(points, scratch);
           }

@@ -88,6 +88,13 @@ namespace geocone
       return !splines.empty();
     }
 
+    /** is_spline() before prepare() has made them. */
+    bool
+    is_of_splines() const
+    {
+      return kind >= Element::spline_2;
+    }
+
     /** The least width of a band of strain in a cell of this size (m). */
     double
     band_width(const double cell_size) const

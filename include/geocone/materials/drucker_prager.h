@@ -43,6 +43,11 @@ namespace geocone
     {
       return cone.a > 0. ? (cone.a - cone.b) / cone.a : 0.;
     }
+    bool
+    dilates() const override
+    {
+      return cone.b > 0.;
+    }
 
     /** In three dimensions it is a cone like any other. */
     std::optional<FlowCone>

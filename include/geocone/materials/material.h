@@ -272,6 +272,14 @@ namespace geocone
     virtual double
     non_associativity() const;
 
+    /** Whether soil that flows grows in volume. */
+    virtual bool
+    dilates() const
+    {
+      const auto cone = initial_cone();
+      return cone && cone->b > 0.;
+    }
+
     /** Whether the tangent is symmetric in all states. */
     virtual bool
     has_symmetric_tangent() const

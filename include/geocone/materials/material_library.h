@@ -59,7 +59,11 @@ namespace geocone
     bool
     are_undrained() const;
 
-    /** @throws InputError if there is, with what knows none */
+    /** Whether a law has a cone along which soil dilates. */
+    bool
+    dilate() const;
+
+    /** @throws InputError if there is undrained soil, with what knows none */
     void
     refuse_undrained(const std::string &what, const std::string &remedy) const;
 

@@ -41,6 +41,11 @@ namespace geocone
     /** (sin(phi) - sin(theta))/sin(phi) */
     double
     non_associativity() const override;
+    bool
+    dilates() const override
+    {
+      return sin_theta > 0.;
+    }
 
     std::optional<double>
     yield_function(const SpatialMandel &stress) const override;

@@ -48,6 +48,12 @@ namespace geocone
                    const bool           with_mass) override;
     void
     scatter_affine(const TransferBlock &points, BlockScratch &scratch) override;
+    void
+    gather_divergence(const TransferBlock &points,
+                      BlockScratch        &scratch) override;
+    void
+    scatter_mean_stress(const TransferBlock &points,
+                        BlockScratch        &scratch) override;
 
     void
     exchange(const bool with_mass) override;

@@ -75,6 +75,10 @@ namespace geocone
                    const bool           with_mass) = 0;
     virtual void
     scatter_affine(const TransferBlock &points, BlockScratch &scratch) = 0;
+    virtual void
+    gather_divergence(const TransferBlock &points, BlockScratch &scratch) = 0;
+    virtual void
+    scatter_mean_stress(const TransferBlock &points, BlockScratch &scratch) = 0;
     /** @} */
 
     /**

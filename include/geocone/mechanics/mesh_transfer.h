@@ -66,6 +66,12 @@ namespace geocone
                    const bool           with_mass) override;
     void
     scatter_affine(const TransferBlock &points, BlockScratch &scratch) override;
+    void
+    gather_divergence(const TransferBlock &points,
+                      BlockScratch        &scratch) override;
+    void
+    scatter_mean_stress(const TransferBlock &points,
+                        BlockScratch        &scratch) override;
 
     void
     exchange(const bool with_mass) override;
@@ -123,6 +129,17 @@ namespace geocone
     void
     evaluate(const PointArrays &group, Functions &functions) const;
 
+    /** Evaluates mean_slopes. */
+    void
+    average_slopes();
+
+    /** Where cell_nodes and mean_slopes of the cell of a point begin. */
+    std::size_t
+    first_of_cell(const TransferBlock &points, const unsigned int k) const
+    {
+      return n * static_cast<std::size_t>(points.cell[k]);
+    }
+
     /** Those of a point of a block. */
     PointFunctions
     functions_at(const TransferBlock &points, const unsigned int k) const;
@@ -143,8 +160,12 @@ namespace geocone
     const CellSearch      search;
 
     std::vector<unsigned int> cell_nodes; ///< n per active cell index
-    std::vector<Functions>    functions;  ///< per group
-    Vector                    exchanged;
+
+    /** With B-bar: the means of the gradients in each cell, n per active cell
+     *  index (1/m). */
+    std::vector<dealii::Tensor<1, dim>> mean_slopes;
+    std::vector<Functions>              functions; ///< per group
+    Vector                              exchanged;
   };
 } // namespace geocone
 

@@ -68,6 +68,11 @@ namespace geocone
      *  the stress there exerts along x, -V s_zz/r (N). */
     alignas(32) double l_zz[size];
     alignas(32) double hoop_force[size];
+
+    /** With B-bar: the mean divergence of v in each point's cell (1/s), and
+     *  what the mean stress of the point exerts on it, -V tr s/dim (J/m). */
+    alignas(32) double divergence[size];
+    alignas(32) double mean_stress[size];
     alignas(32) double work[size], wave_modulus[size];
   };
 
@@ -81,6 +86,7 @@ namespace geocone
     std::array<double *, n_mandel>  s; ///< in the order of tensor_component
     double                         *volume, *mass;
     std::array<double *, dim * dim> c; ///< C_ij at dim i + j; null without APIC
+    const unsigned int *cell; ///< null where points do not know their cells
   };
 
   /** Sums and extremes of a pass, which the time stepper reads. */
@@ -166,6 +172,17 @@ namespace geocone
     void (*scatter_affine[4])(const GridView &,
                               const TransferBlock &,
                               BlockScratch &);
+
+    /** The mean divergence of v in the cell of each point, sum_i v_i . g_i with g_i
+     *  the mean of grad N_i. */
+    void (*gather_divergence[4])(const GridView &,
+                                 const TransferBlock &,
+                                 BlockScratch &);
+
+    /** Its transpose: adds BlockScratch::mean_stress g_i to the forces. */
+    void (*scatter_mean_stress[4])(const GridView &,
+                                   const TransferBlock &,
+                                   BlockScratch &);
     /** @} */
 
     /**
@@ -180,6 +197,11 @@ namespace geocone
                           const TransferBlock &,
                           BlockScratch &);
 
+    /** B-bar: l <- l + (dt BlockScratch::divergence - tr l)/dim I. */
+    void (*replace_divergence)(const double dt,
+                               const TransferBlock &,
+                               BlockScratch &);
+
     /** V <- det(I + l) V, times 1 + l_zz around an axis, the stress work, and the
      *  extremes. */
     void (*finish)(const TransferBlock &, BlockScratch &, PassSums &);
@@ -188,9 +210,10 @@ namespace geocone
     void (*bound)(const TransferBlock &, PassSums &);
 
     /** The values that scatter() takes: (m v, -V s), and the hoop force; parts of
-     *  it, or all. */
+     *  it, or all. With B-bar the mean stress is apart, for scatter_mean_stress(). */
     void (*prepare_scatter)(const bool momentum,
                             const bool force,
+                            const bool mean_apart,
                             const TransferBlock &,
                             BlockScratch &);
   };

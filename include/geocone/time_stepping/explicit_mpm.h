@@ -383,6 +383,7 @@ namespace geocone
 
     const Scene                    *scene        = nullptr;
     bool                            affine       = false;
+    bool                            b_bar        = false;
     bool                            axisymmetric = false;
     const TransferKernels          *kernels      = nullptr;
     std::unique_ptr<GridTransfer>   transfer;
