@@ -57,9 +57,9 @@ namespace geocone
     add_parameter("B-bar",
                   b_bar,
                   "Against locking, for Q1 to Q3 and splines: the volumetric "
-                  "strain of a cell is its mean over the cell's points, with "
-                  "explicit MPM over the cell; of Q2 and Q3, "
-                  "only with FEM, it is projected onto polynomials of one "
+                  "strain of a cell is its mean over the cell's points; of Q2 "
+                  "and Q3, only with FEM, its projection onto polynomials of "
+                  "one "
                   "degree less.");
   }
 
@@ -107,10 +107,11 @@ namespace geocone
     if (basis == Basis::automatic)
       basis = method.is_mpm() ? Basis::bernstein : Basis::lagrange;
     if (b_bar && simplicial)
-      throw InputError("Discretisation/B-bar",
-                       "true",
-                       "true on quadrilaterals and hexahedra",
-                       "set B-bar = false: elements of higher degree lock less");
+      throw InputError(
+        "Discretisation/B-bar",
+        "true",
+        "true on quadrilaterals and hexahedra",
+        "set B-bar = false: elements of higher degree lock less");
     if (b_bar && method.is_mpm() && p > 1 && kind < Element::spline_2)
       throw InputError("Discretisation/B-bar",
                        "true",

@@ -389,21 +389,42 @@ namespace geocone
   }
 
   void
-  CartesianTransfer::gather_divergence(const TransferBlock &points,
-                                       BlockScratch        &scratch)
+  CartesianTransfer::find_cells(const TransferBlock &points,
+                                unsigned int        *numbers) const
   {
-    kernels.gather_divergence[grid.degree](view(false), points, scratch);
+    for (unsigned int k = 0; k < points.n; ++k)
+      {
+        std::array<unsigned int, dim> lowest;
+        for (unsigned int d = 0; d < dim; ++d)
+          lowest[d] = grid.axes[d].interval(points.x[d][k]);
+        numbers[k] = stored_place_of(lowest);
+      }
+  }
+
+  std::size_t
+  CartesianTransfer::n_stored_cells() const
+  {
+    // A cell has the place of the lowest of its functions.
+    return n_nodes();
   }
 
   void
-  CartesianTransfer::scatter_mean_stress(const TransferBlock &points,
-                                         BlockScratch        &scratch)
+  CartesianTransfer::exchange_cells()
   {
-    kernels.scatter_mean_stress[grid.degree](view(false), points, scratch);
+    exchange({{sums_of_cells.data(), 2}});
   }
 
   void
   CartesianTransfer::exchange(const bool with_mass)
+  {
+    std::vector<Shared> arrays = {{write.data(), node_size}};
+    if (with_mass)
+      arrays.push_back({mass.data(), 1});
+    exchange(arrays);
+  }
+
+  void
+  CartesianTransfer::exchange(const std::vector<Shared> &arrays)
   {
     if (n_ranks == 1)
       return;
@@ -429,18 +450,20 @@ namespace geocone
       return;
     shared[rank] = all;
 
-    const unsigned int per_node = node_size + with_mass;
-    const auto         offset   = [&](const int column) {
+    unsigned int per_node = 0;
+    for (const Shared &array : arrays)
+      per_node += array.per_node;
+    const auto offset = [&](const int column) {
       return static_cast<std::size_t>(column - stored[0].begin) * stride;
     };
     const auto pack = [&](const Range &range, std::vector<double> &buffer) {
       const std::size_t first = offset(range.begin),
                         n     = static_cast<std::size_t>(range.size()) * stride;
       buffer.resize(per_node * n);
-      std::copy_n(
-        write.begin() + node_size * first, node_size * n, buffer.begin());
-      if (with_mass)
-        std::copy_n(mass.begin() + first, n, buffer.begin() + node_size * n);
+      auto to = buffer.begin();
+      for (const Shared &array : arrays)
+        to = std::copy_n(
+          array.values + array.per_node * first, array.per_node * n, to);
     };
     pack(all, receive[rank]);
     for (unsigned int r = 0; r < n_ranks; ++r)
@@ -474,12 +497,10 @@ namespace geocone
     MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
 
     // Summed in the order of the ranks, so that all get the same to the last bit.
-    std::fill_n(write.begin() + node_size * offset(all.begin),
-                node_size * static_cast<std::size_t>(all.size()) * stride,
-                0.);
-    if (with_mass)
-      std::fill_n(mass.begin() + offset(all.begin),
-                  static_cast<std::size_t>(all.size()) * stride,
+    for (const Shared &array : arrays)
+      std::fill_n(array.values + array.per_node * offset(all.begin),
+                  array.per_node * static_cast<std::size_t>(all.size()) *
+                    stride,
                   0.);
     for (unsigned int r = 0; r < n_ranks; ++r)
       {
@@ -488,11 +509,10 @@ namespace geocone
         const std::size_t first = offset(shared[r].begin),
                           n =
                             static_cast<std::size_t>(shared[r].size()) * stride;
-        for (std::size_t i = 0; i < node_size * n; ++i)
-          write[node_size * first + i] += receive[r][i];
-        if (with_mass)
-          for (std::size_t i = 0; i < n; ++i)
-            mass[first + i] += receive[r][node_size * n + i];
+        const double *from = receive[r].data();
+        for (const Shared &array : arrays)
+          for (std::size_t i = 0; i < array.per_node * n; ++i)
+            array.values[array.per_node * first + i] += *from++;
       }
   }
 

@@ -5,7 +5,6 @@
 #include <geocone/mechanics/mesh_transfer.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 #include <map>
@@ -34,8 +33,6 @@ namespace geocone
           cell_nodes[cell->active_cell_index() * n + i] =
             space.local_node(nodes[i]);
       }
-    if (space.has_b_bar())
-      average_slopes();
 
     const std::size_t n_nodes = space.n_local_nodes();
     read.resize(node_size * n_nodes);
@@ -90,32 +87,6 @@ namespace geocone
       }
     write.fill(0.);
     mass.fill(0.);
-  }
-
-  void
-  MeshTransfer::average_slopes()
-  {
-    const QGauss<dim>           quadrature(space.degree() + 1);
-    std::vector<double>         N(n);
-    std::vector<Tensor<1, dim>> gradient(n);
-    mean_slopes.resize(cell_nodes.size());
-    for (const auto &cell : mesh.own_cells())
-      {
-        Tensor<1, dim> *mean = &mean_slopes[cell->active_cell_index() * n];
-        double          size = 0.;
-        for (unsigned int q = 0; q < quadrature.size(); ++q)
-          {
-            const Point<dim>    &unit    = quadrature.point(q);
-            const Tensor<2, dim> inverse = mesh.inverse_jacobian(cell, unit);
-            const double weight = quadrature.weight(q) / determinant(inverse);
-            size += weight;
-            space.evaluate(cell, unit, N.data(), gradient.data());
-            for (unsigned int i = 0; i < n; ++i)
-              mean[i] += weight * (gradient[i] * inverse);
-          }
-        for (unsigned int i = 0; i < n; ++i)
-          mean[i] /= size;
-      }
   }
 
   bool
@@ -277,33 +248,22 @@ namespace geocone
   }
 
   void
-  MeshTransfer::gather_divergence(const TransferBlock &points,
-                                  BlockScratch        &scratch)
+  MeshTransfer::find_cells(const TransferBlock &points,
+                           unsigned int        *cells) const
   {
-    for (unsigned int k = 0; k < points.n; ++k)
-      {
-        const std::size_t first      = first_of_cell(points, k);
-        double            divergence = 0.;
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int d = 0; d < dim; ++d)
-            divergence += read[node_size * cell_nodes[first + i] + d] *
-                          mean_slopes[first + i][d];
-        scratch.divergence[k] = divergence;
-      }
+    std::copy_n(points.cell, points.n, cells);
+  }
+
+  std::size_t
+  MeshTransfer::n_stored_cells() const
+  {
+    return mesh.triangulation().n_active_cells();
   }
 
   void
-  MeshTransfer::scatter_mean_stress(const TransferBlock &points,
-                                    BlockScratch        &scratch)
+  MeshTransfer::exchange_cells()
   {
-    for (unsigned int k = 0; k < points.n; ++k)
-      {
-        const std::size_t first = first_of_cell(points, k);
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int d = 0; d < dim; ++d)
-            write[node_size * cell_nodes[first + i] + change_of_node + d] +=
-              scratch.mean_stress[k] * mean_slopes[first + i][d];
-      }
+    // The points of a cell are on its rank.
   }
 
   void

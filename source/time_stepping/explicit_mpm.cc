@@ -256,6 +256,14 @@ namespace geocone
       what.gives == Gives::force || what.gives == Gives::all;
     if (gives_force)
       hoop_force = 0.;
+    // Means of the stress in a cell need that of all its points.
+    const bool later = b_bar && gives_force;
+    if (b_bar && what.update.strain)
+      average_in_cells([&](const TransferBlock &points) {
+        transfer->gather(points, scratch);
+        kernels->find_divergence(points, scratch);
+        return scratch.divergence;
+      });
     for (unsigned int g = 0; g < groups.size(); ++g)
       {
         PointArrays           &group = groups[g];
@@ -275,7 +283,10 @@ namespace geocone
                 if (what.update.velocity && affine)
                   transfer->gather_affine(points, scratch);
                 if (what.update.strain && b_bar)
-                  transfer->gather_divergence(points, scratch);
+                  {
+                    kernels->find_divergence(points, scratch);
+                    transfer->average(points, scratch.divergence);
+                  }
                 kernels->update_points(
                   what.update, dt, rule.flip_part(), points, scratch);
               }
@@ -323,30 +334,76 @@ namespace geocone
               }
             if (what.last && group.fading)
               fade_points(points);
-            if (what.gives == Gives::nothing)
-              continue;
-            if (axisymmetric && gives_force)
-              force_around_axis(points);
-            const bool mean_apart = gives_force && b_bar;
-            kernels->prepare_scatter(what.gives != Gives::force,
-                                     gives_force,
-                                     mean_apart,
-                                     points,
-                                     scratch);
-            const bool with_mass = what.gives == Gives::momentum_and_mass ||
-                                   what.gives == Gives::all;
-            if (gives_force)
-              transfer->scatter(points, scratch, with_mass);
-            else
-              transfer->scatter_values(points, scratch, with_mass);
-            if (mean_apart)
-              transfer->scatter_mean_stress(points, scratch);
-            if (affine && what.gives != Gives::force)
-              transfer->scatter_affine(points, scratch);
+            if (what.gives != Gives::nothing && !later)
+              give(what, points);
           }
         if (what.update.strain)
           n_point_steps += group.n_points();
       }
+    if (!later)
+      return;
+    average_in_cells([&](const TransferBlock &points) {
+      find_mean_stress(points);
+      return scratch.mean_stress;
+    });
+    for_each_block([&](const TransferBlock &points) { give(what, points); });
+  }
+
+  void
+  ExplicitMPM::for_each_block(
+    const std::function<void(const TransferBlock &)> &action)
+  {
+    for (unsigned int g = 0; g < groups.size(); ++g)
+      for (unsigned int first = 0; first < groups[g].n_padded();
+           first += PointBlock::capacity)
+        action(block(g, first));
+  }
+
+  void
+  ExplicitMPM::average_in_cells(
+    const std::function<const double *(const TransferBlock &)> &values_at)
+  {
+    transfer->clear_cells();
+    for_each_block([&](const TransferBlock &points) {
+      transfer->add_to_cells(points, values_at(points));
+    });
+    const Stopwatch watch(clock.exchange);
+    transfer->exchange_cells();
+  }
+
+  void
+  ExplicitMPM::find_mean_stress(const TransferBlock &points)
+  {
+    for (unsigned int k = 0; k < points.n; ++k)
+      {
+        scratch.mean_stress[k] = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          scratch.mean_stress[k] +=
+            points.s[place_of_component[d][d]][k] / dim;
+      }
+  }
+
+  void
+  ExplicitMPM::give(const Pass &what, const TransferBlock &points)
+  {
+    const bool force = what.gives == Gives::force || what.gives == Gives::all;
+    const bool mass =
+      what.gives == Gives::momentum_and_mass || what.gives == Gives::all;
+    const bool momentum = what.gives != Gives::force;
+    if (axisymmetric && force)
+      force_around_axis(points);
+    if (b_bar && force)
+      {
+        find_mean_stress(points);
+        transfer->average(points, scratch.mean_stress);
+      }
+    kernels->prepare_scatter(momentum, force, b_bar && force, points, scratch);
+    if (force)
+      transfer->scatter(points, scratch, mass);
+    else
+      transfer->scatter_values(points, scratch, mass);
+    if (affine && momentum)
+      transfer->scatter_affine(points, scratch);
   }
 
   void

@@ -49,11 +49,11 @@ namespace geocone
     void
     scatter_affine(const TransferBlock &points, BlockScratch &scratch) override;
     void
-    gather_divergence(const TransferBlock &points,
-                      BlockScratch        &scratch) override;
+    find_cells(const TransferBlock &points, unsigned int *cells) const override;
     void
-    scatter_mean_stress(const TransferBlock &points,
-                        BlockScratch        &scratch) override;
+    exchange_cells() override;
+    std::size_t
+    n_stored_cells() const override;
 
     void
     exchange(const bool with_mass) override;
@@ -115,6 +115,17 @@ namespace geocone
     /** Functions stored of a column. */
     std::size_t
     column_size() const;
+
+    /** Values of all stored nodes, so many per node. */
+    struct Shared
+    {
+      double      *values;
+      unsigned int per_node;
+    };
+
+    /** Sums arrays over the ranks that share columns. Collective. */
+    void
+    exchange(const std::vector<Shared> &arrays);
 
     /** The place of a function among the stored ones. @pre it is one of them */
     std::size_t

@@ -75,10 +75,25 @@ namespace geocone
                    const bool           with_mass) = 0;
     virtual void
     scatter_affine(const TransferBlock &points, BlockScratch &scratch) = 0;
+    /** Numbers of the cells of the points, below n_stored_cells(). */
     virtual void
-    gather_divergence(const TransferBlock &points, BlockScratch &scratch) = 0;
+    find_cells(const TransferBlock &points, unsigned int *cells) const = 0;
+    /** @} */
+
+    /** @name Means over the points of a cell, weighted by volume (B-bar) */
+    /** @{ */
+    void
+    clear_cells();
+    void
+    add_to_cells(const TransferBlock &points, const double *values);
+    /** After exchange_cells(): replaces the values of points by means. */
+    void
+    average(const TransferBlock &points, double *values) const;
+    /** Sums over the ranks. Collective. */
     virtual void
-    scatter_mean_stress(const TransferBlock &points, BlockScratch &scratch) = 0;
+    exchange_cells() = 0;
+    virtual std::size_t
+    n_stored_cells() const = 0;
     /** @} */
 
     /**
@@ -165,6 +180,10 @@ namespace geocone
     {
       return read.size() / node_size;
     }
+
+  protected:
+    /** Volume, and volume times value, of the points of each cell. */
+    std::vector<double> sums_of_cells;
   };
 } // namespace geocone
 

@@ -67,11 +67,11 @@ namespace geocone
     void
     scatter_affine(const TransferBlock &points, BlockScratch &scratch) override;
     void
-    gather_divergence(const TransferBlock &points,
-                      BlockScratch        &scratch) override;
+    find_cells(const TransferBlock &points, unsigned int *cells) const override;
     void
-    scatter_mean_stress(const TransferBlock &points,
-                        BlockScratch        &scratch) override;
+    exchange_cells() override;
+    std::size_t
+    n_stored_cells() const override;
 
     void
     exchange(const bool with_mass) override;
@@ -129,17 +129,6 @@ namespace geocone
     void
     evaluate(const PointArrays &group, Functions &functions) const;
 
-    /** Evaluates mean_slopes. */
-    void
-    average_slopes();
-
-    /** Where cell_nodes and mean_slopes of the cell of a point begin. */
-    std::size_t
-    first_of_cell(const TransferBlock &points, const unsigned int k) const
-    {
-      return n * static_cast<std::size_t>(points.cell[k]);
-    }
-
     /** Those of a point of a block. */
     PointFunctions
     functions_at(const TransferBlock &points, const unsigned int k) const;
@@ -160,12 +149,8 @@ namespace geocone
     const CellSearch      search;
 
     std::vector<unsigned int> cell_nodes; ///< n per active cell index
-
-    /** With B-bar: the means of the gradients in each cell, n per active cell
-     *  index (1/m). */
-    std::vector<dealii::Tensor<1, dim>> mean_slopes;
-    std::vector<Functions>              functions; ///< per group
-    Vector                              exchanged;
+    std::vector<Functions>    functions;  ///< per group
+    Vector                    exchanged;
   };
 } // namespace geocone
 

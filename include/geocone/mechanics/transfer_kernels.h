@@ -69,8 +69,8 @@ namespace geocone
     alignas(32) double l_zz[size];
     alignas(32) double hoop_force[size];
 
-    /** With B-bar: the mean divergence of v in each point's cell (1/s), and
-     *  what the mean stress of the point exerts on it, -V tr s/dim (J/m). */
+    /** With B-bar, at each point or its mean over the points of the cell: the divergence
+     *  of v (1/s), and the mean stress tr s/dim (Pa). */
     alignas(32) double divergence[size];
     alignas(32) double mean_stress[size];
     alignas(32) double work[size], wave_modulus[size];
@@ -172,17 +172,6 @@ namespace geocone
     void (*scatter_affine[4])(const GridView &,
                               const TransferBlock &,
                               BlockScratch &);
-
-    /** The mean divergence of v in the cell of each point, sum_i v_i . g_i with g_i
-     *  the mean of grad N_i. */
-    void (*gather_divergence[4])(const GridView &,
-                                 const TransferBlock &,
-                                 BlockScratch &);
-
-    /** Its transpose: adds BlockScratch::mean_stress g_i to the forces. */
-    void (*scatter_mean_stress[4])(const GridView &,
-                                   const TransferBlock &,
-                                   BlockScratch &);
     /** @} */
 
     /**
@@ -197,6 +186,9 @@ namespace geocone
                           const TransferBlock &,
                           BlockScratch &);
 
+    /** BlockScratch::divergence of the gathered slopes. */
+    void (*find_divergence)(const TransferBlock &, BlockScratch &);
+
     /** B-bar: l <- l + (dt BlockScratch::divergence - tr l)/dim I. */
     void (*replace_divergence)(const double dt,
                                const TransferBlock &,
@@ -210,10 +202,10 @@ namespace geocone
     void (*bound)(const TransferBlock &, PassSums &);
 
     /** The values that scatter() takes: (m v, -V s), and the hoop force; parts of
-     *  it, or all. With B-bar the mean stress is apart, for scatter_mean_stress(). */
+     *  it, or all. With B-bar s has the mean stress of the cell. */
     void (*prepare_scatter)(const bool momentum,
                             const bool force,
-                            const bool mean_apart,
+                            const bool mean_of_cell,
                             const TransferBlock &,
                             BlockScratch &);
   };

@@ -32,11 +32,7 @@ namespace geocone
       double N[dim][4], dN[dim][4];
       P      last;
 
-      /** @param mean over the cell of the point, instead of at the point */
-      Nodes(const GridView      &grid,
-            const TransferBlock &points,
-            const unsigned       k,
-            const bool           mean = false)
+      Nodes(const GridView &grid, const TransferBlock &points, const unsigned k)
       {
         for (unsigned int d = 0; d < dim; ++d)
           {
@@ -50,23 +46,10 @@ namespace geocone
               axis.coefficients + 4 * (2 * p + 1) * axis.type[i];
             P value = P::load(c + 4 * p);
             P slope = P::load(c + 4 * (2 * p));
-            if (mean)
-              {
-                value = value * P(1. / (p + 1));
-                slope = slope * P(1. / p);
-                for (int power = 0; power < p; ++power)
-                  value += P::load(c + 4 * power) * P(1. / (power + 1));
-                for (int power = 0; power < p - 1; ++power)
-                  slope +=
-                    P::load(c + 4 * (p + 1 + power)) * P(1. / (power + 1));
-              }
-            else
-              {
-                for (int power = p - 1; power >= 0; --power)
-                  value = value * xi + P::load(c + 4 * power);
-                for (int power = 2 * p - 1; power >= p + 1; --power)
-                  slope = slope * xi + P::load(c + 4 * power);
-              }
+            for (int power = p - 1; power >= 0; --power)
+              value = value * xi + P::load(c + 4 * power);
+            for (int power = 2 * p - 1; power >= p + 1; --power)
+              slope = slope * xi + P::load(c + 4 * power);
             value.store(N[d]);
             slope.store(dN[d]);
             first += (i - axis.first) * grid.stride[d];
@@ -333,49 +316,17 @@ namespace geocone
         }
     }
 
-    template <int p>
     static void
-    gather_divergence(const GridView      &view,
-                      const TransferBlock &points,
-                      BlockScratch        &scratch)
+    find_divergence(const TransferBlock &points, BlockScratch &scratch)
     {
-      const GridView grid = view; // a copy: stores cannot change it
       for (unsigned int k = 0; k < points.n; ++k)
         {
-          const Nodes<p> at(grid, points, k, true);
-          const auto     all =
-            sum<p, dim - 1, true>(grid, at.N, at.dN, at.read(grid));
+          const double *slopes =
+            scratch.gathered + BlockScratch::n_gathered * k + node_size;
           double divergence = 0.;
           for (unsigned int d = 0; d < dim; ++d)
-            {
-              double slope[4];
-              all.slope[d].store(slope);
-              divergence += slope[d];
-            }
+            divergence += slopes[4 * d + d];
           scratch.divergence[k] = divergence;
-        }
-    }
-
-    template <int p>
-    static void
-    scatter_mean_stress(const GridView      &view,
-                        const TransferBlock &points,
-                        BlockScratch        &scratch)
-    {
-      constexpr unsigned int forces = change_of_node % 4;
-      const GridView         grid   = view; // a copy: stores cannot change it
-      for (unsigned int k = 0; k < points.n; ++k)
-        {
-          const Nodes<p> at(grid, points, k, true);
-          P              b[dim];
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              double along[4]   = {0., 0., 0., 0.};
-              along[forces + d] = scratch.mean_stress[k];
-              b[d]              = P::load(along);
-            }
-          add<p, dim - 1, false, true>(
-            grid, at, P(0.), b, at.write(grid) + change_of_node - forces);
         }
     }
 
@@ -538,7 +489,7 @@ namespace geocone
     static void
     prepare_scatter(const bool           momentum,
                     const bool           force,
-                    const bool           mean_apart,
+                    const bool           mean_of_cell,
                     const TransferBlock &points,
                     BlockScratch        &scratch)
     {
@@ -558,14 +509,13 @@ namespace geocone
                 out[4 + 4 * d + forces + c] =
                   -V * points.s[place_of_component[c][d]][k];
             }
-          if (mean_apart)
+          if (mean_of_cell)
             {
-              double mean = 0.;
+              double change = -V * scratch.mean_stress[k];
               for (unsigned int d = 0; d < dim; ++d)
-                mean -= V * points.s[place_of_component[d][d]][k] / dim;
+                change += V * points.s[place_of_component[d][d]][k] / dim;
               for (unsigned int d = 0; d < dim; ++d)
-                out[4 + 4 * d + forces + d] -= mean;
-              scratch.mean_stress[k] = mean;
+                out[4 + 4 * d + forces + d] += change;
             }
         }
     }
@@ -601,15 +551,8 @@ namespace geocone
              nullptr,
              &Loops::template scatter_affine<2>,
              &Loops::template scatter_affine<3>},
-            {nullptr,
-             &Loops::template gather_divergence<1>,
-             &Loops::template gather_divergence<2>,
-             &Loops::template gather_divergence<3>},
-            {nullptr,
-             &Loops::template scatter_mean_stress<1>,
-             &Loops::template scatter_mean_stress<2>,
-             &Loops::template scatter_mean_stress<3>},
             &Loops::update_points,
+            &Loops::find_divergence,
             &Loops::replace_divergence,
             &Loops::finish,
             &Loops::bound,

@@ -279,6 +279,25 @@ namespace geocone
     void
     pass(const Pass &what, const double dt);
 
+    /** What a pass gives to the nodes, of a block. */
+    void
+    give(const Pass &what, const TransferBlock &points);
+
+    void
+    for_each_block(const std::function<void(const TransferBlock &)> &action);
+
+    /** @name With B-bar */
+    /** @{ */
+    /** Sums values of points over the cells. Collective. */
+    void
+    average_in_cells(
+      const std::function<const double *(const TransferBlock &)> &values_at);
+
+    /** BlockScratch::mean_stress at the points. */
+    void
+    find_mean_stress(const TransferBlock &points);
+    /** @} */
+
     /** @name Around an axis: what the strain out of the plane is, in a pass after
      *  points may have moved, and the force by the stress there */
     /** @{ */
