@@ -16,6 +16,8 @@
 #include <deal.II/fe/mapping_fe.h>
 #include <deal.II/fe/mapping_q1.h>
 
+#include <deal.II/grid/grid_tools.h>
+
 #include <filesystem>
 #include <numeric>
 
@@ -196,6 +198,29 @@ namespace geocone
       place[c] = std::upper_bound(lines[c].begin(), lines[c].end(), centre[c]) -
                  lines[c].begin() - 1;
     return place;
+  }
+
+  void
+  BackgroundMesh::move_grid(const std::array<std::vector<double>, dim> &to)
+  {
+    GridTools::transform(
+      [&](const Point<dim> &x) {
+        Point<dim> moved;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            // The nearest line is the vertex's own.
+            const std::vector<double> &from = lines[d];
+            std::size_t                i =
+              std::lower_bound(from.begin(), from.end(), x[d]) - from.begin();
+            if (i == from.size() ||
+                (i > 0 && x[d] - from[i - 1] < from[i] - x[d]))
+              --i;
+            moved[d] = to[d][i];
+          }
+        return moved;
+      },
+      *tria);
+    lines = to;
   }
 
   Point<dim>

@@ -147,6 +147,25 @@ namespace geocone
     layout = std::make_shared<Utilities::MPI::Partitioner>(
       expand(owned), expand(active), mesh->triangulation().get_communicator());
 
+    place_nodes();
+  }
+
+  void
+  Space::follow_grid()
+  {
+    if (is_spline())
+      {
+        splines.clear();
+        for (unsigned int c = 0; c < dim; ++c)
+          splines.emplace_back(p, mesh->grid()[c]);
+      }
+    place_nodes();
+  }
+
+  void
+  Space::place_nodes()
+  {
+    std::vector<types::global_dof_index> nodes;
     positions.resize(n_local_nodes());
     for (const auto &cell : mesh->triangulation().active_cell_iterators())
       if (!cell->is_artificial())

@@ -6,6 +6,7 @@
 #include <geocone/base/over_ranks.h>
 #include <geocone/mechanics/moving_conditions.h>
 
+#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -397,6 +398,19 @@ namespace geocone
       for (Side &side : *sides)
         for (MovingBoundary::Line &line : side.boundary.lines)
           row(line.a, line.b);
+  }
+
+  std::optional<std::pair<Point<dim>, Point<dim>>>
+  MovingConditions::box_of(const BoundaryCondition &condition) const
+  {
+    std::vector<Point<dim>> ends;
+    for (const Side &side : supports)
+      if (scene.dirichlet.list[side.condition].get() == &condition)
+        for (const MovingBoundary::Line &line : side.boundary.lines)
+          ends.insert(ends.end(), {line.a, line.b});
+    if (ends.empty())
+      return std::nullopt;
+    return BoundingBox<dim>(ends).get_boundary_points();
   }
 
   void

@@ -169,7 +169,10 @@ namespace geocone
       check_size();
     space.prepare(mesh, method);
     if (method.is_mpm())
-      stepper = &implicit_mpm;
+      {
+        stepper = &implicit_mpm;
+        implicit_mpm.give_mesh(mesh, space);
+      }
     else
       stepper = &implicit_fem;
     std::vector<std::string> warnings = {

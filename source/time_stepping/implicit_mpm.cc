@@ -54,6 +54,12 @@ namespace geocone
       ": where Newton's method starts. Grid velocity: that of the last step; "
       "best for slow loading. Particle velocity: vL, with the elastic tangent "
       "first. Automatic: the former, and the latter if it fails.");
+    add_parameter("Grid follows",
+                  grid_follows,
+                  "A condition that is imposed on averages or segments of a "
+                  "side: between steps the lines of the grid go with the side, "
+                  "and those beyond it are stretched up to the ends of the "
+                  "grid, which stay. Empty: the grid stays.");
     add_parameter("Largest move",
                   largest_move,
                   "A step in which a particle would move farther than so many "
@@ -173,6 +179,8 @@ namespace geocone
     force.reinit(space->partitioner());
     if (space->is_spline() && advection != Advection::none)
       ghost_places.emplace(*mesh, *space);
+    if (!grid_follows.empty())
+      begin_to_follow();
     if (rule.is_affine())
       for (unsigned int p = 0; p < points.n_points(); ++p)
         points.affine[p] = scene->initial_velocity.gradient(
@@ -200,6 +208,9 @@ namespace geocone
                         "'Mesh/Box'");
     {
       TimerOutput::Scope scope(timer, "transfer");
+      if (nodes_moved)
+        constraints = std::make_unique<Constraints>(*scene, *mesh, *space);
+      nodes_moved = false;
       lumped_mass.reinit(space->partitioner());
       velocity_L.reinit(space->partitioner());
       for_each_point(points,
@@ -251,6 +262,34 @@ namespace geocone
       problem->add(*absorbing);
     system->set_pattern(*problem, timer);
     begun = true;
+  }
+
+  void
+  ImplicitMPM::begin_to_follow()
+  {
+    if (advection == Advection::none)
+      throw InputError(FollowingGrid::parameter,
+                       grid_follows,
+                       "nothing where particles stay",
+                       "leave it out, or let particles move by 'Material point "
+                       "method/Advection'");
+    if (obstacles->exists() || absorbing->exists())
+      throw InputError(FollowingGrid::parameter,
+                       grid_follows,
+                       "nothing with obstacles or absorbing sides",
+                       "leave it out");
+    following.emplace(
+      grid_follows, *scene, *moving, *movable_mesh, *movable_space);
+  }
+
+  void
+  ImplicitMPM::follow_side()
+  {
+    following->follow(*moving);
+    particles.follow_mesh();
+    if (ghost_places)
+      ghost_places.emplace(*mesh, *space);
+    nodes_moved = true;
   }
 
   std::vector<GhostStencil>
@@ -532,6 +571,8 @@ namespace geocone
     for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
       had_mass[i] = constraints->has_mass(i);
     kinematics.velocity = v;
+    if (following)
+      follow_side();
     particles.sort(points);
     begun = false;
 
@@ -652,15 +693,17 @@ namespace geocone
           particles.forget(material); // they will not be again
         fading.load(archive, *mesh, *space);
       }
+    StateRow row = archive.read_row("sides");
+    moving->state(row);
+    obstacles->state(row);
+    if (following)
+      follow_side();
     particles.load(archive, points);
     Vector mass(velocity_L);
     load_nodes(archive, "had mass", *mesh, *space, mass);
     had_mass.resize(mass.locally_owned_size());
     for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
       had_mass[i] = mass.local_element(i) > 0.;
-    StateRow row = archive.read_row("sides");
-    moving->state(row);
-    obstacles->state(row);
     begun = false;
   }
 } // namespace geocone

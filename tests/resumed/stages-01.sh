@@ -37,3 +37,6 @@ resumed undrained ../undrained/biaxial.prm
 resumed raised ../raised/softening_square.prm
 resumed sides ../../tests/explicit/traction_wave-01.prm 'Loading/shake/Duration = 0.2' \
   'Output/Report for tests = none' 'Output/Expectations ='
+# A grid that follows a side.
+resumed following ../../tests/mpm/following_grid-01.prm 'Output/Report for tests = none' \
+  'Output/Expectations ='

@@ -129,6 +129,10 @@ namespace geocone
       return lines;
     }
 
+    /** Moves the lines of a tensor grid, of which there are as many as before. */
+    void
+    move_grid(const std::array<std::vector<double>, dim> &to);
+
     /** The column and the row of a cell of a tensor grid. */
     std::array<unsigned int, dim>
     place_in_grid(const Cell &cell) const;

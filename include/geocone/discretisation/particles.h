@@ -74,6 +74,13 @@ namespace geocone
     load(const Archive &archive, MaterialPoints &points);
     /** @} */
 
+    /** After the mesh has moved, before sort(). */
+    void
+    follow_mesh()
+    {
+      search = std::make_unique<CellSearch>(*mesh);
+    }
+
     /** Particles that left the mesh, of all ranks. */
     unsigned int
     n_lost() const

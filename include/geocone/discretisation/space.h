@@ -67,6 +67,10 @@ namespace geocone
                       const bool    has_grid,
                       const Method &method);
 
+    /** After BackgroundMesh::move_grid(): functions and nodes go with the lines. */
+    void
+    follow_grid();
+
     using Cell = BackgroundMesh::Cell;
 
     /** Name of the element: P1 ... Q3, B-spline 2, B-spline 3. */
@@ -193,6 +197,10 @@ namespace geocone
     /** A finite element of deal.II. @return the nodes that this rank owns */
     dealii::IndexSet
     prepare_finite_element(const BackgroundMesh &mesh);
+
+    /** Finds the positions of the nodes. */
+    void
+    place_nodes();
 
     /** Splines on the tensor grid. @return the nodes that this rank owns */
     dealii::IndexSet

@@ -58,6 +58,11 @@ namespace geocone
     void
     move(const Vector &v, const double h, const double t);
 
+    /** The corners of the box around the sides that a condition holds; nothing if
+     *  it holds none. */
+    std::optional<std::pair<dealii::Point<dim>, dealii::Point<dim>>>
+    box_of(const BoundaryCondition &condition) const;
+
     /** Whether the function of each local node is not zero somewhere on a side that
      *  is held or loaded; empty without such sides. Collective. */
     std::vector<bool>

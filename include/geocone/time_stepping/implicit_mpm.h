@@ -10,6 +10,7 @@
 #include <geocone/mechanics/moving_conditions.h>
 #include <geocone/mechanics/point_functions.h>
 #include <geocone/time_stepping/fading_forces.h>
+#include <geocone/time_stepping/following_grid.h>
 #include <geocone/time_stepping/midpoint_rule.h>
 #include <geocone/time_stepping/time_stepper.h>
 
@@ -107,6 +108,15 @@ namespace geocone
       return particles.n_lost();
     }
 
+    /** What it may move, where the grid follows a side. To be called before
+     *  prepare(). */
+    void
+    give_mesh(BackgroundMesh &mesh, Space &space)
+    {
+      movable_mesh  = &mesh;
+      movable_space = &space;
+    }
+
     /** Where its particles come from. */
     Seeding &
     seeding()
@@ -149,6 +159,14 @@ namespace geocone
     /** Stencils of ghost stiffness for the points as they are. Collective. */
     std::vector<GhostStencil>
     ghost_stencils(const MaterialPoints &points);
+
+    /** @throws InputError where the grid cannot follow */
+    void
+    begin_to_follow();
+
+    /** Lets the grid go where its side is. Collective. */
+    void
+    follow_side();
 
     /** Refuses what obstacles cannot do with particles. @throws InputError */
     void
@@ -271,6 +289,12 @@ namespace geocone
     double consistent_mass = 0.;
     double ghost_part      = 1e-5; ///< gamma of GhostStiffness
     double largest_move    = 3.;
+
+    std::string                  grid_follows; ///< a condition, or nothing
+    std::optional<FollowingGrid> following;
+    BackgroundMesh              *movable_mesh  = nullptr;
+    Space                       *movable_space = nullptr;
+    bool nodes_moved = false; ///< since the constraints were made
 
     Particles particles;
 
