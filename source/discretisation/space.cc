@@ -59,8 +59,7 @@ namespace geocone
                   "Against locking, for Q1 to Q3 and splines: the volumetric "
                   "strain of a cell is its mean over the cell's points; of Q2 "
                   "and Q3, only with FEM, its projection onto polynomials of "
-                  "one "
-                  "degree less.");
+                  "one degree less.");
   }
 
   std::string

@@ -22,6 +22,17 @@ namespace geocone
 
   namespace
   {
+    /** @name What a pass does to the points */
+    /** @{ */
+    //                                        strain velocity position
+    constexpr Update nothing               = {false, false, false};
+    constexpr Update strain                = {true, false, false};
+    constexpr Update velocity              = {false, true, false};
+    constexpr Update strain_and_position   = {true, false, true};
+    constexpr Update velocity_and_position = {false, true, true};
+    constexpr Update everything            = {true, true, true};
+    /** @} */
+
     /** Adds the wall time of its scope to a number of seconds. */
     class Stopwatch
     {
@@ -249,16 +260,15 @@ namespace geocone
   }
 
   void
-  ExplicitMPM::pass(const Pass &what, const double dt)
+  ExplicitMPM::pass(const Update update, const Gives gives, const double dt)
   {
     const Stopwatch watch(clock.passes);
-    const bool      gives_force =
-      what.gives == Gives::force || what.gives == Gives::all;
+    const bool      gives_force = gives == Gives::force || gives == Gives::all;
     if (gives_force)
       hoop_force = 0.;
     // Means of the stress in a cell need that of all its points.
     const bool later = b_bar && gives_force;
-    if (b_bar && what.update.strain)
+    if (b_bar && update.strain)
       average_in_cells([&](const TransferBlock &points) {
         transfer->gather(points, scratch);
         kernels->find_divergence(points, scratch);
@@ -274,28 +284,28 @@ namespace geocone
              first += PointBlock::capacity)
           {
             const TransferBlock points = block(g, first);
-            if (what.reads)
+            if (update.strain || update.velocity || update.position)
               {
-                if (what.gradients)
+                if (update.strain)
                   transfer->gather(points, scratch);
                 else
                   transfer->gather_values(points, scratch);
-                if (what.update.velocity && affine)
+                if (update.velocity && affine)
                   transfer->gather_affine(points, scratch);
-                if (what.update.strain && b_bar)
+                if (update.strain && b_bar)
                   {
                     kernels->find_divergence(points, scratch);
                     transfer->average(points, scratch.divergence);
                   }
                 kernels->update_points(
-                  what.update, dt, rule.flip_part(), points, scratch);
+                  update, dt, rule.flip_part(), points, scratch);
               }
-            if (what.update.strain)
+            if (update.strain)
               {
                 if (b_bar)
                   kernels->replace_divergence(dt, points, scratch);
                 if (axisymmetric)
-                  strain_around_axis(what, dt, points);
+                  strain_around_axis(update, dt, points);
                 for (unsigned int k = 0; k < group.n_history(); ++k)
                   history[k] = group.history[k] + first;
                 std::array<const double *, dim * dim> l;
@@ -313,7 +323,7 @@ namespace geocone
                             counts);
                 kernels->finish(points, scratch, sums);
               }
-            if (what.update.position)
+            if (update.position)
               {
                 PassSums here;
                 kernels->bound(points, here);
@@ -332,12 +342,13 @@ namespace geocone
                   }
                 sums.add(here);
               }
-            if (what.last && group.fading)
+            // The pass that moves points is the last of a step.
+            if (update.position && group.fading)
               fade_points(points);
-            if (what.gives != Gives::nothing && !later)
-              give(what, points);
+            if (gives != Gives::nothing && !later)
+              give(gives, points);
           }
-        if (what.update.strain)
+        if (update.strain)
           n_point_steps += group.n_points();
       }
     if (!later)
@@ -346,7 +357,7 @@ namespace geocone
       find_mean_stress(points);
       return scratch.mean_stress;
     });
-    for_each_block([&](const TransferBlock &points) { give(what, points); });
+    for_each_block([&](const TransferBlock &points) { give(gives, points); });
   }
 
   void
@@ -378,18 +389,16 @@ namespace geocone
       {
         scratch.mean_stress[k] = 0.;
         for (unsigned int d = 0; d < dim; ++d)
-          scratch.mean_stress[k] +=
-            points.s[place_of_component[d][d]][k] / dim;
+          scratch.mean_stress[k] += points.s[place_of_component[d][d]][k] / dim;
       }
   }
 
   void
-  ExplicitMPM::give(const Pass &what, const TransferBlock &points)
+  ExplicitMPM::give(const Gives gives, const TransferBlock &points)
   {
-    const bool force = what.gives == Gives::force || what.gives == Gives::all;
-    const bool mass =
-      what.gives == Gives::momentum_and_mass || what.gives == Gives::all;
-    const bool momentum = what.gives != Gives::force;
+    const bool force = gives == Gives::force || gives == Gives::all;
+    const bool mass  = gives == Gives::momentum_and_mass || gives == Gives::all;
+    const bool momentum = gives != Gives::force;
     if (axisymmetric && force)
       force_around_axis(points);
     if (b_bar && force)
@@ -407,7 +416,7 @@ namespace geocone
   }
 
   void
-  ExplicitMPM::strain_around_axis(const Pass          &what,
+  ExplicitMPM::strain_around_axis(const Update         update,
                                   const double         dt,
                                   const TransferBlock &points)
   {
@@ -415,7 +424,7 @@ namespace geocone
       {
         const double moved =
           dt * scratch.gathered[BlockScratch::n_gathered * k];
-        const double r  = points.x[0][k] - (what.update.position ? moved : 0.);
+        const double r  = points.x[0][k] - (update.position ? moved : 0.);
         scratch.l_zz[k] = moved / std::max(r, least_radius);
       }
   }
@@ -508,12 +517,7 @@ namespace geocone
   ExplicitMPM::start_nodes()
   {
     const bool stress_first = order == Order::usf;
-    pass({false,
-          false,
-          {false, false, false},
-          stress_first ? Gives::momentum_and_mass : Gives::all,
-          false},
-         0.);
+    pass(nothing, stress_first ? Gives::momentum_and_mass : Gives::all, 0.);
     const Stopwatch watch(clock.exchange);
     transfer->exchange(true);
   }
@@ -591,18 +595,18 @@ namespace geocone
     if (order == Order::usl)
       {
         accelerate(false, true);
-        pass({true, true, {true, true, true}, gives(Gives::all), true}, dt);
+        pass(everything, gives(Gives::all), dt);
       }
     else if (order == Order::musl)
       {
         accelerate(false, false);
-        pass({true, false, {false, true, false}, Gives::momentum, false}, dt);
+        pass(velocity, Gives::momentum, dt);
         exchange(false);
         {
           const Stopwatch watch(clock.grid);
           nodes->velocity_after(at_nodes);
         }
-        pass({true, true, {true, false, true}, gives(Gives::all), true}, dt);
+        pass(strain_and_position, gives(Gives::all), dt);
       }
     else
       {
@@ -610,15 +614,10 @@ namespace geocone
           const Stopwatch watch(clock.grid);
           nodes->velocity_before(t);
         }
-        pass({true, true, {true, false, false}, Gives::force, false}, dt);
+        pass(strain, Gives::force, dt);
         exchange(false);
         accelerate(true, true);
-        pass({true,
-              false,
-              {false, true, true},
-              gives(Gives::momentum_and_mass),
-              true},
-             dt);
+        pass(velocity_and_position, gives(Gives::momentum_and_mass), dt);
       }
     if (gives_next)
       exchange(true);

@@ -238,16 +238,6 @@ namespace geocone
       all
     };
 
-    /** A pass over all points. */
-    struct Pass
-    {
-      bool   reads; ///< whether nodes give anything to the points
-      bool   gradients;
-      Update update;
-      Gives  gives;
-      bool   last; ///< of the step: fading points fade
-    };
-
     void
     check_parameters() const;
 
@@ -276,12 +266,13 @@ namespace geocone
     TransferBlock
     block(const unsigned int group, const unsigned int first);
 
+    /** A pass over all points, which take from the nodes, and give to them. */
     void
-    pass(const Pass &what, const double dt);
+    pass(const Update update, const Gives gives, const double dt);
 
     /** What a pass gives to the nodes, of a block. */
     void
-    give(const Pass &what, const TransferBlock &points);
+    give(const Gives gives, const TransferBlock &points);
 
     void
     for_each_block(const std::function<void(const TransferBlock &)> &action);
@@ -302,7 +293,7 @@ namespace geocone
      *  points may have moved, and the force by the stress there */
     /** @{ */
     void
-    strain_around_axis(const Pass          &what,
+    strain_around_axis(const Update         update,
                        const double         dt,
                        const TransferBlock &points);
     void
