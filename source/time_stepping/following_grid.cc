@@ -58,12 +58,22 @@ namespace geocone
                      ? x
                      : fixed + (x - fixed) * (to - fixed) / (from - fixed);
         };
-        if ((side.first[d] > begin && !(now.first[d] > begin)) ||
-            (side.second[d] < end && !(now.second[d] < end)))
+        // What lies inside the grid stays inside, what lies on its end stays there.
+        const double small = 1e-9 * (end - begin);
+        const auto   stays =
+          [&](const double from, const double to, const double at) {
+            return std::abs(from - at) > small ? (to - at) * (from - at) > 0.
+                                               : std::abs(to - at) <= small;
+          };
+        if (!stays(side.first[d], now.first[d], begin) ||
+            !stays(side.second[d], now.second[d], end))
           throw StepFailure(
             "the side of '" + condition->name +
-            "', which the grid follows, has come to the end of the grid\n"
-            "  remedy:  end the loading earlier, or enlarge 'Mesh/Box'");
+            "', which the grid follows, has come to an end of the grid, or "
+            "leaves one\n"
+            "  remedy:  enlarge 'Mesh/Box', so that there is room on both "
+            "sides "
+            "of it, or end the loading earlier");
         for (double &x : to[d])
           if (x < side.first[d])
             x = stretched(x, begin, side.first[d], now.first[d]);
