@@ -41,7 +41,9 @@ namespace geocone
                        "explicit MPM",
                        "leave the last nodes out by a Box, or set "
                        "Discretisation/Method = MPM");
-    coefficient.update_ghost_values();
+    // Those that stay zero are read as well.
+    for (Vector *vector : {&tractions, &coefficient, &incoming})
+      vector->update_ghost_values();
   }
 
   void
