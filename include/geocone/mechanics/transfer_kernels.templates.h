@@ -509,14 +509,16 @@ namespace geocone
                 out[4 + 4 * d + forces + c] =
                   -V * points.s[place_of_component[c][d]][k];
             }
-          if (mean_of_cell)
-            {
-              double change = -V * scratch.mean_stress[k];
-              for (unsigned int d = 0; d < dim; ++d)
-                change += V * points.s[place_of_component[d][d]][k] / dim;
-              for (unsigned int d = 0; d < dim; ++d)
-                out[4 + 4 * d + forces + d] += change;
-            }
+        }
+      for (unsigned int k = 0; k < points.n && mean_of_cell; ++k)
+        {
+          const double V      = points.volume[k];
+          double       change = -V * scratch.mean_stress[k];
+          for (unsigned int d = 0; d < dim; ++d)
+            change += V * points.s[place_of_component[d][d]][k] / dim;
+          double *out = scratch.given + BlockScratch::n_given * k;
+          for (unsigned int d = 0; d < dim; ++d)
+            out[4 + 4 * d + forces + d] += change;
         }
     }
   };
