@@ -130,9 +130,8 @@ namespace geocone
     if (dim == 3)
       n_nodes_per_cell = simplicial ? n_nodes_per_cell * (p + 3) / 3
                                     : n_nodes_per_cell * (p + 1);
-    const IndexSet owned = kind >= Element::spline_2
-                             ? prepare_splines(*mesh)
-                             : prepare_finite_element(*mesh);
+    const IndexSet owned =
+      is_spline() ? prepare_splines(*mesh) : prepare_finite_element(*mesh);
 
     // Only the nodes of own cells are needed, not those of all ghost cells.
     IndexSet                             active(owned.size());

@@ -411,7 +411,7 @@ namespace geocone
   void
   CartesianTransfer::exchange_cells()
   {
-    exchange({{sums_of_cells.data(), 2}});
+    sum_over_ranks({{sums_of_cells.data(), 2}});
   }
 
   void
@@ -420,11 +420,11 @@ namespace geocone
     std::vector<Shared> arrays = {{write.data(), node_size}};
     if (with_mass)
       arrays.push_back({mass.data(), 1});
-    exchange(arrays);
+    sum_over_ranks(arrays);
   }
 
   void
-  CartesianTransfer::exchange(const std::vector<Shared> &arrays)
+  CartesianTransfer::sum_over_ranks(const std::vector<Shared> &arrays)
   {
     if (n_ranks == 1)
       return;
@@ -553,6 +553,7 @@ namespace geocone
   {
     return read.memory_consumption() + write.memory_consumption() +
            mass.memory_consumption() +
+           sums_of_cells.capacity() * sizeof(double) +
            (count.capacity() + order.capacity()) * sizeof(unsigned int);
   }
 

@@ -26,16 +26,14 @@ namespace geocone
   }
 
   void
-  GridTransfer::average(const TransferBlock &points, double *values) const
+  GridTransfer::average(const TransferBlock &points, double *means) const
   {
     unsigned int cells[BlockScratch::size];
     find_cells(points, cells);
     for (unsigned int k = 0; k < points.n; ++k)
       {
         const double *from = &sums_of_cells[2 * std::size_t(cells[k])];
-        // Points without volume fill up the last block.
-        if (from[0] > 0.)
-          values[k] = from[1] / from[0];
+        means[k]           = from[0] > 0. ? from[1] / from[0] : 0.;
       }
   }
 } // namespace geocone

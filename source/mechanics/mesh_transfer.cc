@@ -261,12 +261,6 @@ namespace geocone
   }
 
   void
-  MeshTransfer::exchange_cells()
-  {
-    // The points of a cell are on its rank.
-  }
-
-  void
   MeshTransfer::exchange(const bool with_mass)
   {
     if (Utilities::MPI::n_mpi_processes(comm) == 1)
@@ -303,7 +297,8 @@ namespace geocone
   MeshTransfer::memory() const
   {
     std::size_t bytes = read.memory_consumption() + write.memory_consumption() +
-                        mass.memory_consumption();
+                        mass.memory_consumption() +
+                        sums_of_cells.capacity() * sizeof(double);
     for (const Functions &at : functions)
       {
         bytes += at.nodes.capacity() * sizeof(unsigned int) +

@@ -400,7 +400,7 @@ namespace geocone
           row(line.a, line.b);
   }
 
-  std::optional<std::pair<Point<dim>, Point<dim>>>
+  std::pair<Point<dim>, Point<dim>>
   MovingConditions::box_of(const BoundaryCondition &condition) const
   {
     std::vector<Point<dim>> ends;
@@ -408,8 +408,6 @@ namespace geocone
       if (scene.dirichlet.list[side.condition].get() == &condition)
         for (const MovingBoundary::Line &line : side.boundary.lines)
           ends.insert(ends.end(), {line.a, line.b});
-    if (ends.empty())
-      return std::nullopt;
     return BoundingBox<dim>(ends).get_boundary_points();
   }
 

@@ -169,10 +169,7 @@ namespace geocone
       check_size();
     space.prepare(mesh, method);
     if (method.is_mpm())
-      {
-        stepper = &implicit_mpm;
-        implicit_mpm.give_mesh(mesh, space);
-      }
+      stepper = &implicit_mpm;
     else
       stepper = &implicit_fem;
     std::vector<std::string> warnings = {

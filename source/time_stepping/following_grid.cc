@@ -8,6 +8,19 @@ namespace geocone
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** Where x goes when what was at @p from goes to @p to, and @p fixed stays. */
+    double
+    stretched(const double x,
+              const double fixed,
+              const double from,
+              const double to)
+    {
+      return fixed + (x - fixed) * (to - fixed) / (from - fixed);
+    }
+  } // namespace
+
   FollowingGrid::FollowingGrid(const std::string      &name,
                                const Scene            &scene,
                                const MovingConditions &sides,
@@ -39,25 +52,17 @@ namespace geocone
                       : known,
         "name a condition that is imposed on averages or segments "
         "of a side of the body, or leave it out");
-    side = *sides.box_of(*condition);
+    side = sides.box_of(*condition);
   }
 
   void
   FollowingGrid::follow(const MovingConditions &sides)
   {
-    const auto now = *sides.box_of(*condition);
+    const auto now = sides.box_of(*condition);
     auto       to  = lines;
     for (unsigned int d = 0; d < dim; ++d)
       {
         const double begin = lines[d].front(), end = lines[d].back();
-        const auto   stretched = [](const double x,
-                                  const double fixed,
-                                  const double from,
-                                  const double to) {
-          return from == fixed
-                     ? x
-                     : fixed + (x - fixed) * (to - fixed) / (from - fixed);
-        };
         // What lies inside the grid stays inside, what lies on its end stays there.
         const double small = 1e-9 * (end - begin);
         const auto   stays =

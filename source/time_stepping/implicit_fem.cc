@@ -32,8 +32,8 @@ namespace geocone
 
   std::string
   ImplicitFEM::prepare(const Scene           &scene_,
-                       const BackgroundMesh  &mesh_,
-                       const Space           &space_,
+                       BackgroundMesh        &mesh_,
+                       Space                 &space_,
                        const NonsmoothNewton &newton,
                        TimerOutput           &timer,
                        Kinematics            &kinematics,

@@ -31,8 +31,7 @@ namespace geocone
   std::string
   warning_of_b_bar(const Scene &scene, const Space &space)
   {
-    if (!space.has_b_bar() || !space.is_of_splines() ||
-        !scene.materials.dilate())
+    if (!space.has_b_bar() || !space.is_spline() || !scene.materials.dilate())
       return "";
     return "B-bar makes soil that dilates too strong with splines: each point "
            "should grow as it is sheared, but the points of a cell grow alike; "

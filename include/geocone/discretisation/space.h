@@ -89,13 +89,6 @@ namespace geocone
     bool
     is_spline() const
     {
-      return !splines.empty();
-    }
-
-    /** is_spline() before prepare() has made them. */
-    bool
-    is_of_splines() const
-    {
       return kind >= Element::spline_2;
     }
 

@@ -125,7 +125,7 @@ namespace geocone
 
     /** Sums arrays over the ranks that share columns. Collective. */
     void
-    exchange(const std::vector<Shared> &arrays);
+    sum_over_ranks(const std::vector<Shared> &arrays);
 
     /** The place of a function among the stored ones. @pre it is one of them */
     std::size_t

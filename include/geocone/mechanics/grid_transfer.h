@@ -86,12 +86,13 @@ namespace geocone
     clear_cells();
     void
     add_to_cells(const TransferBlock &points, const double *values);
-    /** After exchange_cells(): replaces the values of points by means. */
-    void
-    average(const TransferBlock &points, double *values) const;
-    /** Sums over the ranks. Collective. */
+    /** Sums over the ranks, where the points of a cell may be on several. Collective. */
     virtual void
-    exchange_cells() = 0;
+    exchange_cells()
+    {}
+    /** The means of the cells of the points; 0 where no point has a volume. */
+    void
+    average(const TransferBlock &points, double *means) const;
     virtual std::size_t
     n_stored_cells() const = 0;
     /** @} */

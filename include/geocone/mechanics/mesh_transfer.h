@@ -68,8 +68,6 @@ namespace geocone
     scatter_affine(const TransferBlock &points, BlockScratch &scratch) override;
     void
     find_cells(const TransferBlock &points, unsigned int *cells) const override;
-    void
-    exchange_cells() override;
     std::size_t
     n_stored_cells() const override;
 

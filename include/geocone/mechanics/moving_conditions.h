@@ -58,9 +58,9 @@ namespace geocone
     void
     move(const Vector &v, const double h, const double t);
 
-    /** The corners of the box around the sides that a condition holds; nothing if
-     *  it holds none. */
-    std::optional<std::pair<dealii::Point<dim>, dealii::Point<dim>>>
+    /** The corners of the box around the sides that a condition holds.
+     *  @pre it holds sides */
+    std::pair<dealii::Point<dim>, dealii::Point<dim>>
     box_of(const BoundaryCondition &condition) const;
 
     /** Whether the function of each local node is not zero somewhere on a side that

@@ -202,12 +202,14 @@ namespace geocone
     void (*bound)(const TransferBlock &, PassSums &);
 
     /** The values that scatter() takes: (m v, -V s), and the hoop force; parts of
-     *  it, or all. With B-bar s has the mean stress of the cell. */
+     *  it, or all. */
     void (*prepare_scatter)(const bool momentum,
                             const bool force,
-                            const bool mean_of_cell,
                             const TransferBlock &,
                             BlockScratch &);
+
+    /** B-bar: s <- s + (BlockScratch::mean_stress - tr s/dim) I of those values. */
+    void (*replace_mean_stress)(const TransferBlock &, BlockScratch &);
   };
 
   /** The best version that this machine has; see machine_has_avx2(). */

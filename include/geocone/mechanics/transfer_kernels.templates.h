@@ -489,7 +489,6 @@ namespace geocone
     static void
     prepare_scatter(const bool           momentum,
                     const bool           force,
-                    const bool           mean_of_cell,
                     const TransferBlock &points,
                     BlockScratch        &scratch)
     {
@@ -510,7 +509,13 @@ namespace geocone
                   -V * points.s[place_of_component[c][d]][k];
             }
         }
-      for (unsigned int k = 0; k < points.n && mean_of_cell; ++k)
+    }
+
+    static void
+    replace_mean_stress(const TransferBlock &points, BlockScratch &scratch)
+    {
+      constexpr unsigned int forces = change_of_node % 4;
+      for (unsigned int k = 0; k < points.n; ++k)
         {
           const double V      = points.volume[k];
           double       change = -V * scratch.mean_stress[k];
@@ -558,7 +563,8 @@ namespace geocone
             &Loops::replace_divergence,
             &Loops::finish,
             &Loops::bound,
-            &Loops::prepare_scatter};
+            &Loops::prepare_scatter,
+            &Loops::replace_mean_stress};
   }
 } // namespace geocone
 

@@ -270,7 +270,20 @@ namespace geocone
     void
     pass(const Update update, const Gives gives, const double dt);
 
-    /** What a pass gives to the nodes, of a block. */
+    /** What a block of points takes from the nodes in a pass: velocities, strains by
+     *  which it follows its law, places. */
+    void
+    take(const Update update, const double dt, const TransferBlock &points);
+    void
+    follow_law(const Update         update,
+               const double         dt,
+               const TransferBlock &points);
+
+    /** Adds where they are to the sums, and mends what has left the stored nodes. */
+    void
+    bound_positions(const TransferBlock &points);
+
+    /** What a block of points gives to the nodes in a pass. */
     void
     give(const Gives gives, const TransferBlock &points);
 

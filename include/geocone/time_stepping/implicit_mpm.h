@@ -45,8 +45,8 @@ namespace geocone
 
     std::string
     prepare(const Scene           &scene,
-            const BackgroundMesh  &mesh,
-            const Space           &space,
+            BackgroundMesh        &mesh,
+            Space                 &space,
             const NonsmoothNewton &newton,
             dealii::TimerOutput   &timer,
             Kinematics            &kinematics,
@@ -106,15 +106,6 @@ namespace geocone
     n_lost() const override
     {
       return particles.n_lost();
-    }
-
-    /** What it may move, where the grid follows a side. To be called before
-     *  prepare(). */
-    void
-    give_mesh(BackgroundMesh &mesh, Space &space)
-    {
-      movable_mesh  = &mesh;
-      movable_space = &space;
     }
 
     /** Where its particles come from. */
@@ -292,19 +283,17 @@ namespace geocone
 
     std::string                  grid_follows; ///< a condition, or nothing
     std::optional<FollowingGrid> following;
-    BackgroundMesh              *movable_mesh  = nullptr;
-    Space                       *movable_space = nullptr;
     bool nodes_moved = false; ///< since the constraints were made
 
     Particles particles;
 
     unsigned int n_light = 0; ///< light functions of the present points
 
-    const Scene          *scene = nullptr;
-    const BackgroundMesh *mesh  = nullptr;
-    const Space          *space = nullptr;
-    std::vector<Start>    starts; ///< to be tried in this order
-    dealii::Point<dim>    datum;  ///< of the potential energy
+    const Scene       *scene = nullptr;
+    BackgroundMesh    *mesh  = nullptr;
+    Space             *space = nullptr;
+    std::vector<Start> starts; ///< to be tried in this order
+    dealii::Point<dim> datum;  ///< of the potential energy
 
     std::unique_ptr<MovingConditions>   moving;
     std::unique_ptr<ObstacleContact>    obstacles;

@@ -221,8 +221,8 @@ namespace geocone
      */
     virtual std::string
     prepare(const Scene           &scene,
-            const BackgroundMesh  &mesh,
-            const Space           &space,
+            BackgroundMesh        &mesh,
+            Space                 &space,
             const NonsmoothNewton &newton,
             dealii::TimerOutput   &timer,
             Kinematics            &kinematics,
