@@ -35,6 +35,7 @@ namespace geocone
     using Values =
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     points.volumetric_gradients.resize(points.n_points() * m);
+    points.volumetric_degree = degree;
     const dealii::PolynomialSpace<dim> polynomials(
       dealii::Polynomials::Legendre::generate_complete_basis(degree));
     std::vector<double> values(polynomials.n());

@@ -54,12 +54,15 @@ namespace geocone
                   "Basis",
                   ", of P2, P3, Q2 and Q3. Automatic: Lagrange's for FEM, "
                   "Bernstein's, which are not negative, for MPM.");
-    add_parameter("B-bar",
-                  b_bar,
-                  "Against locking, for Q1 to Q3 and splines: the volumetric "
-                  "strain of a cell is its mean over the cell's points; of Q2 "
-                  "and Q3, only with FEM, its projection onto polynomials of "
-                  "one degree less.");
+    add_parameter(
+      "B-bar",
+      b_bar,
+      "Against locking, for Q1 to Q3 and splines: the volumetric "
+      "strain of a cell is its mean over the cell's points; of Q2 "
+      "and Q3, only with FEM, its projection onto polynomials of "
+      "one degree less. For soil that dilates, in implicit steps "
+      "with Q1 and splines, the pressure is the same in a cell, and "
+      "only the mean of the volumetric strains is given.");
   }
 
   std::string

@@ -112,7 +112,7 @@ namespace geocone
     report.n_cone      = sums[0];
     report.n_apex      = sums[1];
     report.n_switched  = sums[2];
-    report.natural_map = internal.natural_map_error();
+    report.local_error = internal.local_error();
     return report;
   }
 

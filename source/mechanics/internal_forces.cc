@@ -45,6 +45,8 @@ namespace geocone
         runs.push_back({p, p + 1, points.material[p]});
       else
         ++runs.back().end;
+    if (points.volumetric_degree == 0 && materials.dilate())
+      cell_pressures.emplace(points, materials);
     if (dim == 2 && materials.are_spatial())
       stress_zz.resize(points.n_points());
     if (is_axisymmetric())
@@ -65,6 +67,8 @@ namespace geocone
     h              = step;
     friction_lag   = 0.;
     by_natural_map = false;
+    if (cell_pressures)
+      cell_pressures->begin_step();
   }
 
   template <int n>
@@ -170,6 +174,36 @@ namespace geocone
         K[m * 2 * i + 2 * j] += factor * C.zz * H[i] * H[j];
   }
 
+  template <int n>
+  void
+  InternalForces::add_pressure_stiffness(
+    const unsigned int              c,
+    const CellPressures::Condensed &condensed,
+    double                         *K) const
+  {
+    constexpr int      m       = dim * n;
+    const unsigned int first   = points.first_point[c];
+    double             left[m] = {}, right[m] = {};
+    const auto         none = [](const unsigned int) { return 0.; };
+    add_forces_of_cell<n>(
+      c,
+      [&](const unsigned int p) -> const Mandel & {
+        return condensed.left[p - first];
+      },
+      none,
+      left);
+    add_forces_of_cell<n>(
+      c,
+      [&](const unsigned int p) -> const Mandel & {
+        return condensed.right[p - first];
+      },
+      none,
+      right);
+    for (int i = 0; i < m; ++i)
+      for (int j = 0; j < m; ++j)
+        K[m * i + j] += left[i] * right[j] / condensed.sum;
+  }
+
   void
   InternalForces::update_materials(const bool with_tangent) const
   {
@@ -263,6 +297,9 @@ namespace geocone
         stress    = law.natural_map->stress();
         tangent   = law.natural_map->tangent();
       }
+    else if (cell_pressures)
+      cell_pressures->equalise(
+        [this] { update_materials(true); }, stress, tangent, strain);
     else
       update_materials(false);
     update_pressures();
@@ -331,8 +368,10 @@ namespace geocone
   }
 
   double
-  InternalForces::natural_map_error() const
+  InternalForces::local_error() const
   {
+    if (cell_pressures)
+      return Utilities::MPI::max(cell_pressures->difference(), comm);
     if (!by_natural_map)
       return 0.;
     const double scale = Utilities::MPI::max(map_error.stress_scale, comm);
@@ -434,6 +473,7 @@ namespace geocone
       constexpr int             n = n_constant;
       std::vector<MandelMatrix> C;
       std::vector<double>       scratch;
+      CellPressures::Condensed  condensed;
       double                    K[dim * dim * n * n];
       for (unsigned int c = 0; c < points.n_cells(); ++c)
         {
@@ -456,14 +496,18 @@ namespace geocone
             }
           const double *const g = &points.gradients[dim * n * first];
           const double *const volumetric =
-            points.volumetric_gradients.empty()
+            points.volumetric_gradients.empty() || cell_pressures
               ? nullptr
               : &points.volumetric_gradients[dim * n * first];
+          if (cell_pressures)
+            cell_pressures->condense(c, h, C, condensed);
           if (one_triangle)
             stiffness<n, true>(g, volumetric, C.data(), n_q, scratch.data(), K);
           else
             stiffness<n, false>(
               g, volumetric, C.data(), n_q, scratch.data(), K);
+          if (cell_pressures)
+            add_pressure_stiffness<n>(c, condensed, K);
           if (is_axisymmetric())
             for (unsigned int q = 0; q < n_q; ++q)
               add_hoop_stiffness<n>(first + q, blend, K);
@@ -493,6 +537,8 @@ namespace geocone
           gather<n>(dv.begin(), &points.nodes[c * n], cell_v);
           turned.velocities_to_xy(c, cell_v);
           strains_of_cell<n>(c, cell_v, h, rate, rate_zz);
+          if (cell_pressures)
+            cell_pressures->equalise_rates(c, tangent, rate);
           add_forces_of_cell<n>(
             c,
             [&](const unsigned int p) -> Mandel {

@@ -174,8 +174,7 @@ namespace geocone
       stepper = &implicit_fem;
     std::vector<std::string> warnings = {
       stepper->prepare(scene, mesh, space, newton, timer, kinematics, points),
-      outside_strength(points, scene.materials, comm),
-      warning_of_b_bar(scene, space)};
+      outside_strength(points, scene.materials, comm)};
     warnings.erase(std::remove(warnings.begin(), warnings.end(), ""),
                    warnings.end());
     if (scene.materials.are_undrained() && !space.has_b_bar() &&
@@ -197,6 +196,12 @@ namespace geocone
           condition->refuse_normal("free where problems are frozen",
                                    "give Velocity x and y, or " + remedy);
         scene.obstacles.refuse("frozen problems", remedy);
+        if (space.has_b_bar() && scene.materials.dilate())
+          throw InputError("Discretisation/B-bar",
+                           "true",
+                           "false for soil that dilates where problems are "
+                           "frozen",
+                           "set it to false, or " + remedy);
         scene.absorbing.refuse("frozen problems", remedy);
         scene.geometry.refuse_axis("frozen problems", remedy);
         if (dim == 3 || scene.materials.are_spatial())

@@ -74,7 +74,7 @@ namespace geocone
             return;
           }
         if (!(first && (jumps || moves)) &&
-            line.state.natural_map <= tolerance &&
+            line.state.local_error <= tolerance &&
             work.is_balanced(line.state, tolerance, absolute_tolerance))
           {
             report.converged = true;

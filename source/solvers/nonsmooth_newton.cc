@@ -138,11 +138,23 @@ namespace geocone
   void
   NonsmoothNewton::check(const IncrementalProblem &problem) const
   {
-    if (problem.is_spatial() && formulation == Formulation::natural_map)
-      throw InputError("Newton/Formulation",
-                       formulation.word(),
-                       "automatic | return map with laws that are spatial",
-                       "set it to automatic");
+    const bool pressures = problem.has_cell_pressures();
+    if (problem.needs_return_map() && formulation == Formulation::natural_map)
+      throw InputError(
+        "Newton/Formulation",
+        formulation.word(),
+        std::string("automatic | return map with ") +
+          (pressures ? "B-bar for soil that dilates" : "laws that are spatial"),
+        "set it to automatic");
+    if (pressures &&
+        (is_reduced() || first_iterate == FirstIterate::gauss_seidel))
+      throw InputError(
+        "Discretisation/B-bar",
+        "true",
+        "false for soil that dilates where stresses are unknowns "
+        "(reduced formulations, Gauss-Seidel)",
+        "set it to false, or Newton/Formulation = automatic and "
+        "First iterate = none");
     if (is_reduced())
       Reduction::check(problem, "Newton/Formulation", formulation.word());
     else if (first_iterate == FirstIterate::gauss_seidel)
@@ -235,8 +247,7 @@ namespace geocone
         return report;
       }
 
-    // Laws that are spatial have a return map only.
-    const Formulation formulation = problem.is_spatial()
+    const Formulation formulation = problem.needs_return_map()
                                       ? Formulation::return_map
                                       : Formulation(this->formulation);
     const bool        associated  = problem.non_associativity() == 0.;

@@ -162,9 +162,13 @@ namespace geocone
           remarks);
       }
 
-    if (const std::string warning = warning_of_b_bar(*scene, space);
-        !warning.empty())
-      remarks.push_back(warning);
+    if (b_bar && space.is_spline() && scene->materials.dilate())
+      remarks.push_back(
+        "in explicit steps B-bar makes soil that dilates too strong with "
+        "splines: each point should grow as it is sheared, but the points of a "
+        "cell grow alike; set Discretisation/B-bar = false, or the dilatancy "
+        "to "
+        "0, or take implicit steps");
     if (affine && space.degree() == 1)
       throw InputError(ParticleTransfer::parameter,
                        rule.name(),

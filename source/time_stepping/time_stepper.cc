@@ -28,17 +28,6 @@ namespace geocone
                        "take elements of degree 2 or 3, which do not lock");
   }
 
-  std::string
-  warning_of_b_bar(const Scene &scene, const Space &space)
-  {
-    if (!space.has_b_bar() || !space.is_spline() || !scene.materials.dilate())
-      return "";
-    return "B-bar makes soil that dilates too strong with splines: each point "
-           "should grow as it is sheared, but the points of a cell grow alike; "
-           "a footing on cells of B/8 bears 30 to 50 % too much. Set "
-           "Discretisation/B-bar = false, or the dilatancy to 0";
-  }
-
   std::vector<std::string>
   change_materials(const Stage    &stage,
                    const Scene    &scene,

@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // The incremental problem over particles in an elastoplastic state, with and
-// without mean gradients (B-bar), a consistent mass and a fluid in the pores: the
-// assembled Jacobian
+// without mean gradients (B-bar), one pressure per cell, a consistent mass and a fluid
+// in the pores: the assembled Jacobian
 // and apply_tangent() must be the derivative of the residual, one stored
 // triangle must be that of the whole matrix, B-bar must give every point of a
 // cell the mean volumetric strain of the cell and leave the deviator as it is,
-// and the mass must be that of the particles.
+// with one pressure the total mean stress of a cell must be one and the mean of its
+// volumetric strains that of B-bar, and the mass must be that of the particles.
 
 #include <geocone/mechanics/constraints.h>
 #include <geocone/mechanics/incremental_problem.h>
@@ -53,9 +54,16 @@ mean_gradients(const MaterialPoints &points)
   return means;
 }
 
+enum class Volume
+{
+  of_points,
+  b_bar,
+  one_pressure
+};
+
 void
 check(const std::string &element,
-      const bool         b_bar,
+      const Volume       volume_rule,
       const double       consistent_part,
       const std::string &dilatancy,
       const std::string &fluid = "0")
@@ -71,11 +79,14 @@ check(const std::string &element,
   setup.prepare();
   MaterialPoints points;
   setup.particles.prepare(setup.scene, setup.mesh, setup.space, points);
+  const bool b_bar        = volume_rule != Volume::of_points;
+  const bool one_pressure = volume_rule == Volume::one_pressure;
   if (b_bar)
     points.volumetric_gradients = mean_gradients(points);
   else
     points.volumetric_gradients.clear();
-  const double h = 0.01;
+  points.volumetric_degree = one_pressure ? 0 : -1;
+  const double h           = 0.01;
   for (unsigned int p = 0; p < points.n_points(); ++p)
     points.stress[p] = {-300. + 50. * some(7 * p),
                         -300. + 50. * some(7 * p + 1),
@@ -83,7 +94,9 @@ check(const std::string &element,
   if (speaks())
     std::printf("%s, %s, consistent part %g, dilatancy %s%s\n",
                 element.c_str(),
-                b_bar ? "B-bar" : "plain",
+                one_pressure ? "one pressure"
+                : b_bar      ? "B-bar"
+                             : "plain",
                 consistent_part,
                 dilatancy.c_str(),
                 fluid == "0" ? "" : ", undrained");
@@ -131,8 +144,8 @@ check(const std::string &element,
           report.n_cone + report.n_apex + 20 < points.n_points());
 
   // Strains: those of B v, with the mean of their traces.
-  const unsigned int nn          = points.n_nodes;
-  double             trace_error = 0., shear_error = 0., spread = 0.;
+  const unsigned int nn = points.n_nodes;
+  double trace_error = 0., shear_error = 0., spread = 0., pressure_error = 0.;
   for (unsigned int c = 0; c < points.n_cells(); ++c)
     {
       std::vector<Mandel> e;
@@ -155,21 +168,35 @@ check(const std::string &element,
           volume += points.weight[p];
         }
       mean /= volume;
+      double got_mean = 0.;
       for (unsigned int q = 0; q < e.size(); ++q)
         {
-          const Mandel &got = problem.internal_forces()
-                                .strain_increment()[points.first_point[c] + q];
+          const unsigned int p = points.first_point[c] + q;
+          const Mandel &got = problem.internal_forces().strain_increment()[p];
+          got_mean += points.weight[p] / volume * (got[0] + got[1]);
+          const Mandel &total = problem.internal_forces().total_stress()[p];
+          const Mandel &first =
+            problem.internal_forces().total_stress()[points.first_point[c]];
+          pressure_error =
+            std::max(pressure_error,
+                     std::abs(total[0] + total[1] - first[0] - first[1]));
           const double trace = e[q][0] + e[q][1];
           spread             = std::max(spread, std::abs(trace - mean));
-          trace_error        = std::max(
-            trace_error, std::abs(got[0] + got[1] - (b_bar ? mean : trace)));
+          if (!one_pressure)
+            trace_error = std::max(
+              trace_error, std::abs(got[0] + got[1] - (b_bar ? mean : trace)));
           shear_error = std::max({shear_error,
                                   std::abs(got[0] - got[1] - e[q][0] + e[q][1]),
                                   std::abs(got[2] - e[q][2])});
         }
+      if (one_pressure)
+        trace_error = std::max(trace_error, std::abs(got_mean - mean));
     }
-  print(b_bar ? "volumetric strains are the means"
-              : "volumetric strains are those of the points",
+  if (one_pressure)
+    print("mean stresses of a cell are one", pressure_error < 1e-10 * 300.);
+  print(one_pressure ? "the means of volumetric strains are those given"
+        : b_bar      ? "volumetric strains are the means"
+                     : "volumetric strains are those of the points",
         trace_error < 1e-12 * spread);
   print("deviators are those of the points", shear_error < 1e-12 * spread);
 
@@ -257,13 +284,18 @@ main(int argc, char **argv)
   dealii::Utilities::MPI::MPI_InitFinalize mpi_session(argc, argv, 1);
   for (const double consistent_part : {0., 0.6, 1.})
     {
-      check("Q1", true, consistent_part, "25");
-      check("Q1", true, consistent_part, "10");
+      check("Q1", Volume::b_bar, consistent_part, "25");
+      check("Q1", Volume::b_bar, consistent_part, "10");
     }
-  check("Q1", false, 0.6, "25");
-  check("B-spline 2", false, 0.6, "25");
-  check("B-spline 3", false, 0.6, "25");
-  check("B-spline 3", false, 0.6, "10");
-  check("Q1", true, 0.6, "25", "1e8");
-  check("B-spline 3", false, 0.6, "10", "1e8");
+  check("Q1", Volume::of_points, 0.6, "25");
+  check("B-spline 2", Volume::of_points, 0.6, "25");
+  check("B-spline 3", Volume::of_points, 0.6, "25");
+  check("B-spline 3", Volume::of_points, 0.6, "10");
+  check("Q1", Volume::b_bar, 0.6, "25", "1e8");
+  check("B-spline 3", Volume::of_points, 0.6, "10", "1e8");
+  check("Q1", Volume::one_pressure, 0.6, "25");
+  check("Q1", Volume::one_pressure, 0.6, "10");
+  check("B-spline 2", Volume::one_pressure, 0.6, "25");
+  check("B-spline 3", Volume::one_pressure, 0., "10");
+  check("B-spline 3", Volume::one_pressure, 0.6, "25", "1e8");
 }

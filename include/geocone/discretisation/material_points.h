@@ -58,6 +58,9 @@ namespace geocone
      * gradients (B-bar). Empty without B-bar.
      */
     std::vector<double> volumetric_gradients;
+    /** Degree of the polynomials in a cell that they are projected onto; -1 where
+     *  they are not, the same on all ranks. */
+    int volumetric_degree = -1;
 
     /** Those of a point, or null where there are none. */
     const double *

@@ -27,8 +27,7 @@ namespace geocone
     unsigned int n_apex     = 0;  ///< points at the apex
     unsigned int n_switched = 0;  ///< points whose mode differs from last time
 
-    /** Largest |R| of NaturalMap over the stress scale; 0 for the return map. */
-    double natural_map = 0.;
+    double local_error = 0.; ///< see InternalForces::local_error()
   };
 
   /**
@@ -143,6 +142,21 @@ namespace geocone
     non_associativity() const
     {
       return materials.non_associativity();
+    }
+
+    /** Whether points have a local solver of their own, beside which the natural map
+     *  cannot stand: laws that are spatial, and cells that have one pressure. */
+    bool
+    needs_return_map() const
+    {
+      return is_spatial() || internal.has_cell_pressures();
+    }
+
+    /** Whether cells have one pressure, see CellPressures. */
+    bool
+    has_cell_pressures() const
+    {
+      return internal.has_cell_pressures();
     }
 
     /** Whether a law is spatial. */

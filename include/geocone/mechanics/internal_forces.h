@@ -7,11 +7,13 @@
 #include <geocone/base/state_row.h>
 #include <geocone/discretisation/material_points.h>
 #include <geocone/materials/material_library.h>
+#include <geocone/mechanics/cell_pressures.h>
 #include <geocone/mechanics/term.h>
 #include <geocone/mechanics/turned_dofs.h>
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,6 +65,7 @@ namespace geocone
    *   p_p(v) = p_p - K_w/n tr(h B_p v),
    * and what is in equilibrium is the total stress s_p - p_p I; the law, its modes and
    * its checks are those of the effective stress s_p.
+   * Where soil dilates, B-bar has one pressure per cell, see CellPressures.
    * The state at t_n is const; the trial states, which are those of the last
    * residual(), live here.
    */
@@ -101,10 +104,18 @@ namespace geocone
     void
     count_modes(double *counts) const;
 
-    /** Largest |R| of NaturalMap over the stress scale; 0 for the return map.
+    /** Largest |R| of NaturalMap over the stress scale, or what is left of
+     *  differences in a cell that has one pressure; 0 for the return map alone.
      *  Collective. */
     double
-    natural_map_error() const;
+    local_error() const;
+
+    /** Whether cells have one pressure; the same on all ranks. */
+    bool
+    has_cell_pressures() const
+    {
+      return cell_pressures.has_value();
+    }
 
     /**
      * The size N of the rounding in the residual's norm at a velocity (N/m),
@@ -204,11 +215,11 @@ namespace geocone
     void
     update_materials(const bool with_tangent) const;
 
-    /** Makes the tangents of the last residual(), if it has not yet. */
+    /** Makes the tangents of the last residual(), if it has not made them. */
     void
     update_tangents() const
     {
-      if (!by_natural_map)
+      if (!by_natural_map && !cell_pressures)
         update_materials(true);
     }
 
@@ -230,6 +241,13 @@ namespace geocone
                        const WeightedStress     &weighted_stress,
                        const WeightedHoopStress &weighted_hoop_stress,
                        double                   *cell_f) const;
+
+    /** Adds the part of rank one of a cell that has one pressure to K. */
+    template <int n>
+    void
+    add_pressure_stiffness(const unsigned int              c,
+                           const CellPressures::Condensed &condensed,
+                           double                         *K) const;
 
     /** part = sum V B's. @param hoop_stress of a point, asked of round bodies only */
     template <typename HoopStress>
@@ -285,7 +303,7 @@ namespace geocone
     /** @name The law of the last residual() */
     /** @{ */
     double friction_lag   = 0.;
-    bool   by_natural_map = false; ///< its tangents are there
+    bool   by_natural_map = false;
     /** @} */
 
     std::vector<Mandel>               strain;
@@ -293,6 +311,9 @@ namespace geocone
     mutable std::vector<Mode>         mode;
     std::vector<Mode>                 previous_mode;
     mutable std::vector<MandelMatrix> tangent;
+
+    /** B-bar where soil dilates; then tangents are those of the last residual(). */
+    mutable std::optional<CellPressures> cell_pressures;
 
     /** @name Excess pore pressure, and the stress less it: empty but for scenes with
      *  undrained soil */

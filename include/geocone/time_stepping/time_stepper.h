@@ -162,10 +162,6 @@ namespace geocone
   void
   check_round_body(const Scene &scene, const Space &space);
 
-  /** Warns of splines with B-bar for soil that dilates; or nothing. */
-  std::string
-  warning_of_b_bar(const Scene &scene, const Space &space);
-
   /** Energies::elastic over the points of all ranks (J/m). */
   double
   elastic_energy(const MaterialPoints &points,
