@@ -4,7 +4,8 @@
 #include <geocone/mechanics/cell_pressures.h>
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace geocone
 {
@@ -48,10 +49,22 @@ namespace geocone
   }
 
   double
-  CellPressures::modulus(const unsigned int point, const MandelMatrix &C) const
+  CellPressures::pore_pressure(const unsigned int point) const
   {
-    return std::max(mean_direction().dot(C * mean_direction()),
-                    least_modulus[point]);
+    return materials.are_undrained() ? points.excess_pressure(point) : 0.;
+  }
+
+  void
+  CellPressures::evaluate(const unsigned int  point,
+                          const double        mean_stress,
+                          const MandelMatrix &tangent,
+                          const Mandel       &strain)
+  {
+    const double fluid = materials[points.material[point]].fluid_modulus();
+    mean[point] = mean_stress + fluid * trace(strain) - pore_pressure(point);
+    k[point]    = std::max(mean_direction().dot(tangent * mean_direction()),
+                        least_modulus[point]) +
+               fluid;
   }
 
   void
@@ -82,45 +95,66 @@ namespace geocone
   }
 
   void
-  CellPressures::equalise(const std::function<void()>     &update,
-                          const std::vector<Mandel>       &stress,
-                          const std::vector<MandelMatrix> &tangent,
-                          std::vector<Mandel>             &strain)
+  CellPressures::equalise(
+    const std::function<void(const unsigned int, const unsigned int)> &update,
+    const std::vector<Mandel>                                         &stress,
+    const std::vector<MandelMatrix>                                   &tangent,
+    std::vector<Mandel>                                               &strain)
   {
     given = strain;
     std::fill(growth.begin(), growth.end(), 0.);
-    for (unsigned int step = 0;; ++step)
+    difference_in.assign(points.n_cells(), 0.);
+    unequal.resize(points.n_cells());
+    std::iota(unequal.begin(), unequal.end(), 0);
+    double scale = 0.;
+    for (unsigned int step = 0; !unequal.empty(); ++step)
       {
-        update();
-        double scale = 0.;
-        for (unsigned int p = 0; p < points.n_points(); ++p)
+        // Cells in a row are asked at once.
+        for (auto cell = unequal.begin(); cell != unequal.end();)
           {
-            const double fluid = materials[points.material[p]].fluid_modulus();
-            mean[p]            = trace(stress[p]) / dim;
-            k[p]               = modulus(p, tangent[p]) + fluid;
-            if (fluid > 0.)
-              mean[p] += fluid * trace(strain[p]) - points.excess_pressure(p);
-            scale = std::max(scale, stress[p].norm());
+            const unsigned int first = *cell;
+            unsigned int       next  = first;
+            for (; cell != unequal.end() && *cell == next; ++cell)
+              ++next;
+            update(points.first_point[first], points.first_point[next]);
           }
-        largest_difference = 0.;
-        for (unsigned int c = 0; c < points.n_cells(); ++c)
+        for (const unsigned int c : unequal)
           {
-            const auto [least, greatest] =
-              std::minmax_element(mean.data() + points.first_point[c],
-                                  mean.data() + points.first_point[c + 1]);
-            if (points.first_point[c] < points.first_point[c + 1])
-              largest_difference =
-                std::max(largest_difference, *greatest - *least);
+            double least    = std::numeric_limits<double>::max();
+            double greatest = std::numeric_limits<double>::lowest();
+            for (unsigned int p = points.first_point[c];
+                 p < points.first_point[c + 1];
+                 ++p)
+              {
+                evaluate(p, trace(stress[p]) / dim, tangent[p], strain[p]);
+                least    = std::min(least, mean[p]);
+                greatest = std::max(greatest, mean[p]);
+                scale    = std::max(scale, stress[p].norm());
+              }
+            difference_in[c] = std::max(greatest - least, 0.);
           }
-        if (scale > 0.)
-          largest_difference /= scale;
-        if (!(largest_difference > rounding) || step == most_steps)
-          return;
-        for (unsigned int c = 0; c < points.n_cells(); ++c)
-          shift(c);
-        for (unsigned int p = 0; p < points.n_points(); ++p)
-          strain[p] = given[p] + growth[p] * mean_direction();
+        if (step == most_steps)
+          break;
+        unequal.erase(std::remove_if(unequal.begin(),
+                                     unequal.end(),
+                                     [&](const unsigned int c) {
+                                       return !(difference_in[c] >
+                                                rounding * scale);
+                                     }),
+                      unequal.end());
+        for (const unsigned int c : unequal)
+          {
+            shift(c);
+            for (unsigned int p = points.first_point[c];
+                 p < points.first_point[c + 1];
+                 ++p)
+              strain[p] = given[p] + growth[p] * mean_direction();
+          }
       }
+    largest_difference =
+      scale > 0.
+        ? *std::max_element(difference_in.begin(), difference_in.end()) / scale
+        : 0.;
   }
 
   void
@@ -132,11 +166,10 @@ namespace geocone
                        end   = points.first_point[cell + 1];
     for (unsigned int p = begin; p < end; ++p)
       {
-        const double fluid = materials[points.material[p]].fluid_modulus();
-        growth[p]          = 0.;
-        k[p]               = modulus(p, tangent[p]) + fluid;
-        mean[p] =
-          mean_direction().dot(tangent[p] * rate[p]) + fluid * trace(rate[p]);
+        growth[p] = 0.;
+        evaluate(
+          p, mean_direction().dot(tangent[p] * rate[p]), tangent[p], rate[p]);
+        mean[p] += pore_pressure(p); // which is not of the rate
       }
     shift(cell);
     for (unsigned int p = begin; p < end; ++p)
@@ -156,9 +189,10 @@ namespace geocone
     for (unsigned int q = 0; q < C.size(); ++q)
       {
         const double weight  = factor * points.weight[first + q];
-        const double inverse = 1. / modulus(first + q, C[q] / weight);
         const Mandel a       = C[q] * mean_direction(),
                      b       = C[q].transpose() * mean_direction();
+        const double inverse = 1. / std::max(mean_direction().dot(a) / weight,
+                                             least_modulus[first + q]);
         result.left[q]       = inverse * a;
         result.right[q]      = inverse * b;
         result.sum += weight * inverse;

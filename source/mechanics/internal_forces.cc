@@ -208,19 +208,37 @@ namespace geocone
   InternalForces::update_materials(const bool with_tangent) const
   {
     for (const Run &run : runs)
-      {
-        const unsigned int n = run.end - run.begin;
-        Response           response;
-        response.stress = ArrayView<Mandel>(&stress[run.begin], n);
-        response.mode   = ArrayView<Mode>(&mode[run.begin], n);
-        if (with_tangent)
-          response.tangent = ArrayView<MandelMatrix>(&tangent[run.begin], n);
-        if (!stress_zz.empty())
-          response.stress_zz = &stress_zz[run.begin];
-        if (!tangent_zz.empty())
-          response.tangent_zz = &tangent_zz[run.begin];
-        materials[run.material].update(increment_of(run), response);
-      }
+      update_material(run, with_tangent);
+  }
+
+  void
+  InternalForces::update_materials(const unsigned int begin,
+                                   const unsigned int end) const
+  {
+    auto run =
+      std::partition_point(runs.begin(), runs.end(), [begin](const Run &run) {
+        return run.end <= begin;
+      });
+    for (; run != runs.end() && run->begin < end; ++run)
+      update_material(
+        {std::max(run->begin, begin), std::min(run->end, end), run->material},
+        true);
+  }
+
+  void
+  InternalForces::update_material(const Run &run, const bool with_tangent) const
+  {
+    const unsigned int n = run.end - run.begin;
+    Response           response;
+    response.stress = ArrayView<Mandel>(&stress[run.begin], n);
+    response.mode   = ArrayView<Mode>(&mode[run.begin], n);
+    if (with_tangent)
+      response.tangent = ArrayView<MandelMatrix>(&tangent[run.begin], n);
+    if (!stress_zz.empty())
+      response.stress_zz = &stress_zz[run.begin];
+    if (!tangent_zz.empty())
+      response.tangent_zz = &tangent_zz[run.begin];
+    materials[run.material].update(increment_of(run), response);
   }
 
   Increment
@@ -299,7 +317,12 @@ namespace geocone
       }
     else if (cell_pressures)
       cell_pressures->equalise(
-        [this] { update_materials(true); }, stress, tangent, strain);
+        [this](const unsigned int begin, const unsigned int end) {
+          update_materials(begin, end);
+        },
+        stress,
+        tangent,
+        strain);
     else
       update_materials(false);
     update_pressures();

@@ -39,13 +39,15 @@ namespace geocone
 
     /**
      * Adds t_p I/n to the strains.
-     * @param update finds stresses and tangents of the strains
+     * @param update finds stresses and tangents of the strains of points from the
+     * first to before the second number
      */
     void
-    equalise(const std::function<void()>     &update,
-             const std::vector<Mandel>       &stress,
-             const std::vector<MandelMatrix> &tangent,
-             std::vector<Mandel>             &strain);
+    equalise(
+      const std::function<void(const unsigned int, const unsigned int)> &update,
+      const std::vector<Mandel>                                         &stress,
+      const std::vector<MandelMatrix> &tangent,
+      std::vector<Mandel>             &strain);
 
     /** What is left of the differences in a cell, over the greatest stress of the
      *  points of this rank, after equalise(). */
@@ -83,9 +85,17 @@ namespace geocone
              Condensed                 &result) const;
 
   private:
-    /** k of a tangent, with a lower bound: it is 0 at the apex of a cone. */
+    /** p_n of a point (Pa); 0 where no soil is undrained. */
     double
-    modulus(const unsigned int point, const MandelMatrix &C) const;
+    pore_pressure(const unsigned int point) const;
+
+    /** Finds pi_p and k_p, which has a lower bound: it is 0 at the apex of a cone.
+     *  @param mean_stress tr(s_p)/n (Pa) */
+    void
+    evaluate(const unsigned int  point,
+             const double        mean_stress,
+             const MandelMatrix &tangent,
+             const Mandel       &strain);
 
     /** One step of Newton's method in a cell, from its pi_p and k_p. */
     void
@@ -94,12 +104,14 @@ namespace geocone
     const MaterialPoints &points;
     const Materials      &materials;
 
-    std::vector<double> least_modulus; ///< of points (Pa)
-    std::vector<double> mean;          ///< pi_p (Pa)
-    std::vector<double> k;             ///< k_p (Pa)
-    std::vector<double> growth;        ///< t_p
-    std::vector<Mandel> given;         ///< strains without t_p
-    double              largest_difference = 0.;
+    std::vector<double>       least_modulus; ///< of points (Pa)
+    std::vector<double>       mean;          ///< pi_p (Pa)
+    std::vector<double>       k;             ///< k_p (Pa)
+    std::vector<double>       growth;        ///< t_p
+    std::vector<Mandel>       given;         ///< strains without t_p
+    std::vector<double>       difference_in; ///< of pi_p in a cell (Pa)
+    std::vector<unsigned int> unequal;       ///< cells that are not done
+    double                    largest_difference = 0.;
   };
 } // namespace geocone
 

@@ -211,9 +211,14 @@ namespace geocone
       return {h, friction_lag};
     }
 
-    /** Asks the materials, run by run. */
+    /** Asks the materials, run by run, of all points, or with tangents of those from
+     *  begin to before end. */
     void
     update_materials(const bool with_tangent) const;
+    void
+    update_materials(const unsigned int begin, const unsigned int end) const;
+    void
+    update_material(const Run &run, const bool with_tangent) const;
 
     /** Makes the tangents of the last residual(), if it has not made them. */
     void
