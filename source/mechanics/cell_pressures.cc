@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/discretisation/point_elasticity.h>
 #include <geocone/mechanics/cell_pressures.h>
 
 #include <algorithm>
@@ -27,6 +28,13 @@ namespace geocone
     }
   } // namespace
 
+  bool
+  CellPressures::are_those_of(const MaterialPoints &points,
+                              const Materials      &materials)
+  {
+    return points.volumetric_degree == 0 && materials.dilate();
+  }
+
   CellPressures::CellPressures(const MaterialPoints &points,
                                const Materials      &materials)
     : points(points)
@@ -42,8 +50,7 @@ namespace geocone
   {
     for (unsigned int p = 0; p < points.n_points(); ++p)
       {
-        const Elasticity elastic = materials[points.material[p]].elasticity_at(
-          points.stress[p], points.history_of(p));
+        const Elasticity elastic = elasticity_at_start(materials, points, p);
         least_modulus[p] = softest * (elastic.lambda + elastic.two_G / dim);
       }
   }
@@ -61,8 +68,8 @@ namespace geocone
                           const Mandel       &strain)
   {
     const double fluid = materials[points.material[point]].fluid_modulus();
-    mean[point] = mean_stress + fluid * trace(strain) - pore_pressure(point);
-    k[point]    = std::max(mean_direction().dot(tangent * mean_direction()),
+    mean[point]        = mean_stress + fluid * trace(strain);
+    k[point] = std::max(mean_direction().dot(tangent * mean_direction()),
                         least_modulus[point]) +
                fluid;
   }
@@ -126,7 +133,10 @@ namespace geocone
                  p < points.first_point[c + 1];
                  ++p)
               {
-                evaluate(p, trace(stress[p]) / dim, tangent[p], strain[p]);
+                evaluate(p,
+                         trace(stress[p]) / dim - pore_pressure(p),
+                         tangent[p],
+                         strain[p]);
                 least    = std::min(least, mean[p]);
                 greatest = std::max(greatest, mean[p]);
                 scale    = std::max(scale, stress[p].norm());
@@ -169,7 +179,6 @@ namespace geocone
         growth[p] = 0.;
         evaluate(
           p, mean_direction().dot(tangent[p] * rate[p]), tangent[p], rate[p]);
-        mean[p] += pore_pressure(p); // which is not of the rate
       }
     shift(cell);
     for (unsigned int p = begin; p < end; ++p)

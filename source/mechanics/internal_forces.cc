@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/discretisation/point_elasticity.h>
 #include <geocone/mechanics/internal_forces.h>
 #include <geocone/mechanics/point_kernels.h>
 
@@ -12,19 +13,6 @@ namespace geocone
 {
   using namespace dealii;
   using namespace kernels;
-
-  namespace
-  {
-    /** Elasticity of a point at t_n. */
-    Elasticity
-    elasticity_at_start(const Materials      &materials,
-                        const MaterialPoints &points,
-                        const unsigned int    p)
-    {
-      return materials[points.material[p]].elasticity_at(points.stress[p],
-                                                         points.history_of(p));
-    }
-  } // namespace
 
   InternalForces::InternalForces(const MaterialPoints &points,
                                  const Materials      &materials,
@@ -45,7 +33,7 @@ namespace geocone
         runs.push_back({p, p + 1, points.material[p]});
       else
         ++runs.back().end;
-    if (points.volumetric_degree == 0 && materials.dilate())
+    if (CellPressures::are_those_of(points, materials))
       cell_pressures.emplace(points, materials);
     if (dim == 2 && materials.are_spatial())
       stress_zz.resize(points.n_points());
@@ -184,24 +172,23 @@ namespace geocone
     constexpr int      m       = dim * n;
     const unsigned int first   = points.first_point[c];
     double             left[m] = {}, right[m] = {};
-    const auto         none = [](const unsigned int) { return 0.; };
-    add_forces_of_cell<n>(
-      c,
-      [&](const unsigned int p) -> const Mandel & {
-        return condensed.left[p - first];
-      },
-      none,
-      left);
-    add_forces_of_cell<n>(
-      c,
-      [&](const unsigned int p) -> const Mandel & {
-        return condensed.right[p - first];
-      },
-      none,
-      right);
+    const auto forces_of = [&](const std::vector<Mandel> &stress, double *f) {
+      add_forces_of_cell<n>(
+        c,
+        [&](const unsigned int p) -> const Mandel & {
+          return stress[p - first];
+        },
+        [](const unsigned int) { return 0.; },
+        f);
+    };
+    forces_of(condensed.left, left);
+    forces_of(condensed.right, right);
     for (int i = 0; i < m; ++i)
-      for (int j = 0; j < m; ++j)
-        K[m * i + j] += left[i] * right[j] / condensed.sum;
+      {
+        const double factor = left[i] / condensed.sum;
+        for (int j = 0; j < m; ++j)
+          K[m * i + j] += factor * right[j];
+      }
   }
 
   void

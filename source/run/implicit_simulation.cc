@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/stop_request.h>
+#include <geocone/mechanics/cell_pressures.h>
 #include <geocone/output/run_status.h>
 #include <geocone/run/implicit_simulation.h>
 #include <geocone/run/run_estimate.h>
@@ -196,7 +197,7 @@ namespace geocone
           condition->refuse_normal("free where problems are frozen",
                                    "give Velocity x and y, or " + remedy);
         scene.obstacles.refuse("frozen problems", remedy);
-        if (space.has_b_bar() && scene.materials.dilate())
+        if (CellPressures::are_those_of(points, scene.materials))
           throw InputError("Discretisation/B-bar",
                            "true",
                            "false for soil that dilates where problems are "

@@ -167,8 +167,7 @@ namespace geocone
         "in explicit steps B-bar makes soil that dilates too strong with "
         "splines: each point should grow as it is sheared, but the points of a "
         "cell grow alike; set Discretisation/B-bar = false, or the dilatancy "
-        "to "
-        "0, or take implicit steps");
+        "to 0, or take implicit steps");
     if (affine && space.degree() == 1)
       throw InputError(ParticleTransfer::parameter,
                        rule.name(),

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/discretisation/point_elasticity.h>
 #include <geocone/mechanics/particle_contact.h>
 #include <geocone/time_stepping/implicit_mpm.h>
 #include <geocone/time_stepping/raised_loads.h>
@@ -305,9 +306,7 @@ namespace geocone
         const double V         = points.weight[p];
         const double both[dim] = {
           V,
-          V * scene->materials[points.material[p]]
-                .elasticity_at(points.stress[p], points.history_of(p))
-                .young_modulus()};
+          V * elasticity_at_start(scene->materials, points, p).young_modulus()};
         at.scatter<dim, false>(both, volume.begin());
       });
     volume.compress(VectorOperation::add);

@@ -6,6 +6,7 @@
 #include <geocone/base/over_ranks.h>
 #include <geocone/discretisation/cell_record.h>
 #include <geocone/discretisation/history_start.h>
+#include <geocone/discretisation/point_elasticity.h>
 #include <geocone/time_stepping/time_stepper.h>
 
 #include <deal.II/base/mpi.h>
@@ -195,11 +196,8 @@ namespace geocone
         const InternalForces::Work work = internal.work(p);
         sums[0] += points.weight[p] * work.elastic;
         sums[1] += points.weight[p] * work.plastic;
-        sums[2] +=
-          points.weight[p] / 2. *
-          s.dot(materials[points.material[p]]
-                  .elasticity_at(points.stress[p], points.history_of(p))
-                  .strain(s));
+        sums[2] += points.weight[p] / 2. *
+                   s.dot(elasticity_at_start(materials, points, p).strain(s));
       }
     sum_over_ranks(sums, v.get_mpi_communicator());
     // Steps in which next to nothing happens are rounding of the energies.

@@ -31,6 +31,11 @@ namespace geocone
   class CellPressures
   {
   public:
+    /** Whether cells have one pressure: B-bar by means of cells, and soil that
+     *  dilates; the same on all ranks. */
+    static bool
+    are_those_of(const MaterialPoints &points, const Materials &materials);
+
     CellPressures(const MaterialPoints &points, const Materials &materials);
 
     /** Takes the elasticity of t_n. */
@@ -90,7 +95,7 @@ namespace geocone
     pore_pressure(const unsigned int point) const;
 
     /** Finds pi_p and k_p, which has a lower bound: it is 0 at the apex of a cone.
-     *  @param mean_stress tr(s_p)/n (Pa) */
+     *  @param mean_stress pi_p without the part of the strain (Pa) */
     void
     evaluate(const unsigned int  point,
              const double        mean_stress,
