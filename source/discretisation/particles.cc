@@ -177,7 +177,7 @@ namespace geocone
     if (n_points > 0)
       points.first_point.push_back(n_points);
     if (space->has_b_bar())
-      project_gradients(0, points);
+      project_gradients(space->volumetric_degree(), points);
   }
 
   void

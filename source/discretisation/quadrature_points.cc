@@ -159,7 +159,7 @@ namespace geocone
       }
     start.check<InputError>(mesh.triangulation().get_communicator());
     if (space.has_b_bar())
-      project_gradients(space.degree() - 1, points);
+      project_gradients(space.volumetric_degree(), points);
     if (known.n_cells() > 0)
       copy_states(known, points);
     return points;

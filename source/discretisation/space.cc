@@ -57,12 +57,10 @@ namespace geocone
     add_parameter(
       "B-bar",
       b_bar,
-      "Against locking, for Q1 to Q3 and splines: the volumetric "
-      "strain of a cell is its mean over the cell's points; of Q2 "
-      "and Q3, only with FEM, its projection onto polynomials of "
-      "one degree less. For soil that dilates, in implicit steps "
-      "with Q1 and splines, the pressure is the same in a cell, and "
-      "only the mean of the volumetric strains is given.");
+      "Against locking, for Q1 to Q3 and splines: of the volumetric strain "
+      "of a cell only its mean over the cell's points counts, of Q2 and Q3 "
+      "its projection onto polynomials of one degree less; where soil "
+      "dilates in implicit steps, its pressure is such a polynomial, too.");
   }
 
   std::string
@@ -114,12 +112,6 @@ namespace geocone
         "true",
         "true on quadrilaterals and hexahedra",
         "set B-bar = false: elements of higher degree lock less");
-    if (b_bar && method.is_mpm() && p > 1 && kind < Element::spline_2)
-      throw InputError("Discretisation/B-bar",
-                       "true",
-                       "true for Q1 and splines where particles carry the "
-                       "material",
-                       "set B-bar = false, or Element = Q1, B-spline 2 or 3");
   }
 
   void

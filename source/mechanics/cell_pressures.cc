@@ -32,7 +32,7 @@ namespace geocone
   CellPressures::are_those_of(const MaterialPoints &points,
                               const Materials      &materials)
   {
-    return points.volumetric_degree == 0 && materials.dilate();
+    return points.volumetric_degree >= 0 && materials.dilate();
   }
 
   CellPressures::CellPressures(const MaterialPoints &points,
@@ -75,30 +75,99 @@ namespace geocone
   }
 
   void
+  CellPressures::choose_basis(const unsigned int         cell,
+                              const std::vector<double> &weight,
+                              Basis                     &result) const
+  {
+    const unsigned int first = points.first_point[cell],
+                       n     = points.first_point[cell + 1] - first,
+                       n_m   = points.n_volumetric_modes;
+    auto &M                  = result.modes;
+    M                        = Eigen::Map<const decltype(result.modes)>(
+      &points.volumetric_modes[first * n_m], n, n_m);
+    result.point.assign(n_m, -1);
+    // Gauss and Jordan's elimination with the largest pivots, by columns.
+    for (unsigned int step = 0; step < n_m; ++step)
+      {
+        double       largest = 0.;
+        unsigned int q = 0, j = 0;
+        for (unsigned int i = 0; i < n_m; ++i)
+          if (result.point[i] < 0)
+            for (unsigned int p = 0; p < n; ++p)
+              if (weight[p] * M(p, i) * M(p, i) > largest)
+                {
+                  largest = weight[p] * M(p, i) * M(p, i);
+                  q       = p;
+                  j       = i;
+                }
+        if (largest == 0.)
+          break;
+        result.point[j] = q;
+        const double pivot = M(q, j);
+        M.col(j) /= pivot;
+        for (unsigned int i = 0; i < n_m; ++i)
+          if (const double factor = M(q, i); i != j)
+            M.col(i) -= factor * M.col(j);
+      }
+    Basis::Matrix G = Basis::Matrix::Zero(n_m, n_m);
+    for (unsigned int p = 0; p < n; ++p)
+      for (unsigned int i = 0; i < n_m; ++i)
+        for (unsigned int j = 0; j < n_m; ++j)
+          G(i, j) += weight[p] * M(p, i) * M(p, j);
+    for (unsigned int j = 0; j < n_m; ++j)
+      if (result.point[j] < 0)
+        G(j, j) = 1.;
+    result.compliance.compute(G);
+  }
+
+  void
+  CellPressures::fit(const unsigned int cell)
+  {
+    const unsigned int first = points.first_point[cell],
+                       n     = points.first_point[cell + 1] - first;
+    weight.resize(n);
+    for (unsigned int q = 0; q < n; ++q)
+      weight[q] = points.weight[first + q] / k[first + q];
+    choose_basis(cell, weight, basis);
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_modes, 1> m =
+      decltype(m)::Zero(points.n_volumetric_modes);
+    for (unsigned int q = 0; q < n; ++q)
+      m += (weight[q] * mean[first + q]) * basis.modes.row(q).transpose();
+    m                = basis.compliance.solve(m).eval();
+    fitted.noalias() = basis.modes * m;
+  }
+
+  double
+  CellPressures::difference_in(const unsigned int cell) const
+  {
+    double difference = 0.;
+    for (unsigned int q = 0; q < fitted.size(); ++q)
+      difference = std::max(
+        difference, std::abs(fitted[q] - mean[points.first_point[cell] + q]));
+    return difference;
+  }
+
+  void
   CellPressures::shift(const unsigned int cell)
   {
-    const unsigned int begin = points.first_point[cell],
-                       end   = points.first_point[cell + 1];
-    double       sum = 0., weighted = 0.;
-    unsigned int soft = begin;
-    for (unsigned int p = begin; p < end; ++p)
-      {
-        sum += points.weight[p] / k[p];
-        weighted += points.weight[p] / k[p] * mean[p];
-        if (k[p] < k[soft])
-          soft = p;
-      }
-    // The softest point takes the rest, so that the mean volumetric strain stays to
-    // the last digit even where 1/k is very large.
-    double rest = 0.;
-    for (unsigned int p = begin; p < end; ++p)
-      if (p != soft)
+    const unsigned int first = points.first_point[cell];
+    const auto         n     = static_cast<unsigned int>(fitted.size());
+    for (unsigned int q = 0; q < n; ++q)
+      growth[first + q] += (fitted[q] - mean[first + q]) / k[first + q];
+    // The points with M_j = 1 take what is left of sum V M_j t.
+    for (const int q : basis.point)
+      if (q >= 0)
+        growth[first + q] = 0.;
+    for (unsigned int j = 0; j < basis.point.size(); ++j)
+      if (basis.point[j] >= 0)
         {
-          growth[p] += (weighted / sum - mean[p]) / k[p];
-          rest -= points.weight[p] * growth[p];
+          double sum = 0.;
+          for (unsigned int q = 0; q < n; ++q)
+            sum +=
+              points.weight[first + q] * basis.modes(q, j) * growth[first + q];
+          growth[first + basis.point[j]] =
+            -sum / points.weight[first + basis.point[j]];
         }
-    if (begin < end)
-      growth[soft] = rest / points.weight[soft];
   }
 
   void
@@ -110,7 +179,6 @@ namespace geocone
   {
     given = strain;
     std::fill(growth.begin(), growth.end(), 0.);
-    difference_in.assign(points.n_cells(), 0.);
     unequal.resize(points.n_cells());
     std::iota(unequal.begin(), unequal.end(), 0);
     double scale = 0.;
@@ -126,45 +194,35 @@ namespace geocone
             update(points.first_point[first], points.first_point[next]);
           }
         for (const unsigned int c : unequal)
-          {
-            double least    = std::numeric_limits<double>::max();
-            double greatest = std::numeric_limits<double>::lowest();
-            for (unsigned int p = points.first_point[c];
-                 p < points.first_point[c + 1];
-                 ++p)
-              {
-                evaluate(p,
-                         trace(stress[p]) / dim - pore_pressure(p),
-                         tangent[p],
-                         strain[p]);
-                least    = std::min(least, mean[p]);
-                greatest = std::max(greatest, mean[p]);
-                scale    = std::max(scale, stress[p].norm());
-              }
-            difference_in[c] = std::max(greatest - least, 0.);
-          }
-        if (step == most_steps)
-          break;
-        unequal.erase(std::remove_if(unequal.begin(),
-                                     unequal.end(),
-                                     [&](const unsigned int c) {
-                                       return !(difference_in[c] >
-                                                rounding * scale);
-                                     }),
-                      unequal.end());
+          for (unsigned int p = points.first_point[c];
+               p < points.first_point[c + 1];
+               ++p)
+            {
+              evaluate(p,
+                       trace(stress[p]) / dim - pore_pressure(p),
+                       tangent[p],
+                       strain[p]);
+              scale = std::max(scale, stress[p].norm());
+            }
+        largest_difference = 0.;
+        unsigned int n     = 0;
         for (const unsigned int c : unequal)
           {
+            fit(c);
+            const double difference = difference_in(c);
+            largest_difference      = std::max(largest_difference, difference);
+            if (!(difference > rounding * scale) || step == most_steps)
+              continue;
+            unequal[n++] = c;
             shift(c);
             for (unsigned int p = points.first_point[c];
                  p < points.first_point[c + 1];
                  ++p)
               strain[p] = given[p] + growth[p] * mean_direction();
           }
+        unequal.resize(n);
       }
-    largest_difference =
-      scale > 0.
-        ? *std::max_element(difference_in.begin(), difference_in.end()) / scale
-        : 0.;
+    largest_difference /= std::max(scale, std::numeric_limits<double>::min());
   }
 
   void
@@ -180,6 +238,7 @@ namespace geocone
         evaluate(
           p, mean_direction().dot(tangent[p] * rate[p]), tangent[p], rate[p]);
       }
+    fit(cell);
     shift(cell);
     for (unsigned int p = begin; p < end; ++p)
       rate[p] += growth[p] * mean_direction();
@@ -194,7 +253,7 @@ namespace geocone
     const unsigned int first = points.first_point[cell];
     result.left.resize(C.size());
     result.right.resize(C.size());
-    result.sum = 0.;
+    std::vector<double> ratio(C.size());
     for (unsigned int q = 0; q < C.size(); ++q)
       {
         const double weight  = factor * points.weight[first + q];
@@ -204,8 +263,9 @@ namespace geocone
                                              least_modulus[first + q]);
         result.left[q]       = inverse * a;
         result.right[q]      = inverse * b;
-        result.sum += weight * inverse;
+        ratio[q]             = weight * inverse;
         C[q] -= (inverse / weight) * a * b.transpose();
       }
+    choose_basis(cell, ratio, result.basis);
   }
 } // namespace geocone

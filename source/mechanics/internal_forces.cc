@@ -169,26 +169,30 @@ namespace geocone
     const CellPressures::Condensed &condensed,
     double                         *K) const
   {
-    constexpr int      m       = dim * n;
-    const unsigned int first   = points.first_point[c];
-    double             left[m] = {}, right[m] = {};
-    const auto forces_of = [&](const std::vector<Mandel> &stress, double *f) {
-      add_forces_of_cell<n>(
-        c,
-        [&](const unsigned int p) -> const Mandel & {
-          return stress[p - first];
-        },
-        [](const unsigned int) { return 0.; },
-        f);
+    constexpr int      m     = dim * n;
+    const unsigned int first = points.first_point[c];
+    using Columns =
+      Eigen::Matrix<double, m, Eigen::Dynamic, 0, m, CellPressures::most_modes>;
+    const auto forces_of = [&](const std::vector<Mandel> &stress) {
+      Columns f = Columns::Zero(m, points.n_volumetric_modes);
+      for (unsigned int j = 0; j < points.n_volumetric_modes; ++j)
+        add_forces_of_cell<n>(
+          c,
+          [&](const unsigned int p) -> Mandel {
+            return condensed.basis.modes(p - first, j) * stress[p - first];
+          },
+          [](const unsigned int) { return 0.; },
+          f.col(j).data());
+      return f;
     };
-    forces_of(condensed.left, left);
-    forces_of(condensed.right, right);
+    const Columns left  = forces_of(condensed.left),
+                  right = condensed.basis.compliance
+                            .solve(forces_of(condensed.right).transpose())
+                            .transpose();
     for (int i = 0; i < m; ++i)
-      {
-        const double factor = left[i] / condensed.sum;
+      for (unsigned int k = 0; k < points.n_volumetric_modes; ++k)
         for (int j = 0; j < m; ++j)
-          K[m * i + j] += factor * right[j];
-      }
+          K[m * i + j] += left(i, k) * right(j, k);
   }
 
   void

@@ -61,6 +61,11 @@ namespace geocone
     /** Degree of the polynomials in a cell that they are projected onto; -1 where
      *  they are not, the same on all ranks. */
     int volumetric_degree = -1;
+    /** Number of these polynomials, and their values at a point: a basis M_j in each
+     *  cell with sum_p V_p M_i M_j = delta_ij (1/m^(n/2)); 0 where the points of a
+     *  cell are too few to tell them apart. */
+    unsigned int        n_volumetric_modes = 0;
+    std::vector<double> volumetric_modes;
 
     /** Those of a point, or null where there are none. */
     const double *
@@ -93,9 +98,7 @@ namespace geocone
   };
 
   /** Fills the volumetric gradients: in each cell the projection of grad N, weighted by
-   *  volume, onto the polynomials of x of a degree, 0 being the mean. Of elements of
-   *  degree k it is k - 1, a pair that neither locks nor oscillates (Q2/P-1 of Stokes
-   *  flow). Cells need as many points as there are such polynomials. */
+   *  volume, onto the polynomials of x of a degree, 0 being the mean. */
   void
   project_gradients(const unsigned int degree, MaterialPoints &points);
 } // namespace geocone

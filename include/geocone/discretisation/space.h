@@ -106,6 +106,15 @@ namespace geocone
       return p == 1 || is_spline() || basis == Basis::bernstein;
     }
 
+    /** Degree of the polynomials in a cell that B-bar takes volumetric strains from: 0
+     *  for splines and k - 1 for Qk, a pair that neither locks nor oscillates (Q2/P-1
+     *  of Stokes flow). */
+    unsigned int
+    volumetric_degree() const
+    {
+      return is_spline() ? 0 : p - 1;
+    }
+
     /** Whether volumetric strains are projected in each cell (B-bar). */
     bool
     has_b_bar() const

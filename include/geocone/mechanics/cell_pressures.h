@@ -7,32 +7,36 @@
 #include <geocone/discretisation/material_points.h>
 #include <geocone/materials/material_library.h>
 
+#include <Eigen/Dense>
+
 #include <functional>
 #include <vector>
 
 namespace geocone
 {
   /**
-   * One mean stress in each cell, for B-bar where soil dilates. B-bar gives all points
-   * of a cell the same volumetric strain, but a point that dilates has to grow as it is
-   * sheared, and where points of a cell are not sheared alike their stresses then rise
-   * until those of the next cells can follow: the soil locks. Here only the mean of the
-   * volumetric strains is given, and a point may grow by t_p more, such that
-   *   sum_p V_p t_p = 0,   pi_p = pi in the cell,
+   * The mean stress of a cell as one polynomial, for B-bar where soil dilates. B-bar
+   * takes the volumetric strains of a cell from polynomials of a degree, a constant
+   * with Q1 and splines, but a point that dilates has to grow as it is sheared, and
+   * where points of a cell are not sheared alike their stresses then rise until those
+   * of the next cells can follow: the soil locks. Here only the projection of the
+   * volumetric strains onto the polynomials M_j is given, and a point may grow by t_p
+   * more, such that
+   *   sum_p V_p M_j(x_p) t_p = 0,   pi_p = sum_j M_j(x_p) m_j,
    *   pi_p = tr(s_p)/n + (K_w/n) tr(e_p) - p_p,   e_p = h B_p v + t_p I/n,
    * with n the dimension, the pore pressure where soil is undrained, and B_p that of
    * B-bar: the stationary point of the functional of strains, where it has one, with
-   * the mean stress constant in each cell. Without dilatancy and with one elasticity
-   * all pi_p change alike, and this is B-bar.
+   * the mean stress such a polynomial in each cell. Without dilatancy and with one
+   * elasticity the pi_p change as the M_j do, and this is B-bar.
    *
    * The t_p follow from Newton's method in the cell, with k_p = I'C_p I/n^2:
-   *   pi = sum (V/k) pi_p / sum (V/k),   t_p <- t_p + (pi - pi_p)/k_p.
+   *   m = G^-1 sum (V/k) M pi_p,   G = sum (V/k) M M',   t_p <- t_p + (M'm - pi_p)/k_p.
    */
   class CellPressures
   {
   public:
-    /** Whether cells have one pressure: B-bar by means of cells, and soil that
-     *  dilates; the same on all ranks. */
+    /** Whether there are such pressures: B-bar, and soil that dilates; the same on
+     *  all ranks. */
     static bool
     are_those_of(const MaterialPoints &points, const Materials &materials);
 
@@ -54,8 +58,8 @@ namespace geocone
       const std::vector<MandelMatrix> &tangent,
       std::vector<Mandel>             &strain);
 
-    /** What is left of the differences in a cell, over the greatest stress of the
-     *  points of this rank, after equalise(). */
+    /** What is left of the differences from polynomials, over the greatest stress of
+     *  the points of this rank, after equalise(). */
     double
     difference() const
     {
@@ -68,18 +72,39 @@ namespace geocone
                    const std::vector<MandelMatrix> &tangent,
                    std::vector<Mandel>             &rate);
 
+    /** The polynomials in a cell of Q3 have most, those of degree 2. */
+    static constexpr int most_modes = dim == 2 ? 6 : 10;
+
+    /** A basis of the polynomials of a cell and their G, with 1/k_p of its points. */
+    struct Basis
+    {
+      using Matrix = Eigen::Matrix<double,
+                                   Eigen::Dynamic,
+                                   Eigen::Dynamic,
+                                   0,
+                                   most_modes,
+                                   most_modes>;
+
+      /** M_j at the points of a cell, one of which has M_j = 1 and no other M_i. */
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>
+        modes;
+      /** Number of that point in the cell; -1 where M_j = 0 at all points. */
+      std::vector<int>    point;
+      Eigen::LDLT<Matrix> compliance; ///< G
+    };
+
     /** A cell's tangent without its t_p, see condense(). */
     struct Condensed
     {
-      std::vector<Mandel> left, right; ///< of its points (Pa times weight)
-      double              sum = 0.;    ///< sum V/k
+      std::vector<Mandel> left, right; ///< a_p/k_p, b_p/k_p, times the weight
+      Basis               basis;
     };
 
     /**
      * Eliminates the t_p of a cell from its tangents,
      *   C_p <- C_p - a_p b_p'/k_p,   a_p = C_p I/n,   b_p = C_p' I/n,
-     * which then are blind to volume; the rest is of rank one,
-     *   l r'/sum (V/k),   l = sum_p B_p' (V/k)_p a_p,   r = sum_p B_p' (V/k)_p b_p.
+     * which then are blind to volume; what is left is, with a column for each M_j,
+     *   L G^-1 R',   L_j = sum_p B_p' (V/k M_j)_p a_p,   R_j = sum_p B_p' (V/k M_j)_p b_p.
      * @param C tangents, with the fluid's part, times a factor and the weight V of
      * their points; @p factor is that factor
      */
@@ -102,20 +127,40 @@ namespace geocone
              const MandelMatrix &tangent,
              const Mandel       &strain);
 
-    /** One step of Newton's method in a cell, from its pi_p and k_p. */
+    /**
+     * Chooses the points with M_j = 1 where the soil is softest, so that large and
+     * small 1/k_p do not mix in G, and a t_p found there from those of the others
+     * keeps sum V M t = 0 to the last digit.
+     * @param weight V/k of the points of the cell from the first
+     */
+    void
+    choose_basis(const unsigned int         cell,
+                 const std::vector<double> &weight,
+                 Basis                     &result) const;
+
+    /** The polynomial m that is closest to the pi_p of a cell by G. */
+    void
+    fit(const unsigned int cell);
+
+    /** The largest difference of the pi_p from it (Pa). */
+    double
+    difference_in(const unsigned int cell) const;
+
+    /** One step of Newton's method in a cell that was fitted. */
     void
     shift(const unsigned int cell);
 
-    const MaterialPoints &points;
-    const Materials      &materials;
-
+    const MaterialPoints     &points;
+    const Materials          &materials;
     std::vector<double>       least_modulus; ///< of points (Pa)
     std::vector<double>       mean;          ///< pi_p (Pa)
     std::vector<double>       k;             ///< k_p (Pa)
     std::vector<double>       growth;        ///< t_p
     std::vector<Mandel>       given;         ///< strains without t_p
-    std::vector<double>       difference_in; ///< of pi_p in a cell (Pa)
     std::vector<unsigned int> unequal;       ///< cells that are not done
+    Basis                     basis;         ///< of the cell fitted last
+    Eigen::VectorXd           fitted; ///< its polynomial at its points (Pa)
+    std::vector<double>       weight; ///< V/k of its points
     double                    largest_difference = 0.;
   };
 } // namespace geocone
