@@ -17,6 +17,44 @@ namespace geocone
 
   namespace
   {
+    /** A place as seen from a line of the body's border. */
+    struct Seen
+    {
+      double along;  ///< from 0 to 1 beside the line
+      double beyond; ///< distance to its right, outside the body (m)
+      double length; ///< of the line (m)
+
+      /** Not far behind: there another part of the body may be. */
+      bool
+      is_close_behind() const
+      {
+        return along > 0. && along < 1. && beyond > 0. && beyond < length;
+      }
+    };
+
+    Seen
+    seen_from(const MovingBoundary::Line &line, const Point<dim> &x)
+    {
+      const Tensor<1, dim> direction = line.b - line.a, to = x - line.a;
+      const double         length = direction.norm();
+      return {direction * to / (length * length),
+              (direction[1] * to[0] - direction[0] * to[1]) / length,
+              length};
+    }
+
+    /** Whether a condition gives the velocity across a line. */
+    bool
+    holds_normal(const BoundaryCondition    &condition,
+                 const MovingBoundary::Line &line)
+    {
+      const Tensor<1, dim> direction = line.b - line.a;
+      for (unsigned int d = 0; d < dim; ++d)
+        if (!condition.components[d] &&
+            std::abs(direction[1 - d]) > 1e-6 * direction.norm())
+          return false;
+      return true;
+    }
+
     /** The longest part of a line in one cell (m). */
     double
     cell_size_along(const BackgroundMesh       &mesh,
@@ -330,12 +368,15 @@ namespace geocone
   MovingConditions::move(const Vector &v, const double h, const double t)
   {
     for (Side &side : supports)
-      for (MovingBoundary::Line &line : side.boundary.lines)
-        for (Point<dim> *x : {&line.a, &line.b})
-          for (unsigned int d = 0; d < dim; ++d)
-            if (const auto &q =
-                  scene.dirichlet.list[side.condition]->components[d])
-              (*x)[d] += h * q->value(*x, t);
+      {
+        side.before = side.boundary.lines;
+        for (MovingBoundary::Line &line : side.boundary.lines)
+          for (Point<dim> *x : {&line.a, &line.b})
+            for (unsigned int d = 0; d < dim; ++d)
+              if (const auto &q =
+                    scene.dirichlet.list[side.condition]->components[d])
+                (*x)[d] += h * q->value(*x, t);
+      }
     for (Side &side : loads)
       advect(side.boundary, v, h);
   }
@@ -363,6 +404,32 @@ namespace geocone
     return is_loaded;
   }
 
+  std::optional<Point<dim>>
+  MovingConditions::put_back(const Point<dim> &before,
+                             const Point<dim> &after) const
+  {
+    for (const Side &side : supports)
+      for (const MovingBoundary::Line &line : side.boundary.lines)
+        {
+          const Seen now = seen_from(line, after);
+          if (!now.is_close_behind() ||
+              !holds_normal(*scene.dirichlet.list[side.condition], line))
+            continue;
+          const bool was_in_front =
+            std::any_of(side.before.begin(),
+                        side.before.end(),
+                        [&](const MovingBoundary::Line &line_before) {
+                          const Seen seen = seen_from(line_before, before);
+                          return seen.along >= 0. && seen.along <= 1. &&
+                                 seen.beyond < 1e-6 * seen.length;
+                        });
+          const double end = now.along < 0.5 ? 0. : 1.;
+          return was_in_front ? line.a + now.along * (line.b - line.a)
+                              : after + (end - now.along) * (line.b - line.a);
+        }
+    return {};
+  }
+
   unsigned int
   MovingConditions::n_behind(const MaterialPoints &points) const
   {
@@ -375,16 +442,10 @@ namespace geocone
         for (const Side &side : supports)
           for (const MovingBoundary::Line &line : side.boundary.lines)
             {
-              const Tensor<1, dim> along = line.b - line.a,
-                                   to    = points.position[p] - line.a;
-              const double length        = along.norm(),
-                           s             = along * to / (length * length),
-                           beyond = (along[1] * to[0] - along[0] * to[1]) /
-                                    length; // to the right, outside
-              // Not far behind: there another part of the body may be.
-              const double size = length_of(points.weight[p]);
-              behind = behind || (s > 0. && s < 1. && beyond > 0.1 * size &&
-                                  beyond < length);
+              const Seen seen = seen_from(line, points.position[p]);
+              behind =
+                behind || (seen.is_close_behind() &&
+                           seen.beyond > 0.1 * length_of(points.weight[p]));
             }
         n += behind;
       }

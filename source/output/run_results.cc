@@ -90,6 +90,8 @@ namespace geocone
     return {
       {"load_drops", n_drops},
       {"points_behind", worst.points_behind},
+      {"points_put_back_max", worst.points_put_back},
+      {"put_back_max_m", worst.put_back},
       {"empty_functions", worst.light_functions},
       {"light_share_max", worst.light_share},
       {"front_x_m", front[0]},

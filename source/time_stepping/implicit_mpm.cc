@@ -520,6 +520,12 @@ namespace geocone
     report.converged = true;
 
     // From here on the step is accepted.
+    std::pair<unsigned int, double> put_back;
+    if (advection != Advection::none)
+      {
+        moving->move(v, h, step.solved_at);
+        put_back = put_points_back(points, moved);
+      }
     const InternalForces &internal = problem->internal_forces();
     report.load_factor =
       raised.take(*constraints, problem->multipliers(), force, residual);
@@ -562,9 +568,6 @@ namespace geocone
       obstacles->commit(
         problem->contact(), v, h, solved_h, advection != Advection::none);
     update_supports(step, v, kinematics, report.reactions);
-    if (advection != Advection::none)
-      moving->move(v, h, step.solved_at);
-
     had_mass.resize(v.locally_owned_size());
     for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
       had_mass[i] = constraints->has_mass(i);
@@ -582,8 +585,12 @@ namespace geocone
     report.energies.memory_work         = memory_work;
     report.energies.contact_dissipation = report.contact.dissipation;
     report.energies.ghost_work          = (step.h / step.solved_h) * ghost_work;
-    report.motion                       = {
-                            n_light, moving->n_behind(points), share.largest, front_of(points)};
+    report.motion                       = {n_light,
+                                           moving->n_behind(points),
+                                           put_back.first,
+                                           put_back.second,
+                                           share.largest,
+                                           front_of(points)};
     return report;
   }
 } // namespace geocone

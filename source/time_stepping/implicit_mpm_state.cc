@@ -259,6 +259,26 @@ namespace geocone
     return Utilities::MPI::sum(work, force.get_mpi_communicator());
   }
 
+  std::pair<unsigned int, double>
+  ImplicitMPM::put_points_back(const MaterialPoints &points,
+                               std::vector<Moved>   &moved) const
+  {
+    unsigned int n       = 0;
+    double       largest = 0.;
+    for (unsigned int p = 0; p < points.n_points(); ++p)
+      if (const auto place =
+            moving->put_back(points.position[p], moved[p].position))
+        {
+          const Tensor<1, dim> change = *place - moved[p].position;
+          moved[p].position           = *place;
+          moved[p].displacement += change;
+          largest = std::max(largest, change.norm());
+          ++n;
+        }
+    const MPI_Comm comm = force.get_mpi_communicator();
+    return {Utilities::MPI::sum(n, comm), Utilities::MPI::max(largest, comm)};
+  }
+
   Point<dim>
   ImplicitMPM::front_of(const MaterialPoints &points) const
   {

@@ -9,6 +9,8 @@
 #include <geocone/mechanics/constraints.h>
 #include <geocone/mechanics/moving_boundary.h>
 
+#include <optional>
+
 namespace geocone
 {
   /**
@@ -68,6 +70,16 @@ namespace geocone
     std::vector<bool>
     loaded_nodes() const;
 
+    /**
+     * The place on a side that is held of a point which the body took beyond it: means
+     * over a side let single points pass. A point from beside the side goes back to
+     * that end of it.
+     * @param before,after where the point was and came to in the last move()
+     */
+    std::optional<dealii::Point<dim>>
+    put_back(const dealii::Point<dim> &before,
+             const dealii::Point<dim> &after) const;
+
     /** Points of all ranks that are more than a tenth of their own size beyond a
      *  side that is held, where the body cannot be. Collective. */
     unsigned int
@@ -83,6 +95,8 @@ namespace geocone
     {
       unsigned int   condition;
       MovingBoundary boundary;
+      /** Its lines before the last move(). */
+      std::vector<MovingBoundary::Line> before = {};
     };
 
     /** Held particles of each condition, of all ranks. Collective. */

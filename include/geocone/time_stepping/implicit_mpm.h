@@ -231,6 +231,12 @@ namespace geocone
                          const MaterialPoints     &points,
                          const std::vector<Moved> &moved) const;
 
+    /** Puts points back to the sides that are held, MovingConditions::put_back(): how
+     *  many of all ranks, and how far at most (m). Collective. */
+    std::pair<unsigned int, double>
+    put_points_back(const MaterialPoints &points,
+                    std::vector<Moved>   &moved) const;
+
     /** The largest coordinates of points (m). */
     dealii::Point<dim>
     front_of(const MaterialPoints &points) const;

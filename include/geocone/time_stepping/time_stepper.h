@@ -67,6 +67,8 @@ namespace geocone
   {
     unsigned int light_functions = 0;  ///< see GhostPlaces::n_light()
     unsigned int points_behind   = 0;  ///< see MovingConditions::n_behind()
+    unsigned int points_put_back = 0;  ///< see MovingConditions::put_back()
+    double       put_back        = 0.; ///< how far at most (m)
     double       light_share     = 0.; ///< see Multipliers::light_share()
 
     /** The largest coordinates of points at the end (m). */
@@ -77,13 +79,20 @@ namespace geocone
     {
       light_functions = std::max(light_functions, other.light_functions);
       points_behind   = std::max(points_behind, other.points_behind);
+      points_put_back = std::max(points_put_back, other.points_put_back);
+      put_back        = std::max(put_back, other.put_back);
       light_share     = std::max(light_share, other.light_share);
     }
 
     void
     state(StateRow &row)
     {
-      row(light_functions, points_behind, light_share, front);
+      row(light_functions,
+          points_behind,
+          points_put_back,
+          put_back,
+          light_share,
+          front);
     }
   };
 
