@@ -5,9 +5,11 @@
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/polynomial.h>
-#include <deal.II/base/polynomial_space.h>
 
 #include <Eigen/Dense>
+
+#include <array>
+#include <cmath>
 
 namespace geocone
 {
@@ -16,6 +18,27 @@ namespace geocone
     /** The part of a polynomial that others leave at the points of a cell below which
      *  it counts as made of them. */
     constexpr double same_polynomial = 1e-3;
+
+    /** The part of the longest side of the box of a cell's points below which another
+     *  one is none. */
+    constexpr double same_place = 1e-6;
+
+    /** Powers of the coordinates in polynomials of a degree, lowest sums first. */
+    std::vector<std::array<unsigned int, dim>>
+    powers_up_to(const unsigned int degree)
+    {
+      std::vector<std::array<unsigned int, dim>> result;
+      for (unsigned int sum = 0; sum <= degree; ++sum)
+        for (unsigned int i = 0; i <= sum; ++i)
+          for (unsigned int j = dim == 3 ? 0 : sum - i; i + j <= sum; ++j)
+            {
+              std::array<unsigned int, dim> powers{{i, j}};
+              if (dim == 3)
+                powers.back() = sum - i - j;
+              result.push_back(powers);
+            }
+      return result;
+    }
   } // namespace
 
   void
@@ -41,12 +64,13 @@ namespace geocone
     const unsigned int m = dim * points.n_nodes; // values per point
     using Values =
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const std::vector<dealii::Polynomials::Polynomial<double>> legendre =
+      dealii::Polynomials::Legendre::generate_complete_basis(degree);
+    const auto         powers  = powers_up_to(degree);
+    const unsigned int n_modes = powers.size();
+    points.n_volumetric_modes  = n_modes;
+    points.volumetric_modes.assign(points.n_points() * n_modes, 0.);
     points.volumetric_gradients.resize(points.n_points() * m);
-    points.volumetric_degree = degree;
-    const dealii::PolynomialSpace<dim> polynomials(
-      dealii::Polynomials::Legendre::generate_complete_basis(degree));
-    points.n_volumetric_modes = polynomials.n();
-    points.volumetric_modes.assign(points.n_points() * polynomials.n(), 0.);
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       {
         const unsigned int first = points.first_point[c],
@@ -57,31 +81,35 @@ namespace geocone
         const dealii::BoundingBox<dim> box(
           std::vector<dealii::Point<dim>>(points.position.begin() + first,
                                           points.position.begin() + first + n));
-        Values M(n, polynomials.n());
+        double longest = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          longest = std::max(longest, box.side_length(d));
+        Values M = Values::Ones(n, n_modes);
         for (unsigned int q = 0; q < n; ++q)
-          for (unsigned int k = 0; k < polynomials.n(); ++k)
+          for (unsigned int d = 0; d < dim; ++d)
             {
-              dealii::Point<dim> x;
-              for (unsigned int d = 0; d < dim && degree > 0; ++d)
-                if (box.side_length(d) > 0.)
-                  x[d] = (points.position[first + q][d] - box.lower_bound(d)) /
-                         box.side_length(d);
-              M(q, k) = polynomials.compute_value(k, x);
+              const double side = box.side_length(d);
+              const double x =
+                side > same_place * longest
+                  ? (points.position[first + q][d] - box.lower_bound(d)) / side
+                  : 0.;
+              for (unsigned int j = 0; j < n_modes; ++j)
+                M(q, j) *= legendre[powers[j][d]].value(x);
             }
+        // Gram and Schmidt's method, twice.
         const Eigen::Map<const Eigen::VectorXd> w(&points.weight[first], n);
-        const Eigen::Map<const Values> g(&points.gradients[first * m], n, m);
-        for (unsigned int k = 0; k < polynomials.n(); ++k)
+        for (unsigned int j = 0; j < n_modes; ++j)
           {
-            const double before = std::sqrt(w.dot(M.col(k).cwiseAbs2()));
+            const double before = std::sqrt(w.dot(M.col(j).cwiseAbs2()));
             for (unsigned int twice = 0; twice < 2; ++twice)
-              for (unsigned int j = 0; j < k; ++j)
-                M.col(k) -= w.dot(M.col(j).cwiseProduct(M.col(k))) * M.col(j);
-            const double after = std::sqrt(w.dot(M.col(k).cwiseAbs2()));
-            M.col(k) *= after > same_polynomial * before ? 1. / after : 0.;
+              for (unsigned int i = 0; i < j; ++i)
+                M.col(j) -= w.dot(M.col(i).cwiseProduct(M.col(j))) * M.col(i);
+            const double after = std::sqrt(w.dot(M.col(j).cwiseAbs2()));
+            M.col(j) *= after > same_polynomial * before ? 1. / after : 0.;
           }
-        Eigen::Map<Values>(&points.volumetric_modes[first * polynomials.n()],
-                           n,
-                           polynomials.n()) = M;
+        const Eigen::Map<const Values> g(&points.gradients[first * m], n, m);
+        Eigen::Map<Values>(
+          &points.volumetric_modes[first * n_modes], n, n_modes) = M;
         Eigen::Map<Values>(&points.volumetric_gradients[first * m], n, m) =
           M * (M.transpose() * (w.asDiagonal() * g));
       }

@@ -59,8 +59,8 @@ namespace geocone
       b_bar,
       "Against locking, for Q1 to Q3 and splines: of the volumetric strain "
       "of a cell only its mean over the cell's points counts, of Q2 and Q3 "
-      "its projection onto polynomials of one degree less; where soil "
-      "dilates in implicit steps, its pressure is such a polynomial, too.");
+      "its projection onto polynomials of one degree less; in implicit steps "
+      "the pressure of a cell where soil dilates is such a polynomial, too.");
   }
 
   std::string

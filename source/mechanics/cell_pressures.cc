@@ -5,6 +5,7 @@
 #include <geocone/mechanics/cell_pressures.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -18,7 +19,30 @@ namespace geocone
     /** Differences that are rounding, over the greatest stress, and the steps after
      *  which no more is to be had. Two or three are the rule. */
     constexpr double       rounding   = 1e-13;
-    constexpr unsigned int most_steps = 50;
+    constexpr unsigned int most_steps = 100;
+
+    /** Steps after which cells that went to and fro begin again, with steps that are
+     *  shortened. */
+    constexpr unsigned int whole_steps = 20;
+
+    /** A step is too long if the differences are not less at its end and the functional
+     *  rises there by more than this part of its fall at the beginning. */
+    constexpr double overshoot = 0.5;
+
+    /** Differences over the greatest stress that Newton's method takes away in whole
+     *  steps: slopes may be rounding there. */
+    constexpr double near_solution = 1e-9;
+
+    /** The least part of a step that is left at once. */
+    constexpr double shortest = 0.1;
+
+    /** NaN stays. */
+    void
+    take_larger(double &largest, const double x)
+    {
+      if (!(x <= largest) && !std::isnan(largest))
+        largest = x;
+    }
 
     const Mandel &
     mean_direction()
@@ -32,7 +56,7 @@ namespace geocone
   CellPressures::are_those_of(const MaterialPoints &points,
                               const Materials      &materials)
   {
-    return points.volumetric_degree >= 0 && materials.dilate();
+    return points.n_volumetric_modes > 0 && materials.dilate();
   }
 
   CellPressures::CellPressures(const MaterialPoints &points,
@@ -43,6 +67,7 @@ namespace geocone
     , mean(points.n_points())
     , k(points.n_points())
     , growth(points.n_points())
+    , change(points.n_points())
   {}
 
   void
@@ -76,7 +101,7 @@ namespace geocone
 
   void
   CellPressures::choose_basis(const unsigned int         cell,
-                              const std::vector<double> &weight,
+                              const std::vector<double> &softness,
                               Basis                     &result) const
   {
     const unsigned int first = points.first_point[cell],
@@ -94,15 +119,15 @@ namespace geocone
         for (unsigned int i = 0; i < n_m; ++i)
           if (result.point[i] < 0)
             for (unsigned int p = 0; p < n; ++p)
-              if (weight[p] * M(p, i) * M(p, i) > largest)
+              if (softness[p] * M(p, i) * M(p, i) > largest)
                 {
-                  largest = weight[p] * M(p, i) * M(p, i);
+                  largest = softness[p] * M(p, i) * M(p, i);
                   q       = p;
                   j       = i;
                 }
         if (largest == 0.)
           break;
-        result.point[j] = q;
+        result.point[j]    = q;
         const double pivot = M(q, j);
         M.col(j) /= pivot;
         for (unsigned int i = 0; i < n_m; ++i)
@@ -113,37 +138,31 @@ namespace geocone
     for (unsigned int p = 0; p < n; ++p)
       for (unsigned int i = 0; i < n_m; ++i)
         for (unsigned int j = 0; j < n_m; ++j)
-          G(i, j) += weight[p] * M(p, i) * M(p, j);
+          G(i, j) += softness[p] * M(p, i) * M(p, j);
     for (unsigned int j = 0; j < n_m; ++j)
       if (result.point[j] < 0)
         G(j, j) = 1.;
     result.compliance.compute(G);
   }
 
-  void
+  double
   CellPressures::fit(const unsigned int cell)
   {
     const unsigned int first = points.first_point[cell],
                        n     = points.first_point[cell + 1] - first;
-    weight.resize(n);
+    softness.resize(n);
     for (unsigned int q = 0; q < n; ++q)
-      weight[q] = points.weight[first + q] / k[first + q];
-    choose_basis(cell, weight, basis);
+      softness[q] = points.weight[first + q] / k[first + q];
+    choose_basis(cell, softness, basis);
     Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_modes, 1> m =
       decltype(m)::Zero(points.n_volumetric_modes);
     for (unsigned int q = 0; q < n; ++q)
-      m += (weight[q] * mean[first + q]) * basis.modes.row(q).transpose();
-    m                = basis.compliance.solve(m).eval();
-    fitted.noalias() = basis.modes * m;
-  }
-
-  double
-  CellPressures::difference_in(const unsigned int cell) const
-  {
+      m += (softness[q] * mean[first + q]) * basis.modes.row(q).transpose();
+    m                 = basis.compliance.solve(m).eval();
+    fitted.noalias()  = basis.modes * m;
     double difference = 0.;
-    for (unsigned int q = 0; q < fitted.size(); ++q)
-      difference = std::max(
-        difference, std::abs(fitted[q] - mean[points.first_point[cell] + q]));
+    for (unsigned int q = 0; q < n; ++q)
+      take_larger(difference, std::abs(fitted[q] - mean[first + q]));
     return difference;
   }
 
@@ -153,21 +172,47 @@ namespace geocone
     const unsigned int first = points.first_point[cell];
     const auto         n     = static_cast<unsigned int>(fitted.size());
     for (unsigned int q = 0; q < n; ++q)
-      growth[first + q] += (fitted[q] - mean[first + q]) / k[first + q];
+      change[first + q] = (fitted[q] - mean[first + q]) / k[first + q];
     // The points with M_j = 1 take what is left of sum V M_j t.
     for (const int q : basis.point)
       if (q >= 0)
-        growth[first + q] = 0.;
+        change[first + q] = 0.;
     for (unsigned int j = 0; j < basis.point.size(); ++j)
       if (basis.point[j] >= 0)
         {
           double sum = 0.;
           for (unsigned int q = 0; q < n; ++q)
-            sum +=
-              points.weight[first + q] * basis.modes(q, j) * growth[first + q];
-          growth[first + basis.point[j]] =
-            -sum / points.weight[first + basis.point[j]];
+            sum += points.weight[first + q] * basis.modes(q, j) *
+                   (growth[first + q] + change[first + q]);
+          change[first + basis.point[j]] -=
+            sum / points.weight[first + basis.point[j]];
         }
+    for (unsigned int q = 0; q < n; ++q)
+      growth[first + q] += change[first + q];
+  }
+
+  void
+  CellPressures::shorten(const unsigned int cell, const double part)
+  {
+    for (unsigned int p = points.first_point[cell];
+         p < points.first_point[cell + 1];
+         ++p)
+      {
+        growth[p] -= (1. - part) * change[p];
+        change[p] *= part;
+      }
+    first_slope[cell] *= part;
+  }
+
+  double
+  CellPressures::slope(const unsigned int cell) const
+  {
+    double sum = 0.;
+    for (unsigned int p = points.first_point[cell];
+         p < points.first_point[cell + 1];
+         ++p)
+      sum += points.weight[p] * mean[p] * change[p];
+    return sum;
   }
 
   void
@@ -179,9 +224,13 @@ namespace geocone
   {
     given = strain;
     std::fill(growth.begin(), growth.end(), 0.);
+    std::fill(change.begin(), change.end(), 0.);
+    first_slope.assign(points.n_cells(), 0.);
+    first_difference.assign(points.n_cells(), 0.);
     unequal.resize(points.n_cells());
     std::iota(unequal.begin(), unequal.end(), 0);
-    double scale = 0.;
+    double scale       = 0.;
+    largest_difference = 0.;
     for (unsigned int step = 0; !unequal.empty(); ++step)
       {
         // Cells in a row are asked at once.
@@ -202,19 +251,40 @@ namespace geocone
                        trace(stress[p]) / dim - pore_pressure(p),
                        tangent[p],
                        strain[p]);
-              scale = std::max(scale, stress[p].norm());
+              scale = std::max({scale, stress[p].norm(), std::abs(mean[p])});
             }
-        largest_difference = 0.;
-        unsigned int n     = 0;
+        unsigned int n = 0;
         for (const unsigned int c : unequal)
           {
-            fit(c);
-            const double difference = difference_in(c);
-            largest_difference      = std::max(largest_difference, difference);
+            const double difference = fit(c);
             if (!(difference > rounding * scale) || step == most_steps)
-              continue;
-            unequal[n++] = c;
-            shift(c);
+              {
+                take_larger(largest_difference, difference);
+                continue;
+              }
+            unequal[n++]       = c;
+            const double after = slope(c);
+            if (step == whole_steps)
+              {
+                for (unsigned int p = points.first_point[c];
+                     p < points.first_point[c + 1];
+                     ++p)
+                  growth[p] = change[p] = 0.;
+                first_slope[c] = first_difference[c] = 0.;
+              }
+            else if (step > whole_steps &&
+                     after > -overshoot * first_slope[c] &&
+                     difference >= first_difference[c] &&
+                     difference > near_solution * scale)
+              shorten(
+                c,
+                std::max(first_slope[c] / (first_slope[c] - after), shortest));
+            else
+              {
+                shift(c);
+                first_slope[c]      = slope(c);
+                first_difference[c] = difference;
+              }
             for (unsigned int p = points.first_point[c];
                  p < points.first_point[c + 1];
                  ++p)
@@ -253,7 +323,7 @@ namespace geocone
     const unsigned int first = points.first_point[cell];
     result.left.resize(C.size());
     result.right.resize(C.size());
-    std::vector<double> ratio(C.size());
+    std::vector<double> softness_of(C.size());
     for (unsigned int q = 0; q < C.size(); ++q)
       {
         const double weight  = factor * points.weight[first + q];
@@ -263,9 +333,9 @@ namespace geocone
                                              least_modulus[first + q]);
         result.left[q]       = inverse * a;
         result.right[q]      = inverse * b;
-        ratio[q]             = weight * inverse;
+        softness_of[q]       = weight * inverse;
         C[q] -= (inverse / weight) * a * b.transpose();
       }
-    choose_basis(cell, ratio, result.basis);
+    choose_basis(cell, softness_of, result.basis);
   }
 } // namespace geocone

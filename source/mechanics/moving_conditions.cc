@@ -28,7 +28,9 @@ namespace geocone
       bool
       is_close_behind() const
       {
-        return along > 0. && along < 1. && beyond > 0. && beyond < length;
+        constexpr double rounding = 1e-9;
+        return along > rounding && along < 1. - rounding &&
+               beyond > rounding * length && beyond < length;
       }
     };
 
@@ -408,26 +410,25 @@ namespace geocone
   MovingConditions::put_back(const Point<dim> &before,
                              const Point<dim> &after) const
   {
+    std::optional<Point<dim>> place;
     for (const Side &side : supports)
-      for (const MovingBoundary::Line &line : side.boundary.lines)
+      for (unsigned int l = 0; l < side.boundary.lines.size(); ++l)
         {
-          const Seen now = seen_from(line, after);
-          if (!now.is_close_behind() ||
+          const MovingBoundary::Line &line = side.boundary.lines[l];
+          const Seen                  was  = seen_from(side.before[l], before),
+                     now                   = seen_from(line, after);
+          if (!now.is_close_behind() || was.is_close_behind() ||
               !holds_normal(*scene.dirichlet.list[side.condition], line))
             continue;
-          const bool was_in_front =
-            std::any_of(side.before.begin(),
-                        side.before.end(),
-                        [&](const MovingBoundary::Line &line_before) {
-                          const Seen seen = seen_from(line_before, before);
-                          return seen.along >= 0. && seen.along <= 1. &&
-                                 seen.beyond < 1e-6 * seen.length;
-                        });
-          const double end = now.along < 0.5 ? 0. : 1.;
-          return was_in_front ? line.a + now.along * (line.b - line.a)
-                              : after + (end - now.along) * (line.b - line.a);
+          const Tensor<1, dim> along = line.b - line.a;
+          const Point<dim> here = was.along <= 0. ? after - now.along * along
+                                  : was.along >= 1.
+                                    ? after + (1. - now.along) * along
+                                    : line.a + now.along * along;
+          if (!place || here.distance(after) < place->distance(after))
+            place = here;
         }
-    return {};
+    return place;
   }
 
   unsigned int
@@ -444,8 +445,10 @@ namespace geocone
             {
               const Seen seen = seen_from(line, points.position[p]);
               behind =
-                behind || (seen.is_close_behind() &&
-                           seen.beyond > 0.1 * length_of(points.weight[p]));
+                behind ||
+                (seen.is_close_behind() &&
+                 seen.beyond > 0.1 * length_of(points.weight[p]) &&
+                 holds_normal(*scene.dirichlet.list[side.condition], line));
             }
         n += behind;
       }

@@ -267,7 +267,10 @@ namespace geocone
     double       largest = 0.;
     for (unsigned int p = 0; p < points.n_points(); ++p)
       if (const auto place =
-            moving->put_back(points.position[p], moved[p].position))
+            points.held_by[p] > 0 ||
+                scene->regions.are_fixed(points.material[p])
+              ? std::nullopt
+              : moving->put_back(points.position[p], moved[p].position))
         {
           const Tensor<1, dim> change = *place - moved[p].position;
           moved[p].position           = *place;

@@ -58,13 +58,12 @@ namespace geocone
      * gradients (B-bar). Empty without B-bar.
      */
     std::vector<double> volumetric_gradients;
-    /** Degree of the polynomials in a cell that they are projected onto; -1 where
-     *  they are not, the same on all ranks. */
-    int volumetric_degree = -1;
-    /** Number of these polynomials, and their values at a point: a basis M_j in each
-     *  cell with sum_p V_p M_i M_j = delta_ij (1/m^(n/2)); 0 where the points of a
-     *  cell are too few to tell them apart. */
-    unsigned int        n_volumetric_modes = 0;
+    /** Number of the polynomials in a cell that they are projected onto; 0 where they
+     *  are not, the same on all ranks. */
+    unsigned int n_volumetric_modes = 0;
+    /** The values at a point of a basis of them, with sum_p V_p M_i M_j = delta_ij in
+     *  each cell. M_j is 0 at all points of a cell that cannot tell it from those
+     *  before it. */
     std::vector<double> volumetric_modes;
 
     /** Those of a point, or null where there are none. */
@@ -98,7 +97,8 @@ namespace geocone
   };
 
   /** Fills the volumetric gradients: in each cell the projection of grad N, weighted by
-   *  volume, onto the polynomials of x of a degree, 0 being the mean. */
+   *  volume, onto the polynomials of x of a degree, 0 being the mean. With no more points
+   *  than polynomials nothing changes in a cell. */
   void
   project_gradients(const unsigned int degree, MaterialPoints &points);
 } // namespace geocone

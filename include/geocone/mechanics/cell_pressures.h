@@ -23,13 +23,15 @@ namespace geocone
    * volumetric strains onto the polynomials M_j is given, and a point may grow by t_p
    * more, such that
    *   sum_p V_p M_j(x_p) t_p = 0,   pi_p = sum_j M_j(x_p) m_j,
-   *   pi_p = tr(s_p)/n + (K_w/n) tr(e_p) - p_p,   e_p = h B_p v + t_p I/n,
-   * with n the dimension, the pore pressure where soil is undrained, and B_p that of
-   * B-bar: the stationary point of the functional of strains, where it has one, with
-   * the mean stress such a polynomial in each cell. Without dilatancy and with one
-   * elasticity the pi_p change as the M_j do, and this is B-bar.
+   *   pi_p = tr(s_p)/n + K_f tr(e_p) - p_p,   e_p = h B_p v + t_p I/n,
+   * with n the dimension, K_f and p_p those of the pore fluid where soil is undrained,
+   * and B_p that of B-bar: the stationary point of the functional of strains, where it
+   * has one, with the mean stress such a polynomial in each cell. Without dilatancy and
+   * with one elasticity the changes of pi_p are such a polynomial already, and this is
+   * B-bar.
    *
-   * The t_p follow from Newton's method in the cell, with k_p = I'C_p I/n^2:
+   * The t_p follow from Newton's method in the cell, with k_p = I'C_p I/n^2 and steps
+   * that are shortened where they go too far:
    *   m = G^-1 sum (V/k) M pi_p,   G = sum (V/k) M M',   t_p <- t_p + (M'm - pi_p)/k_p.
    */
   class CellPressures
@@ -72,7 +74,7 @@ namespace geocone
                    const std::vector<MandelMatrix> &tangent,
                    std::vector<Mandel>             &rate);
 
-    /** The polynomials in a cell of Q3 have most, those of degree 2. */
+    /** Q3 has the most polynomials in a cell, those of degree 2. */
     static constexpr int most_modes = dim == 2 ? 6 : 10;
 
     /** A basis of the polynomials of a cell and their G, with 1/k_p of its points. */
@@ -131,24 +133,31 @@ namespace geocone
      * Chooses the points with M_j = 1 where the soil is softest, so that large and
      * small 1/k_p do not mix in G, and a t_p found there from those of the others
      * keeps sum V M t = 0 to the last digit.
-     * @param weight V/k of the points of the cell from the first
+     * @param softness V/k of the points of the cell from the first
      */
     void
     choose_basis(const unsigned int         cell,
-                 const std::vector<double> &weight,
+                 const std::vector<double> &softness,
                  Basis                     &result) const;
 
-    /** The polynomial m that is closest to the pi_p of a cell by G. */
-    void
-    fit(const unsigned int cell);
-
-    /** The largest difference of the pi_p from it (Pa). */
+    /** Finds the polynomial that is closest to the pi_p of a cell by G.
+     *  @return the largest difference of a pi_p from it (Pa); NaN if one is */
     double
-    difference_in(const unsigned int cell) const;
+    fit(const unsigned int cell);
 
     /** One step of Newton's method in a cell that was fitted. */
     void
     shift(const unsigned int cell);
+
+    /** Takes back all of the last step but a part of it. */
+    void
+    shorten(const unsigned int cell, const double part);
+
+    /** The derivative along the last step of the functional of the t_p that is least
+     *  where the pi_p are a polynomial, sum_p V_p pi_p dt_p. It is convex, as pi_p
+     *  never falls where a point grows. */
+    double
+    slope(const unsigned int cell) const;
 
     const MaterialPoints     &points;
     const Materials          &materials;
@@ -156,11 +165,14 @@ namespace geocone
     std::vector<double>       mean;          ///< pi_p (Pa)
     std::vector<double>       k;             ///< k_p (Pa)
     std::vector<double>       growth;        ///< t_p
-    std::vector<Mandel>       given;         ///< strains without t_p
-    std::vector<unsigned int> unequal;       ///< cells that are not done
-    Basis                     basis;         ///< of the cell fitted last
-    Eigen::VectorXd           fitted; ///< its polynomial at its points (Pa)
-    std::vector<double>       weight; ///< V/k of its points
+    std::vector<double>       change;        ///< of t_p in the last step
+    std::vector<double>       first_slope;   ///< of a cell where that began
+    std::vector<double>       first_difference;
+    std::vector<Mandel>       given;    ///< strains without t_p
+    std::vector<unsigned int> unequal;  ///< cells that are not done
+    Basis                     basis;    ///< of the cell fitted last
+    Eigen::VectorXd           fitted;   ///< its polynomial at its points (Pa)
+    std::vector<double>       softness; ///< V/k of its points
     double                    largest_difference = 0.;
   };
 } // namespace geocone

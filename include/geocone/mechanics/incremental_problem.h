@@ -145,14 +145,14 @@ namespace geocone
     }
 
     /** Whether points have a local solver of their own, beside which the natural map
-     *  cannot stand: laws that are spatial, and cells that have one pressure. */
+     *  cannot stand: laws that are spatial, and pressures of cells. */
     bool
     needs_return_map() const
     {
       return is_spatial() || internal.has_cell_pressures();
     }
 
-    /** Whether cells have one pressure, see CellPressures. */
+    /** Whether there are CellPressures. */
     bool
     has_cell_pressures() const
     {

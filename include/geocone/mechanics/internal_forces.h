@@ -65,7 +65,7 @@ namespace geocone
    *   p_p(v) = p_p - K_w/n tr(h B_p v),
    * and what is in equilibrium is the total stress s_p - p_p I; the law, its modes and
    * its checks are those of the effective stress s_p.
-   * Where soil dilates, B-bar has one pressure per cell, see CellPressures.
+   * Where soil dilates, B-bar comes with CellPressures.
    * The state at t_n is const; the trial states, which are those of the last
    * residual(), live here.
    */
@@ -104,13 +104,13 @@ namespace geocone
     void
     count_modes(double *counts) const;
 
-    /** Largest |R| of NaturalMap over the stress scale, or what is left of
-     *  differences in a cell that has one pressure; 0 for the return map alone.
+    /** Largest |R| of NaturalMap over the stress scale, or what is left in
+     *  CellPressures::difference(); 0 for the return map alone.
      *  Collective. */
     double
     local_error() const;
 
-    /** Whether cells have one pressure; the same on all ranks. */
+    /** Whether there are CellPressures; the same on all ranks. */
     bool
     has_cell_pressures() const
     {
@@ -247,7 +247,7 @@ namespace geocone
                        const WeightedHoopStress &weighted_hoop_stress,
                        double                   *cell_f) const;
 
-    /** Adds the part of rank one of a cell that has one pressure to K. */
+    /** Adds the part of low rank that the pressure of a cell leaves to K. */
     template <int n>
     void
     add_pressure_stiffness(const unsigned int              c,

@@ -71,17 +71,17 @@ namespace geocone
     loaded_nodes() const;
 
     /**
-     * The place on a side that is held of a point which the body took beyond it: means
-     * over a side let single points pass. A point from beside the side goes back to
-     * that end of it.
-     * @param before,after where the point was and came to in the last move()
+     * Where a point is put that passed a side which holds the body across it, as means
+     * over a side let single points: on the side, or at its end if it came from beside
+     * it. Nothing for points that passed none in the last move().
+     * @param before,after where the point was and came to
      */
     std::optional<dealii::Point<dim>>
     put_back(const dealii::Point<dim> &before,
              const dealii::Point<dim> &after) const;
 
     /** Points of all ranks that are more than a tenth of their own size beyond a
-     *  side that is held, where the body cannot be. Collective. */
+     *  side that holds the body across it, where they cannot be. Collective. */
     unsigned int
     n_behind(const MaterialPoints &points) const;
 

@@ -37,7 +37,7 @@ namespace geocone
     for (unsigned int i = 0; i < observation.points.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
         table.add(
-          format("displacement of point %u %c (m)", i + 1, "xy"[d]),
+          format("displacement of point %u %c (m)", i + 1, "xyz"[d]),
           [displacement, i, d](const Record &record) {
             return displacement(record, i, d);
           },
