@@ -94,9 +94,9 @@ namespace geocone
   {
     const double fluid = materials[points.material[point]].fluid_modulus();
     mean[point]        = mean_stress + fluid * trace(strain);
-    k[point] = std::max(mean_direction().dot(tangent * mean_direction()),
-                        least_modulus[point]) +
-               fluid;
+    k[point] =
+      std::max(mean_direction().dot(tangent * mean_direction()) + fluid,
+               least_modulus[point]);
   }
 
   void
@@ -251,7 +251,8 @@ namespace geocone
                        trace(stress[p]) / dim - pore_pressure(p),
                        tangent[p],
                        strain[p]);
-              scale = std::max({scale, stress[p].norm(), std::abs(mean[p])});
+              if (step == 0) // later ones may be far off
+                scale = std::max({scale, stress[p].norm(), std::abs(mean[p])});
             }
         unsigned int n = 0;
         for (const unsigned int c : unequal)

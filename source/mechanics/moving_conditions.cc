@@ -50,7 +50,7 @@ namespace geocone
                  const MovingBoundary::Line &line)
     {
       const Tensor<1, dim> direction = line.b - line.a;
-      for (unsigned int d = 0; d < dim; ++d)
+      for (unsigned int d = 0; d < 2; ++d) // lines are those of the plane
         if (!condition.components[d] &&
             std::abs(direction[1 - d]) > 1e-6 * direction.norm())
           return false;
@@ -415,10 +415,12 @@ namespace geocone
       for (unsigned int l = 0; l < side.boundary.lines.size(); ++l)
         {
           const MovingBoundary::Line &line = side.boundary.lines[l];
-          const Seen                  was  = seen_from(side.before[l], before),
-                     now                   = seen_from(line, after);
-          if (!now.is_close_behind() || was.is_close_behind() ||
+          const Seen                  now  = seen_from(line, after);
+          if (!now.is_close_behind() ||
               !holds_normal(*scene.dirichlet.list[side.condition], line))
+            continue;
+          const Seen was = seen_from(side.before[l], before);
+          if (was.is_close_behind())
             continue;
           const Tensor<1, dim> along = line.b - line.a;
           const Point<dim> here = was.along <= 0. ? after - now.along * along
