@@ -51,7 +51,7 @@ namespace geocone
         }
 
     // The last condition in the list that prescribes a component holds it.
-    std::map<std::array<unsigned int, dim + 1>, Prescribed> of_component;
+    std::map<std::array<unsigned int, dim + 1>, PrescribedNode> of_component;
     for (unsigned int c = 0; c < conditions.list.size(); ++c)
       {
         const BoundaryCondition &condition = *conditions.list[c];
@@ -74,27 +74,24 @@ namespace geocone
         for (const Side &side : sides)
           if (condition.is_on_side(side.name))
             {
-              GridIndex n;
-              for (unsigned int d = 0; d < dim; ++d)
-                n[d] = grid.axes[d].n_functions;
+              GridIndex n  = n_functions();
               n[side.axis] = 1;
               for (std::size_t i = 0; i < grid_volume(n); ++i)
                 {
-                  const GridIndex on_side = index_in_grid(i, n);
-                  Prescribed      p;
+                  GridIndex function  = index_in_grid(i, n);
+                  function[side.axis] = side.function;
+                  PrescribedNode p;
+                  p.node      = number_in_grid(function, n_functions());
+                  p.condition = c;
                   for (unsigned int d = 0; d < dim; ++d)
-                    p.function[d] = on_side[d];
-                  p.function[side.axis] = side.function;
-                  p.condition           = c;
-                  for (unsigned int d = 0; d < dim; ++d)
-                    p.place[d] = grid.axes[d].places[p.function[d]];
+                    p.place[d] = grid.axes[d].places[function[d]];
                   if (!condition.holds_at(p.place))
                     continue;
                   ++n_found;
                   std::array<unsigned int, dim + 1> key;
                   for (unsigned int d = 0; d < dim; ++d)
                     {
-                      key[d]   = p.function[d];
+                      key[d]   = function[d];
                       lower[d] = std::min(lower[d], p.place[d]);
                       upper[d] = std::max(upper[d], p.place[d]);
                     }
@@ -266,21 +263,29 @@ namespace geocone
         }
 
     prescribed.clear();
-    for (const Prescribed &p : prescribed_functions)
+    for (PrescribedNode p : prescribed_functions)
       {
-        bool is_stored = true;
+        const GridIndex function  = index_in_grid(p.node, n_functions());
+        bool            is_stored = true;
         for (unsigned int d = 0; d < dim; ++d)
           is_stored = is_stored &&
-                      static_cast<int>(p.function[d]) >= stored[d].begin &&
-                      static_cast<int>(p.function[d]) < stored[d].end;
-        if (is_stored)
-          prescribed.push_back(
-            {static_cast<unsigned int>(stored_place_of(p.function)),
-             p.component,
-             p.condition,
-             p.place,
-             is_mine(p.function[0])});
+                      static_cast<int>(function[d]) >= stored[d].begin &&
+                      static_cast<int>(function[d]) < stored[d].end;
+        if (!is_stored)
+          continue;
+        p.node = stored_place_of(function);
+        p.mine = is_mine(function[0]);
+        prescribed.push_back(p);
       }
+  }
+
+  GridIndex
+  CartesianTransfer::n_functions() const
+  {
+    GridIndex n;
+    for (unsigned int d = 0; d < dim; ++d)
+      n[d] = grid.axes[d].n_functions;
+    return n;
   }
 
   std::size_t

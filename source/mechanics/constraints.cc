@@ -104,7 +104,11 @@ namespace geocone
     find_oblique_nodes(mesh, nodes, of_dof);
     find_shared(mesh, of_dof);
     for (const auto &[dof, conditions] : of_dof)
-      prescribed.push_back({dof / dim, dof % dim, conditions.back()});
+      prescribed.push_back({dof / dim,
+                            dof % dim,
+                            conditions.back(),
+                            space.node_positions()[dof / dim],
+                            dof / dim < space.n_owned_nodes()});
   }
 
   void
@@ -292,7 +296,7 @@ namespace geocone
             free_row[dof]  = massless_row;
             with_mass[dof] = false;
           }
-    for (const Prescribed &p : prescribed)
+    for (const PrescribedNode &p : prescribed)
       free_row[dim * p.node + p.component] = prescribed_row;
     for (const Oblique &o : oblique)
       for (unsigned int d = 0; d < o.directions.size(); ++d)
@@ -349,165 +353,192 @@ namespace geocone
                        "set its Velocity x = 0");
   }
 
-  void
-  Constraints::check_support(const BackgroundMesh &mesh,
-                             const Space          &space,
-                             const MaterialPoints &points) const
+  namespace
   {
-    const std::vector<unsigned int> part_of_vertex =
-      mesh.connected_parts(points.cells);
-    unsigned int n_parts = 0;
-    for (const unsigned int part : part_of_vertex)
-      n_parts = std::max(n_parts, part + 1);
-
-    // One representative part per node, and the centre and size of the parts.
-    constexpr unsigned int n_sums = dim + 2;
-    // Of a node all cells may be on other ranks; -1 where it has none.
-    Vector found(space.partitioner());
-    for (unsigned int i = 0; i < dim * space.n_local_nodes(); ++i)
-      found.local_element(i) = -1.;
-    for (unsigned int c = 0; c < points.n_cells(); ++c)
-      for (unsigned int i = 0; i < points.n_nodes; ++i)
-        found.local_element(dim * points.nodes[c * points.n_nodes + i]) =
-          part_of_vertex[points.cells[c]->vertex_index(0)];
-    found.compress(VectorOperation::max);
-    std::vector<int> part_of_node;
-    for (unsigned int i = 0; i < space.n_owned_nodes(); ++i)
-      part_of_node.push_back(std::lround(found.local_element(dim * i)));
-    std::vector<double> sums(n_sums * n_parts, 0.);
-    for (unsigned int i = 0; i < space.n_owned_nodes(); ++i)
-      {
-        if (part_of_node[i] < 0)
-          continue;
-        const Point<dim> &x = space.node_positions()[i];
-        double           *s = &sums[n_sums * part_of_node[i]];
-        s[0] += 1.;
-        for (unsigned int d = 0; d < dim; ++d)
-          s[1 + d] += x[d];
-        s[1 + dim] += x.norm_square();
-      }
-    sum_over_ranks(sums, comm);
-
-    // Rigid velocities along the axes, and rotations w x (x - x_c)/size about z or
-    // about x, y and z: a motion is free if it moves no prescribed dof.
-    constexpr unsigned int n_rigid = dim + n_rotations;
-    using Gram                     = Eigen::Matrix<double, n_rigid, n_rigid>;
-    using Rigid                    = Eigen::Matrix<double, n_rigid, 1>;
-    std::vector<double> gram(n_rigid * n_rigid * n_parts, 0.), size(n_parts);
-    std::vector<Point<dim>> centre(n_parts);
-    for (unsigned int p = 0; p < n_parts; ++p)
-      {
-        const double *s      = &sums[n_sums * p];
-        double        square = s[1 + dim] / s[0];
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            centre[p][d] = s[1 + d] / s[0];
-            square -= centre[p][d] * centre[p][d];
-          }
-        size[p] = std::sqrt(std::max(1e-300, square));
-      }
-    const auto of_part = [&](const unsigned int p) {
-      return Eigen::Map<Gram>(&gram[n_rigid * n_rigid * p]);
+    /** The connected parts of a body, by its nodes. */
+    struct Parts
+    {
+      std::vector<int>        of_node; ///< per owned node, or -1
+      std::vector<double>     n_nodes;
+      std::vector<Point<dim>> centre; ///< mean of the nodes
+      std::vector<double>     size;   ///< root mean square distance to it
     };
-    const auto hold = [&](const unsigned int node, const Tensor<1, dim> &d) {
-      if (node >= space.n_owned_nodes() || part_of_node[node] < 0)
-        return;
-      const int            p = part_of_node[node];
-      const Tensor<1, dim> r = space.node_positions()[node] - centre[p];
-      Rigid                row;
+
+    Parts
+    parts_of_body(const BackgroundMesh &mesh,
+                  const Space          &space,
+                  const MaterialPoints &points,
+                  const MPI_Comm        comm)
+    {
+      const std::vector<unsigned int> of_vertex =
+        mesh.connected_parts(points.cells);
+      unsigned int n_parts = 0;
+      for (const unsigned int part : of_vertex)
+        n_parts = std::max(n_parts, part + 1);
+
+      // Of a node all cells may be on other ranks; -1 where it has none.
+      Vector found(space.partitioner());
+      for (unsigned int i = 0; i < dim * space.n_local_nodes(); ++i)
+        found.local_element(i) = -1.;
+      for (unsigned int c = 0; c < points.n_cells(); ++c)
+        for (unsigned int i = 0; i < points.n_nodes; ++i)
+          found.local_element(dim * points.nodes[c * points.n_nodes + i]) =
+            of_vertex[points.cells[c]->vertex_index(0)];
+      found.compress(VectorOperation::max);
+
+      Parts                  parts;
+      constexpr unsigned int n_sums = dim + 2; // 1, x, x^2
+      std::vector<double>    sums(n_sums * n_parts, 0.);
+      for (unsigned int i = 0; i < space.n_owned_nodes(); ++i)
+        {
+          parts.of_node.push_back(std::lround(found.local_element(dim * i)));
+          if (parts.of_node[i] < 0)
+            continue;
+          const Point<dim> &x = space.node_positions()[i];
+          double           *s = &sums[n_sums * parts.of_node[i]];
+          s[0] += 1.;
+          for (unsigned int d = 0; d < dim; ++d)
+            s[1 + d] += x[d];
+          s[1 + dim] += x.norm_square();
+        }
+      sum_over_ranks(sums, comm);
+      for (unsigned int p = 0; p < n_parts; ++p)
+        {
+          const double *s      = &sums[n_sums * p];
+          double        square = s[1 + dim] / s[0];
+          Point<dim>    centre;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              centre[d] = s[1 + d] / s[0];
+              square -= centre[d] * centre[d];
+            }
+          parts.n_nodes.push_back(s[0]);
+          parts.centre.push_back(centre);
+          parts.size.push_back(std::sqrt(std::max(1e-300, square)));
+        }
+      return parts;
+    }
+
+    /** Rigid velocities along the axes, and rotations w x (x - x_c)/size about z or
+     *  about x, y and z. */
+    constexpr unsigned int n_rigid = dim + n_rotations;
+    using Rigid                    = Eigen::Matrix<double, n_rigid, 1>;
+    using Gram                     = Eigen::Matrix<double, n_rigid, n_rigid>;
+
+    /** The velocity along d, at r from the centre of its part, of all of them. */
+    Rigid
+    rigid_velocities(const Tensor<1, dim> &d,
+                     const Tensor<1, dim> &r,
+                     const double          size)
+    {
+      Rigid row;
       for (unsigned int c = 0; c < dim; ++c)
         row[c] = d[c];
       for (unsigned int k = 0; k < n_rotations; ++k)
         {
           const auto [a, b] = plane_of_rotation[k];
-          row[dim + k]      = (d[b] * r[a] - d[a] * r[b]) / size[p];
+          row[dim + k]      = (d[b] * r[a] - d[a] * r[b]) / size;
         }
+      return row;
+    }
+
+    /** A free motion of a part around its centre, in words. */
+    std::string
+    text_of_motion(const Rigid &m, const Point<dim> &centre, const double size)
+    {
+      if (m.template tail<n_rotations>().norm() < 1e-6)
+        {
+          Point<dim>  along;
+          std::string only;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              along[d] = m[d];
+              if (std::abs(std::abs(m[d]) - 1.) < 1e-6)
+                only = std::string(": no node of it has its velocity ") +
+                       coordinate[d] + " prescribed";
+            }
+          return "translate along (" + text_of_place(along) + ")" + only;
+        }
+      // About the point that does not move, in the plane of the fastest rotation.
+      unsigned int k = 0;
+      for (unsigned int i = 1; i < n_rotations; ++i)
+        if (std::abs(m[dim + i]) > std::abs(m[dim + k]))
+          k = i;
+      const auto [a, b]  = plane_of_rotation[k];
+      const auto rounded = [&](const double x) {
+        return std::abs(x) < 1e-9 * size ? 0. : x;
+      };
+      const double w = m[dim + k] / size;
+      return format("rotate about (%.3g, %.3g)",
+                    rounded(centre[a] - m[b] / w),
+                    rounded(centre[b] + m[a] / w)) +
+             (dim == 3 ? std::string(" in the plane of ") + coordinate[a] +
+                           " and " + coordinate[b]
+                       : std::string()) +
+             ": too few nodes are prescribed to stop it";
+    }
+  } // namespace
+
+  void
+  Constraints::check_support(const BackgroundMesh &mesh,
+                             const Space          &space,
+                             const MaterialPoints &points) const
+  {
+    const Parts parts = parts_of_body(mesh, space, points, comm);
+
+    // A motion is free if it moves no prescribed dof.
+    constexpr unsigned int size    = n_rigid * n_rigid;
+    const unsigned int     n_parts = parts.centre.size();
+    std::vector<double>    gram(size * n_parts, 0.);
+    const auto             of_part = [&](const unsigned int p) {
+      return Eigen::Map<Gram>(&gram[size * p]);
+    };
+    const auto hold = [&](const unsigned int node, const Tensor<1, dim> &d) {
+      if (node >= space.n_owned_nodes() || parts.of_node[node] < 0)
+        return;
+      const int   p   = parts.of_node[node];
+      const Rigid row = rigid_velocities(
+        d, space.node_positions()[node] - parts.centre[p], parts.size[p]);
       of_part(p) += row * row.transpose();
     };
-    for (const Prescribed &dof : prescribed)
-      hold(dof.node, axis(dof.component));
+    for (const PrescribedNode &p : prescribed)
+      hold(p.node, axis(p.component));
     for (const Oblique &o : oblique)
       for (const Direction &direction : o.directions)
         hold(o.node, direction.d);
     sum_over_ranks(gram, comm);
-    // Of a round body only its motion along the axis is rigid.
-    if (mesh.is_axisymmetric())
-      for (unsigned int p = 0; p < n_parts; ++p)
-        {
-          of_part(p)(0, 0) += 1.;
-          of_part(p)(dim, dim) += 1.;
-        }
     for (unsigned int p = 0; p < n_parts; ++p)
       {
+        // Of a round body only its motion along the axis is rigid.
+        if (mesh.is_axisymmetric())
+          {
+            of_part(p)(0, 0) += 1.;
+            of_part(p)(dim, dim) += 1.;
+          }
         const Eigen::SelfAdjointEigenSolver<Gram> eigen(of_part(p));
         if (eigen.eigenvalues()[0] > 1e-10)
           continue;
-        const Rigid       m = eigen.eigenvectors().col(0);
-        const std::string which =
-          n_parts == 1
-            ? std::string("the body")
-            : "the part of the body around (" + text_of_place(centre[p]) + ")";
-        std::string motion;
-        if (m.template tail<n_rotations>().norm() < 1e-6)
-          {
-            Point<dim>  along;
-            std::string only;
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                along[d] = m[d];
-                if (std::abs(std::abs(m[d]) - 1.) < 1e-6)
-                  only = std::string(": no node of it has its velocity ") +
-                         coordinate[d] + " prescribed";
-              }
-            motion = "translate along (" + text_of_place(along) + ")" + only;
-          }
-        else
-          {
-            // About the point that does not move, in the plane of the fastest
-            // rotation.
-            unsigned int k = 0;
-            for (unsigned int i = 1; i < n_rotations; ++i)
-              if (std::abs(m[dim + i]) > std::abs(m[dim + k]))
-                k = i;
-            const auto [a, b]  = plane_of_rotation[k];
-            const auto rounded = [&](const double x) {
-              return std::abs(x) < 1e-9 * size[p] ? 0. : x;
-            };
-            const double w = m[dim + k] / size[p];
-            motion         = format("rotate about (%.3g, %.3g)",
-                            rounded(centre[p][a] - m[b] / w),
-                            rounded(centre[p][b] + m[a] / w)) +
-                     (dim == 3 ? std::string(" in the plane of ") +
-                                   coordinate[a] + " and " + coordinate[b]
-                               : std::string()) +
-                     ": too few nodes are prescribed to stop it";
-          }
-        throw InputError("singular system (rigid body motion): " + which +
-                         " can " + motion +
-                         format(" (%.0f nodes)", sums[n_sums * p]) +
-                         "\n  remedy:  add a boundary condition that holds it, "
-                         "or switch the inertia on "
-                         "('Time stepping/Inertia')");
+        const std::string which = n_parts == 1
+                                    ? std::string("the body")
+                                    : "the part of the body around (" +
+                                        text_of_place(parts.centre[p]) + ")";
+        throw InputError(
+          "singular system (rigid body motion): " + which + " can " +
+          text_of_motion(
+            eigen.eigenvectors().col(0), parts.centre[p], parts.size[p]) +
+          format(" (%.0f nodes)", parts.n_nodes[p]) +
+          "\n  remedy:  add a boundary condition that holds it, "
+          "or switch the inertia on "
+          "('Time stepping/Inertia')");
       }
-  }
-
-  double
-  Constraints::value(const unsigned int condition,
-                     const unsigned int component,
-                     const unsigned int node,
-                     const double       t) const
-  {
-    const BoundaryCondition &c = *scene.dirichlet.list[condition];
-    return (component < dim ? c.components[component] : c.normal)
-      ->value(space.node_positions()[node], t);
   }
 
   void
   Constraints::set_values(Vector &v, const double t) const
   {
-    for (const Prescribed &p : prescribed)
+    for (const PrescribedNode &p : prescribed)
       v.local_element(dim * p.node + p.component) =
-        value(p.condition, p.component, p.node, t);
+        scene.dirichlet.list[p.condition]->value(p.component, p.place, t);
     for (const Oblique &o : oblique)
       {
         double      *at = &v.local_element(dim * o.node);
@@ -556,101 +587,113 @@ namespace geocone
       v.update_ghost_values();
   }
 
+  std::vector<double>
+  Constraints::exerted_on_faces(const MaterialPoints      &points,
+                                const std::vector<Mandel> &stress) const
+  {
+    std::vector<double> exerted(n_shares, 0.);
+    if (n_shares == 0)
+      return exerted;
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      {
+        const unsigned int cell = points.cells[c]->active_cell_index();
+        if (first_part[cell] == first_part[cell + 1])
+          continue;
+        Mandel mean = Mandel::Zero();
+        for (unsigned int p = points.first_point[c];
+             p < points.first_point[c + 1];
+             ++p)
+          mean += points.weight[p] * stress[p];
+        mean /= points.cells[c]->measure();
+        for (unsigned int i = first_part[cell]; i < first_part[cell + 1]; ++i)
+          {
+            const Part &part = parts[i];
+            exerted[part.place] += mean[place_of_normal[part.component]] *
+                                   part.weight[part.component];
+            for (int k = 0; k < n_shears; ++k)
+              {
+                const auto [place, a, b] = shears[k];
+                const double shear       = mean[place] / sqrt2;
+                if (static_cast<int>(part.component) == a)
+                  exerted[part.place] += shear * part.weight[b];
+                else if (static_cast<int>(part.component) == b)
+                  exerted[part.place] += shear * part.weight[a];
+              }
+          }
+      }
+    sum_over_ranks(exerted, comm);
+    return exerted;
+  }
+
+  void
+  Constraints::add_force(const unsigned int     condition,
+                         const unsigned int     node,
+                         const unsigned int     component,
+                         const double           force,
+                         std::vector<Reaction> &result) const
+  {
+    result[condition].add(
+      space.node_positions()[node] - centres[condition], component, force);
+  }
+
+  void
+  Constraints::divide(const PrescribedNode      &node,
+                      const Shared              &among,
+                      const double               force,
+                      const std::vector<double> &exerted,
+                      const double               t,
+                      std::vector<Reaction>     &result) const
+  {
+    // Those that ask for another velocity than the node has bear nothing.
+    std::vector<double> size(among.size.size(), 0.);
+    double              whole = 0., left = force;
+    const double value_n = value(node.condition, node.component, node.node, t);
+    for (unsigned int k = 0; k < among.conditions.size(); ++k)
+      {
+        double largest = 0.;
+        for (const unsigned int c : {among.conditions[k], node.condition})
+          for (unsigned int d = 0; d < dim; ++d)
+            if (scene.dirichlet.list[c]->components[d])
+              largest = std::max(largest, std::abs(value(c, d, node.node, t)));
+        if (among.size[k] > 0. &&
+            std::abs(value(among.conditions[k], node.component, node.node, t) -
+                     value_n) <= 1e-9 * largest)
+          {
+            size[k] = among.size[k];
+            whole += size[k];
+            left -= exerted[among.first + k];
+          }
+      }
+    for (unsigned int k = 0; k < among.conditions.size(); ++k)
+      if (size[k] > 0.)
+        add_force(among.conditions[k],
+                  node.node,
+                  node.component,
+                  exerted[among.first + k] + left * size[k] / whole,
+                  result);
+  }
+
   std::vector<Reaction>
   Constraints::reactions(const Vector              &residual,
                          const MaterialPoints      &points,
                          const std::vector<Mandel> &stress,
                          const double               t) const
   {
-    // What the stress exerts on the faces of those who share.
-    std::vector<double> exerted(n_shares, 0.);
-    if (n_shares > 0)
+    const std::vector<double> exerted = exerted_on_faces(points, stress);
+    std::vector<Reaction>     result(scene.dirichlet.list.size());
+    for (const PrescribedNode &p : prescribed)
       {
-        for (unsigned int c = 0; c < points.n_cells(); ++c)
-          {
-            const unsigned int cell = points.cells[c]->active_cell_index();
-            if (first_part[cell] == first_part[cell + 1])
-              continue;
-            Mandel mean = Mandel::Zero();
-            for (unsigned int p = points.first_point[c];
-                 p < points.first_point[c + 1];
-                 ++p)
-              mean += points.weight[p] * stress[p];
-            mean /= points.cells[c]->measure();
-            for (unsigned int i = first_part[cell]; i < first_part[cell + 1];
-                 ++i)
-              {
-                const Part &part = parts[i];
-                exerted[part.place] += mean[place_of_normal[part.component]] *
-                                       part.weight[part.component];
-                for (int k = 0; k < n_shears; ++k)
-                  {
-                    const auto [place, a, b] = shears[k];
-                    const double shear       = mean[place] / sqrt2;
-                    if (static_cast<int>(part.component) == a)
-                      exerted[part.place] += shear * part.weight[b];
-                    else if (static_cast<int>(part.component) == b)
-                      exerted[part.place] += shear * part.weight[a];
-                  }
-              }
-          }
-        sum_over_ranks(exerted, comm);
-      }
-
-    const unsigned int     n    = scene.dirichlet.list.size();
-    constexpr unsigned int size = dim + 1; // force and moment
-    std::vector<double>    sums(size * n, 0.);
-    const auto             add = [&](const unsigned int c,
-                         const unsigned int node,
-                         const unsigned int component,
-                         const double       f) {
-      const Tensor<1, dim> r = space.node_positions()[node] - centres[c];
-      sums[size * c + component] += f;
-      sums[size * c + dim] += component == 0   ? -r[1] * f
-                                          : component == 1 ? r[0] * f
-                                                           : 0.;
-    };
-    for (const Prescribed &p : prescribed)
-      {
-        if (p.node >= space.n_owned_nodes())
+        if (!p.mine)
           continue;
         const unsigned int dof = dim * p.node + p.component;
         const double       f   = residual.local_element(dof);
         const auto         found =
           n_shares > 0 ? shared.find(space.partitioner()->local_to_global(dof))
                                : shared.end();
-        if (found == shared.end() || !(found->second.size.back() > 0.))
-          {
-            add(p.condition, p.node, p.component, f);
-            continue;
-          }
-        // Those that ask for another velocity than the node has bear nothing.
-        const Shared       &s = found->second;
-        std::vector<double> size(s.size.size(), 0.);
-        double              whole = 0., left = f;
-        for (unsigned int k = 0; k < s.conditions.size(); ++k)
-          {
-            double largest = 0.;
-            for (const unsigned int c : {s.conditions[k], p.condition})
-              for (unsigned int d = 0; d < dim; ++d)
-                if (scene.dirichlet.list[c]->components[d])
-                  largest = std::max(largest, std::abs(value(c, d, p.node, t)));
-            if (s.size[k] > 0. &&
-                std::abs(value(s.conditions[k], p.component, p.node, t) -
-                         value(p.condition, p.component, p.node, t)) <=
-                  1e-9 * largest)
-              {
-                size[k] = s.size[k];
-                whole += size[k];
-                left -= exerted[s.first + k];
-              }
-          }
-        for (unsigned int k = 0; k < s.conditions.size(); ++k)
-          if (size[k] > 0.)
-            add(s.conditions[k],
-                p.node,
-                p.component,
-                exerted[s.first + k] + left * size[k] / whole);
+        if (found != shared.end() && found->second.size.back() > 0.)
+          divide(p, found->second, f, exerted, t, result);
+        else
+          add_force(p.condition, p.node, p.component, f, result);
       }
     for (const Oblique &o : oblique)
       {
@@ -671,16 +714,16 @@ namespace geocone
           }
         for (unsigned int i = 0; i < k.size(); ++i)
           for (unsigned int d = 0; d < dim; ++d)
-            add(k[i].condition, o.node, d, along[i] * k[i].d[d]);
+            add_force(k[i].condition, o.node, d, along[i] * k[i].d[d], result);
       }
+    StateRow of_rank;
+    for (Reaction &reaction : result)
+      of_rank(reaction);
+    std::vector<double> sums = of_rank.values();
     sum_over_ranks(sums, comm);
-    std::vector<Reaction> result(n);
-    for (unsigned int c = 0; c < n; ++c)
-      {
-        for (unsigned int d = 0; d < dim; ++d)
-          result[c].force[d] = sums[size * c + d];
-        result[c].moment = sums[size * c + dim];
-      }
+    StateRow of_all(sums);
+    for (Reaction &reaction : result)
+      of_all(reaction);
     return result;
   }
 

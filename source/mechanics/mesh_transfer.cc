@@ -41,12 +41,7 @@ namespace geocone
     mine = {{{0, space.n_owned_nodes()}}};
 
     const Constraints constraints(scene, mesh, space);
-    for (const auto &p : constraints.prescribed_components())
-      prescribed.push_back({p.node,
-                            p.component,
-                            p.condition,
-                            space.node_positions()[p.node],
-                            p.node < space.n_owned_nodes()});
+    prescribed = constraints.prescribed_nodes();
     for (unsigned int c = 0; c < scene.dirichlet.list.size(); ++c)
       centres.push_back(constraints.centre(c));
   }

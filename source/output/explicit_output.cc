@@ -20,20 +20,34 @@ namespace geocone
   {
     scene = &scene_;
     make_folder(options);
-    point_files    = std::make_unique<FieldFiles>("points", fields_format);
-    using Record   = ExplicitRecord;
-    const auto add = [&](const std::string &name, const auto &value) {
-      table.add(unit(name),
-                [value](const Record &r) { return double(value(r)); });
-    };
-    const auto add_state = [&](const std::string &name,
-                               double ExplicitState::*member) {
-      add(name, [member](const Record &r) { return r.state.*member; });
-    };
-    const auto add_balance = [&](const std::string &name,
-                                 double Balance::*member) {
-      add(name, [member](const Record &r) { return r.balance.*member; });
-    };
+    point_files = std::make_unique<FieldFiles>("points", fields_format);
+    add_step_columns();
+    add_body_columns();
+    add_balance_columns();
+    add_observations(
+      table,
+      scene->observation,
+      scene->supports(),
+      [this](const Record &r, const unsigned int i) {
+        return r.report.reactions[scene->observation.conditions[i]].moment;
+      },
+      [](const Record &r, const unsigned int i, const unsigned int d) {
+        return r.displacements[i][d];
+      });
+    if (writes)
+      statistics.open(path + "/statistics.csv", table.names(), resumes);
+  }
+
+  void
+  ExplicitOutput::add(const std::string                    &column,
+                      const StatisticsTable<Record>::Value &value)
+  {
+    table.add(unit(column), value);
+  }
+
+  void
+  ExplicitOutput::add_step_columns()
+  {
     add("step", [](const Record &r) { return r.step; });
     add("time (s)", [](const Record &r) { return r.time; });
     add("explicit steps (-)", [](const Record &r) { return r.report.n_steps; });
@@ -47,7 +61,17 @@ namespace geocone
     for (unsigned int d = 0; d < dim; ++d)
       add(std::string("limiting point ") + coordinate[d] + " (m)",
           [d](const Record &r) { return r.state.limiting_place[d]; });
-    add_state("limiting wave speed (m/s)", &ExplicitState::limiting_wave_speed);
+    add("limiting wave speed (m/s)",
+        [](const Record &r) { return r.state.limiting_wave_speed; });
+  }
+
+  void
+  ExplicitOutput::add_body_columns()
+  {
+    const auto add_state = [&](const std::string &column,
+                               double ExplicitState::*member) {
+      add(column, [member](const Record &r) { return r.state.*member; });
+    };
     add("points (-)", [](const Record &r) { return r.state.n_points; });
     add_state("mass (kg/m)", &ExplicitState::mass);
     add_state(dim == 2 ? "volume (m^2)" : "volume (m^3)",
@@ -69,14 +93,23 @@ namespace geocone
         [](const Record &r) { return r.report.unbalanced_force; });
     add_state("kinetic energy (J/m)", &ExplicitState::kinetic);
     add_state("potential energy (J/m)", &ExplicitState::potential);
-    add_balance("stress work (J/m)", &Balance::stress_work);
-    add_balance("gravity work (J/m)", &Balance::gravity_work);
-    add_balance("support work (J/m)", &Balance::support_work);
-    add_balance("damping work (J/m)", &Balance::damping_work);
-    add_balance("stopped energy (J/m)", &Balance::stopped_energy);
-    add_balance("removed kinetic energy (J/m)", &Balance::removed_energy);
+  }
+
+  void
+  ExplicitOutput::add_balance_columns()
+  {
+    const auto add_exchange = [&](const std::string &column,
+                                  double Exchange::*member) {
+      add(column, [member](const Record &r) { return r.exchange.*member; });
+    };
+    add_exchange("stress work (J/m)", &Exchange::stress_work);
+    add_exchange("gravity work (J/m)", &Exchange::gravity_work);
+    add_exchange("support work (J/m)", &Exchange::support_work);
+    add_exchange("damping work (J/m)", &Exchange::damping_work);
+    add_exchange("stopped energy (J/m)", &Exchange::stopped_energy);
+    add_exchange("removed kinetic energy (J/m)", &Exchange::removed_energy);
     add("numerical loss (J/m)",
-        [this](const Record &r) { return numerical_loss(r); });
+        [this](const Record &) { return balance.loss(); });
     for (unsigned int d = 0; d < dim; ++d)
       add(std::string("momentum ") + coordinate[d] + " (N s/m)",
           [d](const Record &r) { return r.state.momentum[d]; });
@@ -87,25 +120,13 @@ namespace geocone
       add(std::string("angular momentum") +
             (dim == 2 ? "" : " " + axis_of_rotation(i)) + " (N m s/m)",
           [i](const Record &r) { return r.state.angular_momentum[i]; });
-    add_balance("removed mass (kg/m)", &Balance::removed_mass);
+    add_exchange("removed mass (kg/m)", &Exchange::removed_mass);
     for (unsigned int i = 0; i < dim * scene->dirichlet.list.size(); ++i)
       table.add("force " + scene->dirichlet.list[i / dim]->name + " " +
                   coordinate[i % dim] + unit(" (N/m)"),
                 [i](const Record &r) {
                   return r.report.reactions[i / dim].force[i % dim];
                 });
-    add_observations(
-      table,
-      scene->observation,
-      scene->supports(),
-      [this](const Record &r, const unsigned int i) {
-        return r.report.reactions[scene->observation.conditions[i]].moment;
-      },
-      [](const Record &r, const unsigned int i, const unsigned int d) {
-        return r.displacements[i][d];
-      });
-    if (writes)
-      statistics.open(path + "/statistics.csv", table.names(), resumes);
   }
 
   void
@@ -113,42 +134,51 @@ namespace geocone
   {
     OutputBase::state_of_run(row);
     std::size_t n = records.size();
-    row(initial,
-        *point_files,
-        largest_kinetic,
-        largest_impulse,
-        warned_of_energy,
-        n);
+    row(initial, *point_files, balance, largest_impulse, n);
     records.resize(n);
     for (ExplicitRecord &record : records)
       record.to_row(row);
   }
 
-  double
-  ExplicitOutput::numerical_loss(const ExplicitRecord &record) const
+  void
+  ExplicitOutput::set_initial(const ExplicitState &state)
   {
-    const Balance &b = record.balance;
-    return b.gravity_work + b.support_work - b.stress_work - b.damping_work -
-           b.stopped_energy - b.removed_energy -
-           (record.state.kinetic - initial.kinetic);
+    initial = state;
+    balance.begin({state.kinetic, 0., state.potential});
+  }
+
+  void
+  ExplicitOutput::update_balance(const ExplicitRecord &record)
+  {
+    const Exchange &e = record.exchange;
+    // Where the weight changes, its work is not what the potential energy loses:
+    // the rest is that of an external force.
+    const double released =
+      initial.potential - e.removed_potential - record.state.potential;
+    Works works;
+    works.external    = e.support_work + (e.gravity_work - released);
+    works.dissipation = e.stress_work + e.damping_work + e.stopped_energy;
+    balance.set({record.state.kinetic, 0., record.state.potential},
+                works,
+                e.removed_energy + e.removed_potential,
+                e.removed_potential);
   }
 
   Tensor<1, dim>
   ExplicitOutput::momentum_residual(const ExplicitRecord &record) const
   {
     return record.state.momentum - initial.momentum +
-           record.balance.removed_momentum - record.balance.impulse;
+           record.exchange.removed_momentum - record.exchange.impulse;
   }
 
   void
   ExplicitOutput::add_record(const ExplicitRecord &record)
   {
     const ExplicitState &s = record.state;
-    const Balance       &b = record.balance;
-    largest_kinetic = std::max({largest_kinetic, s.kinetic, initial.kinetic});
+    update_balance(record);
     largest_impulse =
       std::max({largest_impulse,
-                b.impulse.norm(),
+                record.exchange.impulse.norm(),
                 s.mass * scene->gravity.at(1e300).norm() * record.time,
                 std::sqrt(2. * s.mass * std::max(s.kinetic, initial.kinetic))});
     const std::vector<double> line = table.line(record);
@@ -156,28 +186,15 @@ namespace geocone
     if (writes)
       statistics.add_line(line);
 
-    const double created = -numerical_loss(record);
     // At the start next to nothing is turned over: a hundred-thousandth of what the
     // weight could do over the size of the body counts as such.
-    const double weight = initial.mass * scene->gravity.at(record.time).norm();
-    const double scale =
-      std::max({largest_kinetic,
-                std::abs(b.gravity_work),
-                1e-5 * weight * initial.lower.distance(initial.upper),
-                1e-300});
-    if (!warned_of_energy && created > 0.01 * scale && created > 1e-12)
-      {
-        warned_of_energy = true;
-        log.warn(
-          format("the numerical method has created %.3g %s, %.2g %% of "
-                 "the energy that was turned over until t = %.4g s: take "
-                 "a smaller 'Explicit/Courant number', splines, or the "
-                 "order MUSL",
-                 created,
-                 unit("J/m").c_str(),
-                 100. * created / scale,
-                 record.time));
-      }
+    balance.warn_if_created(
+      log,
+      record.time,
+      unit("J/m"),
+      1e-5 * initial.mass * scene->gravity.at(record.time).norm() *
+        initial.lower.distance(initial.upper),
+      "take a smaller 'Explicit/Courant number', splines, or the order MUSL");
   }
 
   void
@@ -284,96 +301,104 @@ namespace geocone
     if (!records.empty())
       {
         const ExplicitRecord &last = records.back();
-        const ExplicitState  &s    = last.state;
-        const Balance        &b    = last.balance;
-        unsigned long         n    = 0;
-        double       least = 1e300, largest = 0., momentum = 0., loss = 0.;
-        const double energy_scale =
-          std::max({largest_kinetic, std::abs(b.gravity_work), 1e-300});
-        for (const ExplicitRecord &record : records)
-          {
-            n += record.report.n_steps;
-            least    = std::min(least, record.report.smallest_step);
-            largest  = std::max(largest, record.report.largest_step);
-            momentum = std::max(momentum, momentum_residual(record).norm());
-            loss     = std::max(loss, std::abs(numerical_loss(record)));
-          }
         add_points(last.displacements, {}, summary);
-        summary["explicit"] = {{"time_s", last.time},
-                               {"steps", n},
-                               {"smallest_step_s", least},
-                               {"largest_step_s", largest},
-                               {"massless_nodes", b.small_masses}};
-        summary["state"]    = {
-             {"points", s.n_points},
-             {unit("mass_kg_per_m"), s.mass},
-             {dim == 2 ? "volume_m2" : "volume_m3", s.volume},
-             {"x_least_m", s.lower[0]},
-             {"x_largest_m", s.upper[0]},
-             {"y_largest_m", s.upper[1]},
-             {"left_front_m", s.left_front},
-             {"right_front_m", s.right_front},
-             {"largest_speed_m_per_s", s.largest_speed},
-             {"largest_plastic_strain", s.largest_plastic_strain},
-             {unit("removed_mass_kg_per_m"), b.removed_mass}};
-        summary["motion"] = {{"front_x_m", s.upper[0]},
-                             {"front_y_m", s.upper[1]}};
-        if (dim == 3)
-          {
-            summary["state"]["z_least_m"]   = s.lower[2];
-            summary["state"]["z_largest_m"] = s.upper[2];
-          }
-        summary["energy"] = {
-          {unit("kinetic_J_per_m"), s.kinetic},
-          {unit("largest_kinetic_J_per_m"), largest_kinetic},
-          {unit("potential_J_per_m"), s.potential},
-          {unit("released_potential_J_per_m"),
-           initial.potential - s.potential - b.removed_potential},
-          {unit("stress_work_J_per_m"), b.stress_work},
-          {unit("gravity_work_J_per_m"), b.gravity_work},
-          {unit("support_work_J_per_m"), b.support_work},
-          {unit("damping_work_J_per_m"), b.damping_work},
-          {unit("numerical_loss_J_per_m"), numerical_loss(last)},
-          {"numerical_loss_relative", numerical_loss(last) / energy_scale},
-          {"numerical_loss_max_relative", loss / energy_scale}};
-        if (initial.kinetic > 0.)
-          {
-            summary["energy"]["kinetic_to_initial"] =
-              s.kinetic / initial.kinetic;
-            summary["energy"]["loss_to_initial"] =
-              numerical_loss(last) / initial.kinetic;
-            summary["energy"]["loss_max_to_initial"] = loss / initial.kinetic;
-          }
-        // What a turning body of this size and energy would have.
-        const double turning = std::sqrt(2. * initial.mass * initial.kinetic) *
-                               (initial.lower.norm() + initial.upper.norm());
-        summary["momentum"] = {{"angular_change_relative",
-                                initial.angular_momentum.norm() > 1e-9 * turning
-                                  ? Json(s.angular_momentum.norm() /
-                                           initial.angular_momentum.norm() -
-                                         1.)
-                                  : Json()},
-                               {"residual_max_relative",
-                                momentum / std::max(largest_impulse, 1e-300)}};
-        for (unsigned int d = 0; d < dim; ++d)
-          summary["momentum"][coordinate[d] + unit("_N_s_per_m")] =
-            s.momentum[d];
-        for (unsigned int i = 0; i < n_rotations; ++i)
-          summary["momentum"]["angular_" +
-                              (dim == 2 ? "" : axis_of_rotation(i) + "_") +
-                              unit("N_m_s_per_m")] = s.angular_momentum[i];
-        summary["law"] = {
-          {"updates", counts.updates},
-          {"substeps", counts.substeps},
-          {"substeps_per_update",
+        summary["explicit"] = steps();
+        summary["state"]    = body();
+        summary["motion"]   = {{"front_x_m", last.state.upper[0]},
+                               {"front_y_m", last.state.upper[1]}};
+        summary["energy"]   = energy();
+        summary["momentum"] = momentum();
+        summary["law"]      = {
+               {"updates", counts.updates},
+               {"substeps", counts.substeps},
+               {"substeps_per_update",
            counts.updates > 0 ? double(counts.substeps) / counts.updates : 0.},
-          {"most_substeps", counts.most},
-          {"forced_substeps", counts.forced},
-          {"limited_stresses", counts.limited}};
+               {"most_substeps", counts.most},
+               {"forced_substeps", counts.forced},
+               {"limited_stresses", counts.limited}};
       }
     summary["size"] = size;
     summary["cost"] = cost;
     write_summary_file();
+  }
+
+  Json
+  ExplicitOutput::steps() const
+  {
+    unsigned long n     = 0;
+    double        least = 1e300, largest = 0.;
+    for (const ExplicitRecord &record : records)
+      {
+        n += record.report.n_steps;
+        least   = std::min(least, record.report.smallest_step);
+        largest = std::max(largest, record.report.largest_step);
+      }
+    return {{"time_s", records.back().time},
+            {"steps", n},
+            {"smallest_step_s", least},
+            {"largest_step_s", largest},
+            {"massless_nodes", records.back().exchange.small_masses}};
+  }
+
+  Json
+  ExplicitOutput::body() const
+  {
+    const ExplicitState &s    = records.back().state;
+    Json                 json = {
+                      {"points", s.n_points},
+                      {unit("mass_kg_per_m"), s.mass},
+                      {dim == 2 ? "volume_m2" : "volume_m3", s.volume},
+                      {"x_least_m", s.lower[0]},
+                      {"x_largest_m", s.upper[0]},
+                      {"y_largest_m", s.upper[1]},
+                      {"left_front_m", s.left_front},
+                      {"right_front_m", s.right_front},
+                      {"largest_speed_m_per_s", s.largest_speed},
+                      {"largest_plastic_strain", s.largest_plastic_strain},
+                      {unit("removed_mass_kg_per_m"), records.back().exchange.removed_mass}};
+    if (dim == 3)
+      {
+        json["z_least_m"]   = s.lower[2];
+        json["z_largest_m"] = s.upper[2];
+      }
+    return json;
+  }
+
+  Json
+  ExplicitOutput::energy() const
+  {
+    const Exchange &e    = records.back().exchange;
+    Json            json = balance.json(
+      [this](const std::string &in_plane) { return unit(in_plane); }, false);
+    json[unit("stress_work_J_per_m")]  = e.stress_work;
+    json[unit("gravity_work_J_per_m")] = e.gravity_work;
+    json[unit("support_work_J_per_m")] = e.support_work;
+    json[unit("damping_work_J_per_m")] = e.damping_work;
+    return json;
+  }
+
+  Json
+  ExplicitOutput::momentum() const
+  {
+    const ExplicitState &s       = records.back().state;
+    double               largest = 0.;
+    for (const ExplicitRecord &record : records)
+      largest = std::max(largest, momentum_residual(record).norm());
+    // What a turning body of this size and energy would have.
+    const double turning = std::sqrt(2. * initial.mass * initial.kinetic) *
+                           (initial.lower.norm() + initial.upper.norm());
+    const double angular = initial.angular_momentum.norm();
+    Json         json    = {
+                 {"angular_change_relative",
+       angular > 1e-9 * turning ? Json(s.angular_momentum.norm() / angular - 1.)
+                                           : Json()},
+                 {"residual_max_relative", largest / std::max(largest_impulse, 1e-300)}};
+    for (unsigned int d = 0; d < dim; ++d)
+      json[coordinate[d] + unit("_N_s_per_m")] = s.momentum[d];
+    for (unsigned int i = 0; i < n_rotations; ++i)
+      json["angular_" + (dim == 2 ? "" : axis_of_rotation(i) + "_") +
+           unit("N_m_s_per_m")] = s.angular_momentum[i];
+    return json;
   }
 
   void
@@ -397,10 +422,10 @@ namespace geocone
       "%.4g, numerical loss %.2g %s; momentum to %.1e",
       s.kinetic,
       unit("J/m").c_str(),
-      largest_kinetic,
-      last.balance.stress_work,
+      balance.largest_kinetic(),
+      last.exchange.stress_work,
       summary["energy"][unit("released_potential_J_per_m")].get<double>(),
-      numerical_loss(last),
+      balance.loss(),
       unit("J/m").c_str(),
       summary["momentum"]["residual_max_relative"].get<double>()));
     if (summary["law"]["substeps"].get<unsigned long long>() > 0)
@@ -420,8 +445,8 @@ namespace geocone
           out << format("%.6g %.7g %.7g %.7g %.7g %.7g %.7g %.7g\n",
                         record.time,
                         record.state.kinetic,
-                        record.balance.stress_work,
-                        record.balance.gravity_work,
+                        record.exchange.stress_work,
+                        record.exchange.gravity_work,
                         record.state.lower[0],
                         record.state.upper[0],
                         record.state.upper[1],

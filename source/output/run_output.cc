@@ -27,113 +27,14 @@ namespace geocone
       reference_case.set_default("limit_load/value", *load);
     fields = std::make_unique<Fields>(fields_format);
 
-    using Record = StepRecord;
-    // Counts are numbers of the table, too.
-    const auto add = [&](const std::string &name, const auto &value) {
-      table.add(name, [value](const Record &r) { return double(value(r)); });
-    };
-    const auto add_quality = [&](const char *name, double Quality::*member) {
-      add(name, [member](const Record &r) { return r.last.quality.*member; });
-    };
-    const auto add_energy = [&](const std::string &name,
-                                double Energies::*member) {
-      add(name, [member](const Record &r) { return r.last.energies.*member; });
-    };
-    add("step", [](const Record &r) { return r.step; });
-    add("time (s)", [](const Record &r) { return r.time; });
-    add("displacement (m)", [](const Record &r) { return r.displacement; });
-    add(unit("load (N/m)"), [](const Record &r) { return r.load; });
-    const Observation &observation = scene->observation;
-    const auto         supports    = scene->supports();
-    for (unsigned int i = 0; i < dim * observation.conditions.size(); ++i)
-      table.add("reaction " + supports[observation.conditions[i / dim]] +
-                  std::string(" ") + coordinate[i % dim] + unit(" (N/m)"),
-                [i](const Record &r) { return r.reactions[i]; });
-    if (scene->loading.reduces_strength())
-      add("strength factor (-)", [this](const Record &r) {
-        return scene->loading.strength_factor(r.time);
-      });
-    if (scene->loading.raises_loads())
-      {
-        add("load factor (-)",
-            [](const Record &r) { return r.last.load_factor; });
-        add("displacement of raised loads (m)",
-            [](const Record &r) { return r.raised; });
-      }
-    add("iterations (-)", [](const Record &r) { return r.iterations; });
-    add("substeps (-)", [](const Record &r) { return r.substeps; });
-    add("failed substeps (-)", [](const Record &r) { return r.failures; });
-    add("residual (-)", [](const Record &r) { return r.last.newton.residual; });
-    add("friction lag (-)",
-        [](const Record &r) { return r.last.newton.friction_lag; });
-    add_quality("cone excess (Pa)", &Quality::cone_excess);
-    add_quality("natural-map error (-)", &Quality::natural_map);
-    add_quality("cone violation (-)", &Quality::cone_violation);
-    add_quality("dual-cone violation (-)", &Quality::dual_violation);
-    add_quality("complementarity (-)", &Quality::complementarity);
-    add("plastic points (-)", [](const Record &r) {
-      const NewtonIteration &end = r.last.newton.table.back();
-      return end.n_cone + end.n_apex;
-    });
-    add("apex points (-)",
-        [](const Record &r) { return r.last.newton.table.back().n_apex; });
-    add("largest plastic strain (-)",
-        [](const Record &r) { return r.last.largest_plastic_strain; });
-    add("unknowns (-)", [](const Record &r) { return r.last.unknowns; });
-    add("multipliers (-)", [](const Record &r) { return r.last.multipliers; });
-    add("multiplier rows given (-)",
-        [](const Record &r) { return r.last.rows; });
-    add_energy(unit("kinetic energy (J/m)"), &Energies::kinetic);
-    add_energy(unit("elastic energy (J/m)"), &Energies::elastic);
-    add_energy(unit("potential energy (J/m)"), &Energies::potential);
-    // Sums over the run, of which a record has the step's part only.
-    add(unit("plastic dissipation (J/m)"),
-        [this](const Record &) { return dissipation; });
-    add(unit("external work (J/m)"), [this](const Record &) { return work; });
+    add_load_columns();
+    add_solver_columns();
+    add_energy_columns();
     if (touches())
-      add(unit("contact dissipation (J/m)"),
-          [this](const Record &) { return contact_dissipation; });
-    add(unit("total energy (J/m)"), [this](const Record &r) {
-      return r.last.energies.state() + dissipation + contact_dissipation +
-             removed_energy - work;
-    });
-    if (scene->loading.changes_body())
-      add(unit("removed energy (J/m)"),
-          [this](const Record &) { return removed_energy; });
-    add(unit("numerical loss (J/m)"), [this](const Record &) { return loss; });
-    if (remembers())
-      add(unit("work of friction memory (J/m)"),
-          [this](const Record &) { return memory_work; });
-    if (points_move)
-      add(unit("work of ghost stiffness (J/m)"),
-          [this](const Record &) { return ghost_work; });
-    if (touches())
-      {
-        add("contact penetration (m)",
-            [](const Record &r) { return r.last.contact.penetration; });
-        add("contact natural-map error (-)",
-            [](const Record &r) { return r.last.contact.error; });
-        add("sticking nodes (-)",
-            [](const Record &r) { return r.last.contact.stick; });
-        add("slipping nodes (-)",
-            [](const Record &r) { return r.last.contact.slip; });
-      }
-    add("energy identity error (-)",
-        [](const Record &r) { return r.last.identity_error; });
-    add_observations(
-      table,
-      observation,
-      supports,
-      [](const Record &r, const unsigned int i) { return r.moments[i]; },
-      [](const Record &r, const unsigned int i, const unsigned int d) {
-        return r.displacements[i][d];
-      });
-    if (scene->materials.are_undrained())
-      for (unsigned int i = 0; i < observation.points.size(); ++i)
-        table.add(
-          format("excess pore pressure of point %u (Pa)", i + 1),
-          [i](const Record &r) { return r.pressures[i]; },
-          Finite::may_be);
+      add_contact_columns();
+    table.add("energy identity error (-)",
+              [](const Record &r) { return r.last.identity_error; });
+    add_observed_columns();
     if (!writes)
       return;
     statistics.open(path + "/statistics.csv", table.names(), resumes);
@@ -154,25 +55,140 @@ namespace geocone
   }
 
   void
+  RunOutput::add_load_columns()
+  {
+    table.add("step", [](const Record &r) { return r.step; });
+    table.add("time (s)", [](const Record &r) { return r.time; });
+    table.add("displacement (m)",
+              [](const Record &r) { return r.displacement; });
+    table.add(unit("load (N/m)"), [](const Record &r) { return r.load; });
+    const Observation &observation = scene->observation;
+    const auto         supports    = scene->supports();
+    for (unsigned int i = 0; i < dim * observation.conditions.size(); ++i)
+      table.add("reaction " + supports[observation.conditions[i / dim]] + " " +
+                  coordinate[i % dim] + unit(" (N/m)"),
+                [i](const Record &r) { return r.reactions[i]; });
+    if (scene->loading.reduces_strength())
+      table.add("strength factor (-)", [this](const Record &r) {
+        return scene->loading.strength_factor(r.time);
+      });
+    if (scene->loading.raises_loads())
+      {
+        table.add("load factor (-)",
+                  [](const Record &r) { return r.last.load_factor; });
+        table.add("displacement of raised loads (m)",
+                  [](const Record &r) { return r.raised; });
+      }
+  }
+
+  void
+  RunOutput::add_solver_columns()
+  {
+    const auto add_quality = [&](const char *column, double Quality::*member) {
+      table.add(column,
+                [member](const Record &r) { return r.last.quality.*member; });
+    };
+    table.add("iterations (-)", [](const Record &r) { return r.iterations; });
+    table.add("substeps (-)", [](const Record &r) { return r.substeps; });
+    table.add("failed substeps (-)",
+              [](const Record &r) { return r.failures; });
+    table.add("residual (-)",
+              [](const Record &r) { return r.last.newton.residual; });
+    table.add("friction lag (-)",
+              [](const Record &r) { return r.last.newton.friction_lag; });
+    add_quality("cone excess (Pa)", &Quality::cone_excess);
+    add_quality("natural-map error (-)", &Quality::natural_map);
+    add_quality("cone violation (-)", &Quality::cone_violation);
+    add_quality("dual-cone violation (-)", &Quality::dual_violation);
+    add_quality("complementarity (-)", &Quality::complementarity);
+    table.add("plastic points (-)", [](const Record &r) {
+      const NewtonIteration &end = r.last.newton.table.back();
+      return end.n_cone + end.n_apex;
+    });
+    table.add("apex points (-)", [](const Record &r) {
+      return r.last.newton.table.back().n_apex;
+    });
+    table.add("largest plastic strain (-)",
+              [](const Record &r) { return r.last.largest_plastic_strain; });
+    table.add("unknowns (-)", [](const Record &r) { return r.last.unknowns; });
+    table.add("multipliers (-)",
+              [](const Record &r) { return r.last.multipliers; });
+    table.add("multiplier rows given (-)",
+              [](const Record &r) { return r.last.rows; });
+  }
+
+  void
+  RunOutput::add_energy_columns()
+  {
+    const auto add_energy = [&](const std::string &column,
+                                double Energies::*member) {
+      table.add(unit(column),
+                [member](const Record &r) { return r.last.energies.*member; });
+    };
+    // Sums over the run, of which a record has the step's part only.
+    const auto add_work = [&](const std::string &column,
+                              double Works::*member) {
+      table.add(unit(column), [this, member](const Record &) {
+        return balance.works().*member;
+      });
+    };
+    add_energy("kinetic energy (J/m)", &Energies::kinetic);
+    add_energy("elastic energy (J/m)", &Energies::elastic);
+    add_energy("potential energy (J/m)", &Energies::potential);
+    add_work("plastic dissipation (J/m)", &Works::dissipation);
+    add_work("external work (J/m)", &Works::external);
+    if (touches())
+      add_work("contact dissipation (J/m)", &Works::contact_dissipation);
+    table.add(unit("total energy (J/m)"),
+              [this](const Record &) { return balance.total(); });
+    if (scene->loading.changes_body())
+      table.add(unit("removed energy (J/m)"),
+                [this](const Record &) { return balance.removed(); });
+    table.add(unit("numerical loss (J/m)"),
+              [this](const Record &) { return balance.loss(); });
+    if (remembers())
+      add_work("work of friction memory (J/m)", &Works::of_memory);
+    if (points_move)
+      add_work("work of ghost stiffness (J/m)", &Works::of_ghosts);
+  }
+
+  void
+  RunOutput::add_contact_columns()
+  {
+    table.add("contact penetration (m)",
+              [](const Record &r) { return r.last.contact.penetration; });
+    table.add("contact natural-map error (-)",
+              [](const Record &r) { return r.last.contact.error; });
+    table.add("sticking nodes (-)",
+              [](const Record &r) { return r.last.contact.stick; });
+    table.add("slipping nodes (-)",
+              [](const Record &r) { return r.last.contact.slip; });
+  }
+
+  void
+  RunOutput::add_observed_columns()
+  {
+    add_observations(
+      table,
+      scene->observation,
+      scene->supports(),
+      [](const Record &r, const unsigned int i) { return r.moments[i]; },
+      [](const Record &r, const unsigned int i, const unsigned int d) {
+        return r.displacements[i][d];
+      });
+    if (scene->materials.are_undrained())
+      for (unsigned int i = 0; i < scene->observation.points.size(); ++i)
+        table.add(
+          format("excess pore pressure of point %u (Pa)", i + 1),
+          [i](const Record &r) { return r.pressures[i]; },
+          Finite::may_be);
+  }
+
+  void
   RunOutput::state_of_run(StateRow &row)
   {
     OutputBase::state_of_run(row);
-    row(newton,
-        *fields,
-        records,
-        work,
-        dissipation,
-        loss,
-        least_loss,
-        memory_work,
-        ghost_work,
-        contact_dissipation,
-        removed_energy,
-        removed_potential,
-        energy_n,
-        initial,
-        n_load_jumps,
-        warned_of_energy);
+    row(newton, *fields, records, balance, n_load_jumps);
   }
 
   void
@@ -221,24 +237,15 @@ namespace geocone
   void
   RunOutput::add_step(const StepRecord &record)
   {
-    const Energies &e         = record.last.energies;
-    const double    step_loss = energy_n + e.external_work - e.state() -
-                             e.dissipation - e.contact_dissipation;
-    energy_n = e.state();
-    work += e.external_work;
-    dissipation += e.dissipation;
-    memory_work += e.memory_work;
-    ghost_work += e.ghost_work;
-    contact_dissipation += e.contact_dissipation;
-    loss += step_loss;
-    least_loss                     = std::min(least_loss, step_loss);
+    balance.add_step(record.last.energies, record.last.works);
     const std::vector<double> line = table.line(record);
     records.push_back(record);
     records.back().last.newton.table.clear(); // only the numbers are kept
     if (writes)
       statistics.add_line(line);
     warn_of_jump();
-    warn_of_energy(record.time);
+    balance.warn_if_created(
+      log, record.time, unit("J/m"), 0., "take smaller steps");
   }
 
   bool
@@ -278,27 +285,6 @@ namespace geocone
                       unit("N/m").c_str(),
                       b.time,
                       b.step));
-  }
-
-  void
-  RunOutput::warn_of_energy(const double time)
-  {
-    // As in results(); what rounding leaves of nothing is no energy.
-    const double scale =
-      std::max({std::abs(work),
-                dissipation,
-                std::abs(initial.potential - removed_energy - energy_n)});
-    if (warned_of_energy || !(loss < -0.01 * scale) || !(loss < -1e-12))
-      return;
-    warned_of_energy = true;
-    log.warn(
-      format("the numerical method has created %.3g %s, %.2g %% of the "
-             "energy that was turned over until t = %.4g s: take smaller "
-             "steps",
-             -loss,
-             unit("J/m").c_str(),
-             -100. * loss / scale,
-             time));
   }
 
   void

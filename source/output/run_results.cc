@@ -45,7 +45,7 @@ namespace geocone
             {"slip", last.slip},
             {"width_m", points_move ? Json() : Json(last.width)},
             {"pressure_max_Pa", points_move ? Json() : Json(last.pressure)},
-            {unit("dissipation_J_per_m"), contact_dissipation}};
+            {unit("dissipation_J_per_m"), balance.works().contact_dissipation}};
   }
 
   Json
@@ -53,19 +53,21 @@ namespace geocone
   {
     // The strength of an instant ago is in the load: by tau dF/dt.
     Json         delay;
-    const auto   n   = records.size();
-    const double tau = scene->materials.least_friction_memory();
+    const auto   n           = records.size();
+    const double tau         = scene->materials.least_friction_memory();
+    const double work        = balance.works().of_memory;
+    const double dissipation = balance.works().dissipation;
     if (n > 1 && scene->observation.has_load())
       {
         const StepRecord &a = records[n - 2], &b = records[n - 1];
         if (b.time > a.time && b.load != 0.)
           delay = tau * (b.load - a.load) / (b.time - a.time) / b.load;
       }
-    return {{"tau_s", tau},
-            {unit("work_J_per_m"), memory_work},
-            {"work_relative",
-             dissipation > 0. ? Json(memory_work / dissipation) : Json()},
-            {"load_delay_relative", delay}};
+    return {
+      {"tau_s", tau},
+      {unit("work_J_per_m"), work},
+      {"work_relative", dissipation > 0. ? Json(work / dissipation) : Json()},
+      {"load_delay_relative", delay}};
   }
 
   Json
@@ -74,6 +76,7 @@ namespace geocone
     Motion worst;
     for (const StepRecord &record : records)
       worst.take_worse(record.last.motion);
+    const Works             &works = balance.works();
     const dealii::Point<dim> front =
       records.empty() ? worst.front : records.back().last.motion.front;
     // Steps whose load is more than 5 % below those before and after, while what
@@ -96,8 +99,9 @@ namespace geocone
       {"light_share_max", worst.light_share},
       {"front_x_m", front[0]},
       {"front_y_m", front[1]},
-      {unit("ghost_work_J_per_m"), ghost_work},
-      {"ghost_work_relative", work > 0. ? Json(ghost_work / work) : Json()}};
+      {unit("ghost_work_J_per_m"), works.of_ghosts},
+      {"ghost_work_relative",
+       works.external > 0. ? Json(works.of_ghosts / works.external) : Json()}};
   }
 
   void
@@ -165,37 +169,15 @@ namespace geocone
   Json
   RunOutput::energy() const
   {
-    const Energies &e = records.back().last.energies;
-    // Potential energy counts from the lower left corner of the mesh.
-    const double released = initial.potential - removed_potential - e.potential;
-    const double begin    = initial.state();
-    // Scale of the rounding in the least loss of a step.
-    const double scale = std::max({std::abs(work),
-                                   std::abs(released),
-                                   e.elastic,
-                                   e.kinetic,
-                                   begin,
-                                   std::numeric_limits<double>::min()});
-    // Weight that grows has a potential energy that does, too.
-    const bool is_ramped = scene->gravity.is_ramped();
-    const Json nothing;
-    Json       json = {
-            {unit("external_work_J_per_m"), work},
-            {unit("elastic_J_per_m"), e.elastic},
-            {unit("kinetic_J_per_m"), e.kinetic},
-            {unit("potential_J_per_m"), e.potential},
-            {"potential_datum", "lower left corner of the mesh"},
-            {unit("initial_J_per_m"), begin},
-            {unit("released_potential_J_per_m"),
-       is_ramped ? nothing : Json(released)},
-            {unit("dissipation_J_per_m"), dissipation},
-            {unit("numerical_loss_J_per_m"), loss},
-            {"loss_to_released",
-       released > 0. && !is_ramped ? Json(loss / released) : nothing},
-            {"loss_to_initial", begin > 0. ? Json(loss / begin) : nothing},
-            {"least_step_loss_relative", least_loss / scale}};
-    if (scene->loading.changes_body())
-      json[unit("removed_J_per_m")] = removed_energy;
+    Json json =
+      balance.json([this](const std::string &name) { return unit(name); },
+                   scene->gravity.is_ramped());
+    json[unit("elastic_J_per_m")]     = records.back().last.energies.elastic;
+    json[unit("dissipation_J_per_m")] = balance.works().dissipation;
+    double identity                   = 0.;
+    for (const StepRecord &record : records)
+      identity = std::max(identity, record.last.identity_error);
+    json["identity_error_max"] = identity;
     return json;
   }
 
@@ -205,7 +187,7 @@ namespace geocone
     unsigned int iterations = 0, most = 0, substeps = 0, failures = 0,
                  regularised = 0, lagging = 0, at_floor = 0;
     Quality quality;
-    double  residual = 0., identity = 0., lag = 0.;
+    double  residual = 0., lag = 0.;
     for (const StepRecord &record : records)
       {
         regularised += record.regularised;
@@ -218,7 +200,6 @@ namespace geocone
         lag      = std::max(lag, record.last.newton.friction_lag);
         lagging += record.last.newton.friction_lag > 0.;
         at_floor += record.last.newton.at_rounding_floor;
-        identity = std::max(identity, record.last.identity_error);
       }
 
     Json json;
@@ -253,10 +234,9 @@ namespace geocone
                        {"cone_excess_max_Pa", quality.cone_excess}};
     if (!records.empty())
       {
-        json["state"]                        = {{"largest_plastic_strain",
-                                                 records.back().last.largest_plastic_strain}};
-        json["energy"]                       = energy();
-        json["energy"]["identity_error_max"] = identity;
+        json["state"]  = {{"largest_plastic_strain",
+                           records.back().last.largest_plastic_strain}};
+        json["energy"] = energy();
       }
     return json;
   }
@@ -427,14 +407,16 @@ namespace geocone
                         100. * limit["relative_error"].get<double>());
       }
     // Bodies left to themselves have their initial energy only.
-    const double turnover = std::abs(work) + std::abs(dissipation);
+    const Works &works = balance.works();
+    const double turnover =
+      std::abs(works.external) + std::abs(works.dissipation);
     const double scale =
-      turnover > 0. ? turnover : std::max(initial.state(), 1e-300);
+      turnover > 0. ? turnover : std::max(balance.initial().sum(), 1e-300);
     const Energies &e = records.back().last.energies;
     out << format("elastic %.6g %% dissipated %.6g %% kinetic %.4g %% of "
                   "the work\n",
                   100. * e.elastic / scale,
-                  100. * dissipation / scale,
+                  100. * works.dissipation / scale,
                   100. * e.kinetic / scale);
     if (field_errors)
       out << format("field errors: displacement %.4g %%, stress %.4g %%\n",

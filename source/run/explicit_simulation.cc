@@ -85,7 +85,7 @@ namespace geocone
        step_loop.last_cpu_time(),
        report,
        state,
-       stepper.balance(),
+       stepper.exchange(),
        observed_points.displacements(stepper.points())});
   }
 

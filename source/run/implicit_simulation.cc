@@ -356,12 +356,7 @@ namespace geocone
                               present.substeps,
                               present.iterations));
         // Works add up over the substeps, and the worst of them counts.
-        report.energies.external_work += present.last.energies.external_work;
-        report.energies.dissipation += present.last.energies.dissipation;
-        report.energies.memory_work += present.last.energies.memory_work;
-        report.energies.ghost_work += present.last.energies.ghost_work;
-        report.energies.contact_dissipation +=
-          present.last.energies.contact_dissipation;
+        report.works += present.last.works;
         report.contact.take_worse(present.last.contact);
         report.motion.take_worse(present.last.motion);
         report.identity_error =

@@ -5,6 +5,10 @@
 #include <geocone/scene/expression.h>
 #include <geocone/scene/geometry.h>
 
+#include <deal.II/base/utilities.h>
+
+#include <cmath>
+
 namespace geocone
 {
   void
@@ -26,6 +30,17 @@ namespace geocone
       }
     try
       {
+        const double value = dealii::Utilities::string_to_double(text);
+        if (std::isfinite(value))
+          {
+            number = value;
+            return;
+          }
+      }
+    catch (const dealii::ExceptionBase &)
+      {} // not a number
+    try
+      {
         function = std::make_unique<dealii::FunctionParser<dim>>(1);
         function->initialize(
           dim == 2 ? "x,y,t" : "x,y,z,t", text, {{"pi", pi}}, true);
@@ -44,6 +59,8 @@ namespace geocone
   double
   Expression::value(const dealii::Point<dim> &x, const double t) const
   {
+    if (number)
+      return *number;
     if (record)
       return record->value(t);
     function->set_time(t);

@@ -181,7 +181,7 @@ namespace geocone
       remarks.push_back(remove_points(stage, t));
     energy_n    = 0.;
     rising      = false;
-    stage_start = balance();
+    stage_start = exchange();
     return remarks;
   }
 
@@ -350,7 +350,7 @@ namespace geocone
     // Of this stage; not less than a thousandth of what the weight would do over
     // a cell, for a stage that starts at rest does next to nothing.
     const double work =
-      std::max(std::abs(balance().stress_work - stage_start.stress_work),
+      std::max(std::abs(exchange().stress_work - stage_start.stress_work),
                1e-3 * weight * transfer->cell_size());
     if (stage.largest_unbalanced_force > 0. &&
         !(report.unbalanced_force <= stage.largest_unbalanced_force * weight))

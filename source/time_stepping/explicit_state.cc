@@ -148,10 +148,10 @@ namespace geocone
     return right;
   }
 
-  Balance
-  ExplicitMPM::balance() const
+  Exchange
+  ExplicitMPM::exchange() const
   {
-    Balance all           = sum;
+    Exchange all          = sum;
     all.stress_work       = Utilities::MPI::sum(sum.stress_work, comm);
     all.gravity_work      = Utilities::MPI::sum(sum.gravity_work, comm);
     all.damping_work      = Utilities::MPI::sum(sum.damping_work, comm);

@@ -7,7 +7,6 @@
 #include <geocone/discretisation/point_record.h>
 #include <geocone/discretisation/quadrature_points.h>
 #include <geocone/time_stepping/implicit_fem.h>
-#include <geocone/time_stepping/raised_loads.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -287,6 +286,121 @@ namespace geocone
     return e;
   }
 
+  RaisedLoads
+  ImplicitFEM::begin_step(const TimeStep &step, const Kinematics &kinematics)
+  {
+    Vector prescribed = problem->make_vector();
+    constraints->set_values(prescribed, step.solved_at);
+    // Where dofs are turned, the problem has its vectors along them.
+    const Stage &stage  = scene->loading.stage_at(step.t + step.h / 2.);
+    const bool   raises = stage.raises_loads();
+    if (has_force())
+      {
+        loads->evaluate(
+          force, weight_per_g, step.solved_at, raises ? &stage : nullptr);
+        fading.add_to(force, step.solved_at);
+        constraints->turn(force);
+      }
+    RaisedLoads raised;
+    if (scene->loading.raises_loads())
+      constraints->multipliers.clear();
+    if (raises)
+      {
+        Vector of_raised = problem->make_vector();
+        loads->evaluate(of_raised, weight_per_g, step.solved_at, &stage, true);
+        constraints->turn(of_raised);
+        raised.add_row(stage, of_raised, prescribed, *constraints);
+      }
+    velocity_n = kinematics.velocity;
+    constraints->turn(velocity_n);
+    ContactStep touching;
+    if (obstacles->exists())
+      {
+        kinematics.velocity.update_ghost_values();
+        touching =
+          obstacles->begin(kinematics.velocity, step.t, step.h, step.solved_h);
+        kinematics.velocity.zero_out_ghost_values();
+      }
+    if (absorbing->exists())
+      absorbing->begin_step(step.solved_at, *constraints);
+    problem->begin_step(step.solved_h,
+                        has_force() ? &force : nullptr,
+                        velocity_n,
+                        prescribed,
+                        std::move(touching));
+    return raised;
+  }
+
+  double
+  ImplicitFEM::work_of_forces(const TimeStep &step,
+                              const Vector   &v,
+                              const Vector   &residual) const
+  {
+    double work = 0.;
+    for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
+      {
+        if (has_force())
+          work += step.h * force.local_element(i) * v.local_element(i);
+        if (constraints->is_prescribed(i))
+          work += step.h * residual.local_element(i) * v.local_element(i);
+      }
+    work = dealii::Utilities::MPI::sum(work, v.get_mpi_communicator());
+    if (absorbing->exists())
+      work += step.h * absorbing->power(v);
+    return work;
+  }
+
+  double
+  ImplicitFEM::update_points(const TimeStep &step, MaterialPoints &points) const
+  {
+    const InternalForces &solved      = problem->internal_forces();
+    double                dissipation = 0.;
+    std::vector<double>   history     = solved.trial_history();
+    extrapolate(integration, points.history, history);
+    points.history = std::move(history);
+    for (unsigned int p = 0; p < points.n_points(); ++p)
+      {
+        const EndOfStep end = end_of_step(integration,
+                                          solved,
+                                          p,
+                                          scene->materials[points.material[p]],
+                                          points.stress[p],
+                                          points.history_of(p));
+        dissipation += points.weight[p] * end.dissipation;
+        points.stress[p] = end.stress;
+        points.plastic_strain[p] += end.plastic;
+        points.cumulative_plastic_strain[p] += end.slip;
+        points.plastic_strain_rate[p] = end.slip / step.h;
+      }
+    return dealii::Utilities::MPI::sum(dissipation,
+                                       velocity_n.get_mpi_communicator());
+  }
+
+  double
+  ImplicitFEM::update_kinematics(const TimeStep &step,
+                                 const Vector   &v,
+                                 Kinematics     &kinematics)
+  {
+    double settled = 0.;
+    if (integration == Integration::midpoint)
+      {
+        kinematics.velocity.sadd(-1., 2., v);
+        if (obstacles->exists())
+          settled = obstacles->settle(
+            problem->contact(), v, lumped_mass, kinematics.velocity);
+      }
+    else
+      kinematics.velocity = v;
+    kinematics.displacement.add(step.h, v);
+    for (unsigned int c = 0; c < scene->dirichlet.list.size(); ++c)
+      for (unsigned int d = 0; d < dim; ++d)
+        kinematics.supports[c][d] += step.h * constraints->mean(v, c, d);
+    for (unsigned int o = 0; o < scene->obstacles.list.size(); ++o)
+      kinematics.supports[scene->dirichlet.list.size() + o] +=
+        step.h * problem->contact().motions()[o].centre;
+    return settled;
+  }
+
   StepReport
   ImplicitFEM::advance(Kinematics            &kinematics,
                        MaterialPoints        &points,
@@ -298,47 +412,8 @@ namespace geocone
   {
     if (!begun)
       begin(points, timer);
-    const TimeStep step(integration, t, h);
-    const double   solved_h = step.solved_h, solved_at = step.solved_at;
-    Vector         prescribed = problem->make_vector();
-    constraints->set_values(prescribed, solved_at);
-    // Where dofs are turned, the problem has its vectors along them.
-    const Stage &stage = scene->loading.stage_at(t + h / 2.);
-    if (has_force())
-      {
-        loads->evaluate(force,
-                        weight_per_g,
-                        solved_at,
-                        stage.raises_loads() ? &stage : nullptr);
-        fading.add_to(force, solved_at);
-        constraints->turn(force);
-      }
-    RaisedLoads raised;
-    if (scene->loading.raises_loads())
-      constraints->multipliers.clear();
-    if (stage.raises_loads())
-      {
-        Vector of_raised = problem->make_vector();
-        loads->evaluate(of_raised, weight_per_g, solved_at, &stage, true);
-        constraints->turn(of_raised);
-        raised.add_row(stage, of_raised, prescribed, *constraints);
-      }
-    velocity_n = kinematics.velocity;
-    constraints->turn(velocity_n);
-    ContactStep touching;
-    if (obstacles->exists())
-      {
-        kinematics.velocity.update_ghost_values();
-        touching = obstacles->begin(kinematics.velocity, t, h, solved_h);
-        kinematics.velocity.zero_out_ghost_values();
-      }
-    if (absorbing->exists())
-      absorbing->begin_step(solved_at, *constraints);
-    problem->begin_step(solved_h,
-                        has_force() ? &force : nullptr,
-                        velocity_n,
-                        prescribed,
-                        std::move(touching));
+    const TimeStep    step(integration, t, h);
+    const RaisedLoads raised = begin_step(step, kinematics);
 
     StepReport report;
     Vector     residual = problem->make_vector();
@@ -355,91 +430,40 @@ namespace geocone
     report.unknowns              = constraints->n_rows;
     const InternalForces &forces = problem->internal_forces();
     report.quality               = forces.quality();
-
-    std::array<double, 2> sums = {}; // external work, dissipation
-    for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
-      {
-        if (has_force())
-          sums[0] += h * force.local_element(i) * v.local_element(i);
-        if (constraints->is_prescribed(i))
-          sums[0] += h * residual.local_element(i) * v.local_element(i);
-      }
-    std::vector<double> history = forces.trial_history();
-    extrapolate(integration, points.history, history);
-    std::vector<EndOfStep> ends;
-    ends.reserve(points.n_points());
-    for (unsigned int p = 0; p < points.n_points(); ++p)
-      {
-        ends.push_back(
-          end_of_step(integration,
-                      forces,
-                      p,
-                      scene->materials[points.material[p]],
-                      points.stress[p],
-                      history.data() + std::size_t(points.n_history()) * p));
-        sums[1] += points.weight[p] * ends.back().dissipation;
-      }
-    sum_over_ranks(sums, v.get_mpi_communicator());
-    if (absorbing->exists())
-      sums[0] += h * absorbing->power(v);
+    Works &works                 = report.works;
+    works.external               = work_of_forces(step, v, residual);
     if (obstacles->exists())
       {
         report.contact = obstacles->report(problem->contact(), v, h);
-        sums[0] += report.contact.work;
+        works.external += report.contact.work;
       }
-    report.identity_error    = energy_identity_error(*problem,
-                                                  points,
-                                                  scene->materials,
-                                                  velocity_n,
-                                                  v,
-                                                  (solved_h / h) * sums[0]);
-    const double memory_work = (h / solved_h) * forces.memory_work();
+    report.identity_error =
+      energy_identity_error(*problem,
+                            points,
+                            scene->materials,
+                            velocity_n,
+                            v,
+                            (step.solved_h / h) * works.external);
+    works.of_memory   = (h / step.solved_h) * forces.memory_work();
+    works.dissipation = update_points(step, points);
 
-    for (unsigned int p = 0; p < points.n_points(); ++p)
-      {
-        const Mandel &plastic = ends[p].plastic;
-        points.stress[p]      = ends[p].stress;
-        points.plastic_strain[p] += plastic;
-        points.cumulative_plastic_strain[p] += ends[p].slip;
-        points.plastic_strain_rate[p] = ends[p].slip / h;
-      }
-    points.history = std::move(history);
     constraints->turn_back(v);
-    double settled = 0.;
-    if (integration == Integration::midpoint)
-      {
-        kinematics.velocity.sadd(-1., 2., v);
-        if (obstacles->exists())
-          settled = obstacles->settle(
-            problem->contact(), v, lumped_mass, kinematics.velocity);
-      }
-    else
-      kinematics.velocity = v;
-    kinematics.displacement.add(h, v);
     report.reactions = constraints->reactions(
-      residual, points, forces.total_stress(), solved_at);
+      residual, points, forces.total_stress(), step.solved_at);
+    // Friction takes of the work what it does not give to the body.
+    works.external += report.contact.dissipation;
+    report.contact.dissipation += update_kinematics(step, v, kinematics);
+    works.contact_dissipation = report.contact.dissipation;
     if (obstacles->exists())
       {
         for (const Reaction &reaction :
              obstacles->reactions(problem->contact()))
           report.reactions.push_back(reaction);
-        obstacles->commit(problem->contact(), v, h, solved_h, true);
+        obstacles->commit(problem->contact(), v, h, step.solved_h, true);
       }
-    for (unsigned int c = 0; c < scene->dirichlet.list.size(); ++c)
-      for (unsigned int d = 0; d < dim; ++d)
-        kinematics.supports[c][d] += h * constraints->mean(v, c, d);
-    for (unsigned int o = 0; o < scene->obstacles.list.size(); ++o)
-      kinematics.supports[scene->dirichlet.list.size() + o] +=
-        h * problem->contact().motions()[o].centre;
     report.energies = state_energies(kinematics, points, t + h);
     report.largest_plastic_strain =
       largest_plastic_strain(points, v.get_mpi_communicator());
-    // Friction takes of the work what it does not give to the body.
-    report.energies.external_work = sums[0] + report.contact.dissipation;
-    report.contact.dissipation += settled;
-    report.energies.contact_dissipation = report.contact.dissipation;
-    report.energies.dissipation         = sums[1];
-    report.energies.memory_work         = memory_work;
     return report;
   }
 

@@ -6,7 +6,6 @@
 #include <geocone/discretisation/point_elasticity.h>
 #include <geocone/mechanics/particle_contact.h>
 #include <geocone/time_stepping/implicit_mpm.h>
-#include <geocone/time_stepping/raised_loads.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -450,6 +449,43 @@ namespace geocone
     return report;
   }
 
+  RaisedLoads
+  ImplicitMPM::begin_step(const TimeStep       &step,
+                          const MaterialPoints &points,
+                          TimerOutput          &timer)
+  {
+    const Stage &stage      = scene->loading.stage_at(step.t + step.h / 2.);
+    Vector       prescribed = problem->make_vector();
+    RaisedLoads  raised;
+    {
+      TimerOutput::Scope scope(timer, "transfer");
+      constraints->set_values(prescribed, step.solved_at);
+      moving->make_rows(points, prescribed, step.solved_at, *constraints);
+      if (stage.raises_loads())
+        {
+          evaluate_force(points, step.solved_at, &stage, true);
+          raised.add_row(stage, force, prescribed, *constraints);
+        }
+      evaluate_force(
+        points, step.solved_at, stage.raises_loads() ? &stage : nullptr);
+      fading.add_to(force, step.solved_at);
+    }
+    if (absorbing->exists())
+      absorbing->begin_step(step.solved_at, *constraints);
+    ContactStep touching;
+    if (obstacles->exists())
+      touching = obstacles->begin(
+        velocity_L,
+        step.t,
+        step.h,
+        step.solved_h,
+        gaps_of_particles(
+          points, scene->obstacles, obstacles->moved(), *space));
+    problem->begin_step(
+      step.solved_h, &force, velocity_L, prescribed, std::move(touching));
+    return raised;
+  }
+
   StepReport
   ImplicitMPM::advance(Kinematics            &kinematics,
                        MaterialPoints        &points,
@@ -461,45 +497,13 @@ namespace geocone
   {
     if (!begun)
       begin(points, timer);
-    const TimeStep step(integration, t, h);
-    const double   solved_h = step.solved_h;
-    const Stage   &stage    = scene->loading.stage_at(t + h / 2.);
-    const bool     raises   = stage.raises_loads();
-    StepReport     report;
-    Vector      v = problem->make_vector(), residual = problem->make_vector();
-    RaisedLoads raised;
-    {
-      TimerOutput::Scope scope(timer, "transfer");
-      constraints->set_values(v, step.solved_at);
-      moving->make_rows(points, v, step.solved_at, *constraints);
-      if (raises)
-        {
-          evaluate_force(points, step.solved_at, &stage, true);
-          raised.add_row(stage, force, v, *constraints);
-        }
-      evaluate_force(points, step.solved_at, raises ? &stage : nullptr);
-      fading.add_to(force, step.solved_at);
-    }
+    const TimeStep    step(integration, t, h);
+    const RaisedLoads raised = begin_step(step, points, timer);
+    StepReport        report;
     report.unknowns    = constraints->n_rows;
     report.multipliers = constraints->multipliers.n_rows();
     report.rows        = constraints->multipliers.n_given();
-
-    if (absorbing->exists())
-      absorbing->begin_step(step.solved_at, *constraints);
-    problem->begin_step(
-      solved_h,
-      &force,
-      velocity_L,
-      v,
-      obstacles->exists()
-        ? obstacles->begin(
-            velocity_L,
-            t,
-            h,
-            solved_h,
-            gaps_of_particles(
-              points, scene->obstacles, obstacles->moved(), *space))
-        : ContactStep());
+    Vector v = problem->make_vector(), residual = problem->make_vector();
     report.newton =
       solve(step, kinematics, newton, freezer, timer, v, residual);
     if (!report.newton.converged)
@@ -526,47 +530,25 @@ namespace geocone
         moving->move(v, h, step.solved_at);
         put_back = put_points_back(points, moved);
       }
-    const InternalForces &internal = problem->internal_forces();
     report.load_factor =
       raised.take(*constraints, problem->multipliers(), force, residual);
-    Works work = works(step, v, residual);
-    if (absorbing->exists())
-      work.of_others += h * absorbing->power(v);
+    const InternalForces &internal = problem->internal_forces();
+    report.quality                 = internal.quality();
+    report.reactions               = constraints->reactions(
+      residual, points, internal.total_stress(), step.solved_at);
+    take_works(step, points, moved, v, residual, report);
+    report.works.dissipation = update_points(step, moved, points);
     if (obstacles->exists())
       {
-        report.contact = obstacles->report(problem->contact(), v, h);
-        work.of_others += report.contact.work;
+        for (const Reaction &reaction :
+             obstacles->reactions(problem->contact()))
+          report.reactions.push_back(reaction);
+        obstacles->commit(problem->contact(),
+                          v,
+                          h,
+                          step.solved_h,
+                          advection != Advection::none);
       }
-    report.quality   = internal.quality();
-    report.reactions = constraints->reactions(
-      residual, points, internal.total_stress(), step.solved_at);
-    if (obstacles->exists())
-      for (const Reaction &reaction : obstacles->reactions(problem->contact()))
-        report.reactions.push_back(reaction);
-    // What ghosts take of the work is not there for energies and dissipation.
-    const double ghost_work = problem->ghost_stiffness().work(v);
-    report.identity_error   = energy_identity_error(
-      *problem,
-      points,
-      scene->materials,
-      velocity_L,
-      v,
-      (work.of_weight + work.of_others) * (solved_h / h) - ghost_work);
-    // Particles that stay keep their potential energy, whatever moves the nodes:
-    // as with FEM, the work of the weight is that of an external force. Gravity
-    // that changes works on points at rest.
-    const double external_work =
-      work.of_others +
-      (advection == Advection::none
-         ? work.of_weight
-         : work_on_fixed_points(step, points, moved)) +
-      work_of_changing_gravity(step, points) + report.contact.dissipation;
-    const double memory_work =
-      (step.h / step.solved_h) * problem->internal_forces().memory_work();
-    const double dissipation = update_points(step, moved, points);
-    if (obstacles->exists())
-      obstacles->commit(
-        problem->contact(), v, h, solved_h, advection != Advection::none);
     update_supports(step, v, kinematics, report.reactions);
     had_mass.resize(v.locally_owned_size());
     for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
@@ -580,17 +562,12 @@ namespace geocone
     report.energies = state_energies(kinematics, points, t + h);
     report.largest_plastic_strain =
       largest_plastic_strain(points, v.get_mpi_communicator());
-    report.energies.external_work       = external_work;
-    report.energies.dissipation         = dissipation;
-    report.energies.memory_work         = memory_work;
-    report.energies.contact_dissipation = report.contact.dissipation;
-    report.energies.ghost_work          = (step.h / step.solved_h) * ghost_work;
-    report.motion                       = {n_light,
-                                           moving->n_behind(points),
-                                           put_back.first,
-                                           put_back.second,
-                                           share.largest,
-                                           front_of(points)};
+    report.motion = {n_light,
+                     moving->n_behind(points),
+                     put_back.first,
+                     put_back.second,
+                     share.largest,
+                     front_of(points)};
     return report;
   }
 } // namespace geocone

@@ -203,10 +203,10 @@ namespace geocone
     return condition.imposition.get()->single ? &condition : nullptr;
   }
 
-  ImplicitMPM::Works
-  ImplicitMPM::works(const TimeStep &step,
-                     const Vector   &v,
-                     const Vector   &residual) const
+  ImplicitMPM::WorksOnNodes
+  ImplicitMPM::works_on_nodes(const TimeStep &step,
+                              const Vector   &v,
+                              const Vector   &residual) const
   {
     std::array<double, 2> sums = {}; // of the weight, and the other forces
     const Tensor<1, dim>  g    = scene->gravity.at(step.solved_at);
@@ -231,6 +231,47 @@ namespace geocone
         sums[1] += step.h * lambda.dot(rows.multiply(v));
       }
     return {sums[0], sums[1]};
+  }
+
+  void
+  ImplicitMPM::take_works(const TimeStep           &step,
+                          const MaterialPoints     &points,
+                          const std::vector<Moved> &moved,
+                          const Vector             &v,
+                          const Vector             &residual,
+                          StepReport               &report) const
+  {
+    WorksOnNodes work = works_on_nodes(step, v, residual);
+    if (absorbing->exists())
+      work.of_others += step.h * absorbing->power(v);
+    if (obstacles->exists())
+      {
+        report.contact = obstacles->report(problem->contact(), v, step.h);
+        work.of_others += report.contact.work;
+      }
+    // What ghosts take of the work is not there for energies and dissipation.
+    const double ghost_work = problem->ghost_stiffness().work(v);
+    report.identity_error   = energy_identity_error(
+      *problem,
+      points,
+      scene->materials,
+      velocity_L,
+      v,
+      (work.of_weight + work.of_others) * (step.solved_h / step.h) -
+        ghost_work);
+    // Particles that stay keep their potential energy, whatever moves the nodes:
+    // as with FEM, the work of the weight is that of an external force. Gravity
+    // that changes works on points at rest.
+    report.works.external = work.of_others +
+                            (advection == Advection::none
+                               ? work.of_weight
+                               : work_on_fixed_points(step, points, moved)) +
+                            work_of_changing_gravity(step, points) +
+                            report.contact.dissipation;
+    report.works.of_memory =
+      (step.h / step.solved_h) * problem->internal_forces().memory_work();
+    report.works.contact_dissipation = report.contact.dissipation;
+    report.works.of_ghosts           = (step.h / step.solved_h) * ghost_work;
   }
 
   double

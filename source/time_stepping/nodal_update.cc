@@ -3,11 +3,8 @@
 
 #include <geocone/time_stepping/nodal_update.h>
 
-#include <deal.II/base/utilities.h>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace geocone
 {
@@ -18,7 +15,7 @@ namespace geocone
                            const double              flip_part,
                            const double              least_mass,
                            const BoundaryForces     *boundary,
-                           Balance                  &sum)
+                           Exchange                 &sum)
     : transfer(transfer)
     , conditions(conditions)
     , flip_part(flip_part)
@@ -26,22 +23,7 @@ namespace geocone
     , boundary(boundary)
     , sum(sum)
     , support_impulse(conditions.list.size())
-  {
-    for (const auto &condition : conditions.list)
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          // Formulas are slow: numbers are read once.
-          double value = std::numeric_limits<double>::quiet_NaN();
-          if (condition->components[d])
-            try
-              {
-                value = Utilities::string_to_double(condition->formula(d));
-              }
-            catch (const ExceptionBase &)
-              {}
-          constant_value.push_back(value);
-        }
-  }
+  {}
 
   void
   NodalUpdate::mark_held()
@@ -55,12 +37,8 @@ namespace geocone
   NodalUpdate::prescribed_velocity(const PrescribedNode &node,
                                    const double          t) const
   {
-    const double constant =
-      constant_value[dim * node.condition + node.component];
-    return std::isnan(constant) ? conditions.list[node.condition]
-                                    ->components[node.component]
-                                    ->value(node.place, t)
-                                : constant;
+    return conditions.list[node.condition]->value(
+      node.component, node.place, t);
   }
 
   void
@@ -271,11 +249,8 @@ namespace geocone
   void
   NodalUpdate::add_impulse(const PrescribedNode &node, const double impulse)
   {
-    const Tensor<1, dim> r = node.place - transfer.centres[node.condition];
-    Reaction            &reaction = support_impulse[node.condition];
-    reaction.force[node.component] += impulse;
-    if (node.component < 2) // about z
-      reaction.moment += node.component == 0 ? -r[1] * impulse : r[0] * impulse;
+    support_impulse[node.condition].add(
+      node.place - transfer.centres[node.condition], node.component, impulse);
     sum.impulse[node.component] += impulse;
   }
 

@@ -127,6 +127,10 @@ namespace geocone
     void
     sum_over_ranks(const std::vector<Shared> &arrays);
 
+    /** Numbers of functions along the axes. */
+    GridIndex
+    n_functions() const;
+
     /** The place of a function among the stored ones. @pre it is one of them */
     std::size_t
     stored_place_of(const std::array<unsigned int, dim> &function) const;
@@ -139,14 +143,8 @@ namespace geocone
     const CartesianGrid    grid;
     const TransferKernels &kernels;
 
-    /** A prescribed component of a function. */
-    struct Prescribed
-    {
-      std::array<unsigned int, dim> function;
-      unsigned int                  component, condition;
-      dealii::Point<dim>            place;
-    };
-    std::vector<Prescribed> prescribed_functions;
+    /** Of the whole grid, by their numbers in it, number_in_grid(). */
+    std::vector<PrescribedNode> prescribed_functions;
 
     std::vector<int>   slab_begin;  ///< first column of cells of each rank
     Range              cells[dim];  ///< where this rank's points may be

@@ -4,8 +4,8 @@
 #ifndef geocone_mechanics_constraints_h
 #define geocone_mechanics_constraints_h
 
-#include <geocone/base/state_row.h>
 #include <geocone/discretisation/material_points.h>
+#include <geocone/mechanics/prescribed_node.h>
 #include <geocone/mechanics/unknowns.h>
 
 #include <array>
@@ -14,19 +14,6 @@
 
 namespace geocone
 {
-  /** Of the nodal forces of a support on the body. */
-  struct Reaction
-  {
-    dealii::Tensor<1, dim> force; ///< sum f_i (N/m)
-    double moment = 0.;           ///< about z, sum (x_i - c) x f_i (N m/m)
-
-    void
-    state(StateRow &row)
-    {
-      row(force, moment);
-    }
-  };
-
   /**
    * Prescribed velocities of nodes. These dofs are eliminated; the others, the
    * free dofs, are the unknowns. A multiplier, the reaction of the support on
@@ -117,17 +104,9 @@ namespace geocone
     turn_back(Vector &v) const;
     /** @} */
 
-    /** A component of a node, which one of the conditions prescribes. */
-    struct Prescribed
-    {
-      unsigned int node; ///< local
-      unsigned int component;
-      unsigned int condition;
-    };
-
     /** All that this rank knows, with ghosts, but those of oblique nodes. */
-    const std::vector<Prescribed> &
-    prescribed_components() const
+    const std::vector<PrescribedNode> &
+    prescribed_nodes() const
     {
       return prescribed;
     }
@@ -179,17 +158,44 @@ namespace geocone
       const BackgroundMesh                                    &mesh,
       const std::map<unsigned int, std::vector<unsigned int>> &of_dof);
 
+    /** What the stress exerts on the faces of each of the conditions that share
+     *  nodes. Collective. */
+    std::vector<double>
+    exerted_on_faces(const MaterialPoints      &points,
+                     const std::vector<Mandel> &stress) const;
+
+    /** Divides the force of a shared component among its conditions. */
+    void
+    divide(const PrescribedNode      &node,
+           const Shared              &among,
+           const double               force,
+           const std::vector<double> &exerted,
+           const double               t,
+           std::vector<Reaction>     &result) const;
+
+    /** Adds a component of a nodal force to a condition's. */
+    void
+    add_force(const unsigned int     condition,
+              const unsigned int     node,
+              const unsigned int     component,
+              const double           force,
+              std::vector<Reaction> &result) const;
+
     /** The velocity that a condition asks for at a node. */
     double
     value(const unsigned int condition,
           const unsigned int component,
           const unsigned int node,
-          const double       t) const;
+          const double       t) const
+    {
+      return scene.dirichlet.list[condition]->value(
+        component, space.node_positions()[node], t);
+    }
 
     const Scene                           &scene;
     const Space                           &space;
     const MPI_Comm                         comm;
-    std::vector<Prescribed>                prescribed;
+    std::vector<PrescribedNode>            prescribed;
     std::vector<Oblique>                   oblique;
     std::vector<std::vector<unsigned int>> owned_nodes; ///< per condition
     std::vector<unsigned int>              n_nodes;     ///< of all ranks

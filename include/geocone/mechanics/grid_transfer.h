@@ -5,6 +5,7 @@
 #define geocone_mechanics_grid_transfer_h
 
 #include <geocone/discretisation/point_arrays.h>
+#include <geocone/mechanics/prescribed_node.h>
 #include <geocone/mechanics/transfer_kernels.h>
 #include <geocone/scene/boundary_conditions.h>
 
@@ -19,16 +20,6 @@
 
 namespace geocone
 {
-  /** A component of a node's velocity that a condition prescribes. */
-  struct PrescribedNode
-  {
-    unsigned int       node; ///< among the stored ones
-    unsigned int       component;
-    unsigned int       condition; ///< index in Scene::dirichlet
-    dealii::Point<dim> place;
-    bool               mine; ///< whether this rank counts it in sums
-  };
-
   /**
    * The nodes of an explicit step, and how points give to them and take from
    * them. A node has node_size doubles to read, as many to write, and a mass, at the

@@ -4,6 +4,7 @@
 #ifndef geocone_output_explicit_output_h
 #define geocone_output_explicit_output_h
 
+#include <geocone/output/energy_balance.h>
 #include <geocone/output/field_files.h>
 #include <geocone/output/output_base.h>
 #include <geocone/output/statistics_table.h>
@@ -24,14 +25,14 @@ namespace geocone
     double         cpu  = 0.; ///< CPU time of its explicit steps, this rank (s)
     ExplicitReport report;
     ExplicitState  state;
-    Balance        balance;
+    Exchange       exchange;
     std::vector<dealii::Tensor<1, dim>> displacements; ///< of observed points
 
     /** For checkpoints. */
     void
     to_row(StateRow &row)
     {
-      row(step, time, cpu, report, state, balance, displacements);
+      row(step, time, cpu, report, state, exchange, displacements);
     }
   };
 
@@ -40,11 +41,10 @@ namespace geocone
    * programme, each of many explicit ones), summary.json and points-NNNN.vtu, with
    *   numerical loss    = gravity's and the supports' work - stress work
    *                       - damping - removed - kinetic energy gained,
+   * which is that of EnergyBalance, and
    *   momentum residual = momentum gained + removed - impulse of gravity,
-   *                       supports and damping.
-   * The former is what the time integration and the transfer take, as in implicit
-   * runs (the stress work of a hypoelastic soil is not a stored energy); the latter
-   * is zero up to rounding. Read only with respect to the state.
+   *                       supports and damping,
+   * which is zero up to rounding. Read only with respect to the state.
    */
   class ExplicitOutput : public OutputBase
   {
@@ -60,10 +60,7 @@ namespace geocone
 
     /** The state that gains are counted from. */
     void
-    set_initial(const ExplicitState &state)
-    {
-      initial = state;
-    }
+    set_initial(const ExplicitState &state);
 
     /** Adds a line to statistics.csv. */
     void
@@ -84,15 +81,40 @@ namespace geocone
     void
     print_result() const;
 
-    /** See the class. */
+  private:
+    using Record = ExplicitRecord;
+
+    /** @name The columns of statistics.csv, with their units in plane strain */
     /** @{ */
-    double
-    numerical_loss(const ExplicitRecord &record) const;
-    dealii::Tensor<1, dim>
-    momentum_residual(const ExplicitRecord &record) const;
+    void
+    add(const std::string &column, const StatisticsTable<Record>::Value &value);
+    void
+    add_step_columns();
+    void
+    add_body_columns();
+    void
+    add_balance_columns();
     /** @} */
 
-  private:
+    /** @name Topics of the summary */
+    /** @{ */
+    Json
+    steps() const;
+    Json
+    body() const;
+    Json
+    energy() const;
+    Json
+    momentum() const;
+    /** @} */
+
+    void
+    update_balance(const ExplicitRecord &record);
+
+    /** See the class. */
+    dealii::Tensor<1, dim>
+    momentum_residual(const ExplicitRecord &record) const;
+
     /** As Geometry::unit(). */
     std::string
     unit(const std::string &in_plane_strain) const
@@ -107,16 +129,15 @@ namespace geocone
          const PointArrays &group,
          double            *values) const;
 
-    const Scene                    *scene = nullptr;
-    StatisticsTable<ExplicitRecord> table;
-    ExplicitState                   initial;
-    std::vector<ExplicitRecord>     records;
-    std::unique_ptr<FieldFiles>     point_files;
+    const Scene            *scene = nullptr;
+    StatisticsTable<Record> table;
 
-    /** Largest of all records, for scales. */
-    double largest_kinetic = 0., largest_impulse = 0.;
+    ExplicitState               initial;
+    std::vector<ExplicitRecord> records;
+    std::unique_ptr<FieldFiles> point_files;
 
-    bool warned_of_energy = false;
+    EnergyBalance balance;
+    double        largest_impulse = 0.; ///< of all records, for scales
   };
 } // namespace geocone
 

@@ -5,6 +5,7 @@
 #define geocone_output_run_output_h
 
 #include <geocone/base/parameter_file.h>
+#include <geocone/output/energy_balance.h>
 #include <geocone/output/exact_solution.h>
 #include <geocone/output/fields.h>
 #include <geocone/output/limit_load.h>
@@ -99,17 +100,14 @@ namespace geocone
     void
     set_initial_energy(const Energies &energies)
     {
-      initial  = energies;
-      energy_n = energies.state();
+      balance.begin(energies);
     }
 
     /** Takes away the energy of what is removed, and adds that of what is added. */
     void
     change_body(const BodyChange &change)
     {
-      energy_n = change.after.state();
-      removed_energy += change.before.state() - energy_n;
-      removed_potential += change.before.potential - change.after.potential;
+      balance.change_body(change.before, change.after);
     }
 
     /** Adds a tried (sub)step to newton.csv. */
@@ -160,6 +158,22 @@ namespace geocone
     print_result() const;
 
   private:
+    using Record = StepRecord;
+
+    /** @name The columns of statistics.csv */
+    /** @{ */
+    void
+    add_load_columns();
+    void
+    add_solver_columns();
+    void
+    add_energy_columns();
+    void
+    add_contact_columns();
+    void
+    add_observed_columns();
+    /** @} */
+
     /** @name The summary: all that the steps have brought, and some of its topics */
     /** @{ */
     Json
@@ -212,10 +226,6 @@ namespace geocone
     void
     warn_of_jump();
 
-    /** Warns once more than 1 % of the energy was created by the method. */
-    void
-    warn_of_energy(const double time);
-
     const Scene                *scene = nullptr;
     StatisticsTable<StepRecord> table;
     CsvFile                     newton;
@@ -225,16 +235,9 @@ namespace geocone
     std::optional<Failure>      failure;
     std::optional<LoadBracket>  bracket;
 
-    /** Sums since the start (J/m), and the least loss of a step. */
-    double work = 0., dissipation = 0., loss = 0., least_loss = 0.,
-           memory_work = 0., ghost_work = 0., contact_dissipation = 0.,
-           removed_energy = 0., removed_potential = 0.;
-    bool   points_move = false;
-    double energy_n = 0.; ///< kinetic, elastic and potential, at the last step
-    Energies initial;
-
-    unsigned int n_load_jumps     = 0;
-    bool         warned_of_energy = false;
+    EnergyBalance balance;
+    bool          points_move  = false;
+    unsigned int  n_load_jumps = 0;
   };
 } // namespace geocone
 

@@ -119,6 +119,16 @@ namespace geocone
      *  its tangent (-n_y, n_x), which has the body to its left. */
     std::optional<Expression> normal, tangential;
 
+    /** The value of a component, or of the normal one (dim), at a place and a time.
+     *  @pre it is given */
+    double
+    value(const unsigned int        component,
+          const dealii::Point<dim> &x,
+          const double              t) const
+    {
+      return (component < dim ? components[component] : normal)->value(x, t);
+    }
+
     /** The vector of the normal and the tangential one at time t, where the
      *  outward normal is n. */
     dealii::Tensor<1, dim>

@@ -11,6 +11,7 @@
 #include <deal.II/base/point.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace geocone
@@ -37,6 +38,7 @@ namespace geocone
     value(const dealii::Point<dim> &x, const double t) const;
 
   private:
+    std::optional<double>                        number; ///< formulas are slow
     std::unique_ptr<dealii::FunctionParser<dim>> function;
     std::unique_ptr<Record>                      record;
   };

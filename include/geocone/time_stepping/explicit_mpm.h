@@ -146,8 +146,8 @@ namespace geocone
     /** @{ */
     ExplicitState
     state() const;
-    Balance
-    balance() const;
+    Exchange
+    exchange() const;
     LawCounts
     law_counts() const;
     /** @} */
@@ -458,8 +458,8 @@ namespace geocone
     double energy_n = 0.;
     bool   rising   = false;
 
-    Balance   sum;
-    Balance   stage_start; ///< of all ranks
+    Exchange  sum;
+    Exchange  stage_start; ///< of all ranks
     LawCounts counts;
     Seconds   clock;
   };

@@ -10,6 +10,7 @@
 #include <geocone/mechanics/obstacle_contact.h>
 #include <geocone/time_stepping/fading_forces.h>
 #include <geocone/time_stepping/midpoint_rule.h>
+#include <geocone/time_stepping/raised_loads.h>
 #include <geocone/time_stepping/time_stepper.h>
 
 namespace geocone
@@ -95,6 +96,29 @@ namespace geocone
      *  are. @throws InputError if nothing holds them */
     void
     begin(const MaterialPoints &points, dealii::TimerOutput &timer);
+
+    /** Gives the problem the step: loads, prescribed velocities, what touches.
+     *  @return the loads that it raises. Collective. */
+    RaisedLoads
+    begin_step(const TimeStep &step, const Kinematics &kinematics);
+
+    /** What loads, supports and absorbing sides have done in the step (J/m). */
+    double
+    work_of_forces(const TimeStep &step,
+                   const Vector   &v,
+                   const Vector   &residual) const;
+
+    /** Gives the points their state at the end of the step.
+     *  @return the dissipation (J/m) */
+    double
+    update_points(const TimeStep &step, MaterialPoints &points) const;
+
+    /** Gives nodes and supports theirs, by the velocity v that was solved for.
+     *  @return what contact takes when it settles (J/m) */
+    double
+    update_kinematics(const TimeStep &step,
+                      const Vector   &v,
+                      Kinematics     &kinematics);
 
     bool
     has_force() const

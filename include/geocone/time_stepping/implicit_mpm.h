@@ -12,6 +12,7 @@
 #include <geocone/time_stepping/fading_forces.h>
 #include <geocone/time_stepping/following_grid.h>
 #include <geocone/time_stepping/midpoint_rule.h>
+#include <geocone/time_stepping/raised_loads.h>
 #include <geocone/time_stepping/time_stepper.h>
 
 namespace geocone
@@ -210,14 +211,33 @@ namespace geocone
           Vector                &v,
           Vector                &residual);
 
+    /** Gives the problem the step: loads, prescribed velocities and rows, what
+     *  touches. @return the loads that it raises. Collective. */
+    RaisedLoads
+    begin_step(const TimeStep       &step,
+               const MaterialPoints &points,
+               dealii::TimerOutput  &timer);
+
     /** Works of a step on the nodes (J/m). */
-    struct Works
+    struct WorksOnNodes
     {
       double of_weight;
       double of_others; ///< tractions and supports
     };
-    Works
-    works(const TimeStep &step, const Vector &v, const Vector &residual) const;
+    WorksOnNodes
+    works_on_nodes(const TimeStep &step,
+                   const Vector   &v,
+                   const Vector   &residual) const;
+
+    /** Works of a solved step but for the dissipation, contact, and the defect of
+     *  the energy identity, for the report; of points as they were at t_n. */
+    void
+    take_works(const TimeStep           &step,
+               const MaterialPoints     &points,
+               const std::vector<Moved> &moved,
+               const Vector             &v,
+               const Vector             &residual,
+               StepReport               &report) const;
 
     /** What gravity that changes in the step does to points at rest (J/m). */
     double

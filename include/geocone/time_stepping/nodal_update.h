@@ -5,7 +5,6 @@
 #define geocone_time_stepping_nodal_update_h
 
 #include <geocone/mechanics/boundary_forces.h>
-#include <geocone/mechanics/constraints.h>
 #include <geocone/mechanics/grid_transfer.h>
 #include <geocone/scene/boundary_conditions.h>
 
@@ -17,9 +16,9 @@ namespace geocone
 {
   /**
    * What has come into and gone out of the body since the start: sums over all
-   * explicit steps, of all ranks once ExplicitMPM::balance() has gathered them.
+   * explicit steps, of all ranks once ExplicitMPM::exchange() has gathered them.
    */
-  struct Balance
+  struct Exchange
   {
     double stress_work  = 0.; ///< sum of s : de V (J/m)
     double gravity_work = 0.; ///< sum of m g dx (J/m)
@@ -78,7 +77,7 @@ namespace geocone
                 const double              flip_part,
                 const double              least_mass,
                 const BoundaryForces     *boundary,
-                Balance                  &sum);
+                Exchange                 &sum);
 
     /** The step as nodes see it. */
     struct Step
@@ -171,7 +170,7 @@ namespace geocone
     const BoundaryConditions &conditions;
     const double              flip_part, least_mass;
     const BoundaryForces     *boundary;
-    Balance                  &sum;
+    Exchange                 &sum;
 
     /** A component of a node whose velocity is given in this step. */
     struct Held
@@ -182,8 +181,7 @@ namespace geocone
     std::vector<Held>          held;
     std::vector<unsigned char> is_held;         ///< per node and component
     std::vector<Reaction>      support_impulse; ///< per condition
-    std::vector<double> constant_value; ///< per condition and component, or NaN
-    double              unbalanced = 0.;
+    double                     unbalanced = 0.;
   };
 } // namespace geocone
 

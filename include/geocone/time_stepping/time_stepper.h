@@ -7,6 +7,7 @@
 #include <geocone/base/archive.h>
 #include <geocone/mechanics/obstacle_contact.h>
 #include <geocone/solvers/nonsmooth_newton.h>
+#include <geocone/time_stepping/energies.h>
 #include <geocone/time_stepping/freezer.h>
 
 #include <deal.II/base/timer.h>
@@ -21,45 +22,6 @@ namespace geocone
 
     /** Mean displacement of what each condition holds, since the reset (m). */
     std::vector<dealii::Tensor<1, dim>> supports;
-  };
-
-  /** Energies at the end of a step and what the step has done (J/m). */
-  struct Energies
-  {
-    double kinetic = 0.; ///< v'Mv/2 of the nodes (FEM) or the particles (MPM)
-    /** sum V s'Ss/2, and of fluid in pores sum V p^2/(2 K_w/n). */
-    double elastic = 0.;
-    /** MPM: -sum m g.(x - x0), x0 the lower left corner of the mesh. FEM counts
-     *  the work of the weight as external instead. */
-    double potential     = 0.;
-    double external_work = 0.; ///< of the step: loads and supports
-    double dissipation   = 0.; ///< of the step: sum V s'(-z) >= 0
-    /** Of the step: sum V |z_t| ||s_t| - a s_n - k|, the plastic work by which
-     *  friction with memory is off the exact strength. */
-    double memory_work = 0.;
-    /** Of the step: -sum h r.u of what touches obstacles, friction and impact. */
-    double contact_dissipation = 0.;
-    double ghost_work =
-      0.; ///< of the step, of GhostStiffness; a part of the loss
-
-    double
-    state() const
-    {
-      return kinetic + elastic + potential;
-    }
-
-    void
-    state(StateRow &row)
-    {
-      row(kinetic,
-          elastic,
-          potential,
-          external_work,
-          dissipation,
-          memory_work,
-          contact_dissipation,
-          ghost_work);
-    }
   };
 
   /** Whether particles that move are sound; nothing for points that stay. */
@@ -102,7 +64,8 @@ namespace geocone
     bool         converged = false;
     SolverReport newton;
     Quality      quality;
-    Energies     energies;
+    Energies     energies; ///< at its end
+    Works        works;    ///< of the step
 
     /** Forces on the body of each of Scene::supports() (N/m), and their moments
      *  (N m/m). */
@@ -138,6 +101,7 @@ namespace geocone
           newton,
           quality,
           energies,
+          works,
           reactions,
           unknowns,
           multipliers,

@@ -1,0 +1,49 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mechanics_prescribed_node_h
+#define geocone_mechanics_prescribed_node_h
+
+#include <geocone/base/state_row.h>
+#include <geocone/scene/geometry.h>
+
+#include <deal.II/base/point.h>
+
+namespace geocone
+{
+  /** A component of a node's velocity that a condition prescribes. */
+  struct PrescribedNode
+  {
+    unsigned int       node; ///< by the numbers of whoever has it
+    unsigned int       component;
+    unsigned int       condition; ///< index in Scene::dirichlet
+    dealii::Point<dim> place;
+    bool               mine; ///< whether this rank counts it in sums
+  };
+
+  /** Of the nodal forces of a support on the body; or of impulses. */
+  struct Reaction
+  {
+    dealii::Tensor<1, dim> force; ///< sum f_i (N/m)
+    double moment = 0.;           ///< about z, sum (x_i - c) x f_i (N m/m)
+
+    /** Adds a component of f_i. @param arm x_i - c */
+    void
+    add(const dealii::Tensor<1, dim> &arm,
+        const unsigned int            component,
+        const double                  f)
+    {
+      force[component] += f;
+      if (component < 2)
+        moment += component == 0 ? -arm[1] * f : arm[0] * f;
+    }
+
+    void
+    state(StateRow &row)
+    {
+      row(force, moment);
+    }
+  };
+} // namespace geocone
+
+#endif
