@@ -93,12 +93,12 @@ namespace geocone
   }
 
   void
-  ElementOutput::add_surfaces(const unsigned int          at,
-                              const std::vector<Surface> &surfaces)
+  ElementOutput::add_yield_curves(const unsigned int             at,
+                                  const std::vector<YieldCurve> &curves)
   {
     // The surfaces by number: 0 yield, 1 subloading.
-    for (std::size_t i = 0; i < surfaces.size(); ++i)
-      for (const auto &[p, q] : surfaces[i].p_and_q)
+    for (std::size_t i = 0; i < curves.size(); ++i)
+      for (const auto &[p, q] : curves[i])
         surface_table.add_line(
           {static_cast<double>(at), static_cast<double>(i), p, q});
   }

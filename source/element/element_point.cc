@@ -4,9 +4,8 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/types.h>
 #include <geocone/element/element_point.h>
-#include <geocone/materials/material.h>
-#include <geocone/materials/modified_cam_clay.h>
 #include <geocone/materials/subloading.h>
+#include <geocone/materials/subloading_curves.h>
 
 #include <algorithm>
 #include <cmath>
@@ -44,116 +43,6 @@ namespace geocone
       return std::sqrt(1.5) * norm(stress);
     }
 
-    /** Mandel vector, compression positive, of a tensor, tension positive. */
-    template <int n>
-    typename SubloadingModel<n>::Vector
-    to_model(const Tensor6 &x)
-    {
-      typename SubloadingModel<n>::Vector y;
-      for (unsigned int i = 0; i < n; ++i)
-        y[i] = -(i < 3 ? 1. : sqrt2) * x[i];
-      return y;
-    }
-
-    /** @param sign -1 turns compression positive into tension positive. */
-    template <int n>
-    Tensor6
-    from_model(const Eigen::Matrix<double, n, 1> &x, const double sign)
-    {
-      Tensor6 y{};
-      for (unsigned int i = 0; i < n; ++i)
-        y[i] = sign * x[i] / (i < 3 ? 1. : sqrt2);
-      return y;
-    }
-
-    /**
-     * The curve fbar(a + (sigma - a)/R) = 0 with sigma = p I + q sqrt(2/3) d: a
-     * quadratic in q for each p.
-     */
-    template <int n>
-    Surface
-    section(const std::string                         &name,
-            const SubloadingModel<n>                  &model,
-            const SubloadingState<n>                  &y,
-            const double                               R,
-            const typename SubloadingModel<n>::Vector &d)
-    {
-      using Vector    = typename SubloadingModel<n>::Vector;
-      Vector identity = Vector::Zero();
-      identity.template head<3>().setOnes();
-      const double pa    = y.a.dot(identity) / 3.;
-      const double xi    = model.constants().xi;
-      const auto   value = [&](const double p, const double q) {
-        const Vector sigma = p * identity + q * std::sqrt(2. / 3.) * d;
-        return model.yield_function(y.a + (sigma - y.a) / R, y.beta, y.pcb);
-      };
-      std::vector<std::pair<double, double>> upper, lower;
-      const unsigned int                     n_points = 120;
-      for (unsigned int i = 0; i <= n_points; ++i)
-        {
-          const double part = (1. - std::cos(pi * i / n_points)) / 2.;
-          const double p    = pa + R * ((part - xi) * y.pcb - pa);
-          const double q = y.pcb, f = value(p, 0.);
-          const double plus = value(p, q), minus = value(p, -q);
-          const double A = (plus + minus - 2. * f) / (2. * q * q);
-          const double B = (plus - minus) / (2. * q);
-          // At both ends of p the roots meet, up to rounding.
-          const double D = B * B - 4. * A * f;
-          if (!(D >= -1e-9 * (B * B + std::abs(4. * A * f))))
-            continue;
-          const double root = std::sqrt(std::max(0., D));
-          upper.emplace_back(p, (-B + root) / (2. * A));
-          lower.emplace_back(p, (-B - root) / (2. * A));
-        }
-      Surface surface{name, upper};
-      surface.p_and_q.insert(
-        surface.p_and_q.end(), lower.rbegin(), lower.rend());
-      if (!upper.empty())
-        surface.p_and_q.push_back(upper.front());
-      return surface;
-    }
-
-    template <int n>
-    std::vector<Surface>
-    subloading_surfaces(const SubloadingModel<n> &model,
-                        const SubloadingState<n> &y,
-                        const Tensor6            &stress,
-                        const unsigned int        axis)
-    {
-      typename SubloadingModel<n>::Vector d = to_model<n>(stress);
-      const double                        p = (d[0] + d[1] + d[2]) / 3.;
-      d.template head<3>().array() -= p;
-      if (d.norm() < 1e-9 * std::abs(p))
-        {
-          d.setZero();
-          d.template head<3>().setConstant(-0.5);
-          d[axis < 3 ? axis : 1] = 1.;
-        }
-      d *= (axis < 3 && d[axis] < 0. ? -1. : 1.) / d.norm();
-      std::vector<Surface> surfaces = {section("yield", model, y, 1., d)};
-      const double         R        = model.ratio(y);
-      if (R > 1e-6)
-        surfaces.push_back(section("subloading", model, y, R, d));
-      return surfaces;
-    }
-
-    /** The ellipse q^2 = M^2 (p + a) (pc - p). */
-    Surface
-    ellipse(const ModifiedCamClay &law, const double pc)
-    {
-      const double           size = pc + law.attraction();
-      Surface                surface{"yield", {}};
-      constexpr unsigned int n_points = 240;
-      for (unsigned int i = 0; i <= n_points; ++i)
-        {
-          const double angle = 2. * pi * i / n_points;
-          surface.p_and_q.emplace_back(
-            size / 2. * (1. + std::cos(angle)) - law.attraction(),
-            law.critical_slope() * size / 2. * std::sin(angle));
-        }
-      return surface;
-    }
-
     /** Any law in plane strain: xx, yy, xy; or with zz, too; by its explicit step
      *  without spin. */
     class InPlanePoint : public ElementPoint
@@ -165,7 +54,6 @@ namespace geocone
                    std::string           &changed)
         : law(law)
         , has_zz(has_zz)
-        , subloading(dynamic_cast<const Subloading *>(&law))
         , shown(law.shown())
       {
         now.stress = {{stress[0], stress[1], stress[3]}};
@@ -275,32 +163,10 @@ namespace geocone
         return all;
       }
 
-      std::vector<Surface>
-      surfaces(const Tensor6     &stress,
-               const unsigned int axis,
-               const double       largest_p) const override
+      std::vector<YieldCurve>
+      yield_curves(const SectionPlane &plane) const override
       {
-        if (subloading != nullptr)
-          return subloading_surfaces(
-            subloading->model<4>(),
-            subloading->state(now.stress, now.history.data()),
-            stress,
-            axis);
-        if (const auto *cam_clay = dynamic_cast<const ModifiedCamClay *>(&law))
-          return {
-            ellipse(*cam_clay, cam_clay->preconsolidation(now.history.data()))};
-        const auto *material = dynamic_cast<const Material *>(&law);
-        if (material == nullptr || !material->flow_cone(now.history.data()))
-          return {};
-        // |s_t| <= a s_n + k with s_n = sqrt2 p, |s_t| = q/sqrt2.
-        const FlowCone cone = *material->flow_cone(now.history.data());
-        const double   tip =
-          cone.a > 0. ? -cone.k / (sqrt2 * cone.a) : std::min(0., -largest_p);
-        const double q      = 2. * cone.a * largest_p + sqrt2 * cone.k;
-        const double at_tip = cone.a > 0. ? 0. : sqrt2 * cone.k;
-        return {
-          {"yield",
-           {{largest_p, -q}, {tip, -at_tip}, {tip, at_tip}, {largest_p, q}}}};
+        return law.yield_curves(now.stress, now.history.data(), plane);
       }
 
       void
@@ -337,8 +203,7 @@ namespace geocone
       }
 
       const ConstitutiveLaw                    &law;
-      const bool                                has_zz;     ///< strain along z
-      const Subloading *const                   subloading; ///< or null
+      const bool                                has_zz; ///< strain along z
       const std::vector<ConstitutiveLaw::Shown> shown;
       State                                     now, trial;
     };
@@ -425,12 +290,10 @@ namespace geocone
         return all;
       }
 
-      std::vector<Surface>
-      surfaces(const Tensor6     &stress,
-               const unsigned int axis,
-               const double) const override
+      std::vector<YieldCurve>
+      yield_curves(const SectionPlane &plane) const override
       {
-        return subloading_surfaces(model, now, stress, axis);
+        return subloading_curves(model, now, plane);
       }
 
       void

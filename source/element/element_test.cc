@@ -294,10 +294,10 @@ namespace geocone
     std::string ignored;
     const auto  start =
       make_element_point(materials.law(0), components, stress, ignored);
-    element_output.add_surfaces(
-      0, start->surfaces(start->stress(), axis, 1.1 * largest_p));
-    element_output.add_surfaces(
-      1, point->surfaces(point->stress(), axis, 1.1 * largest_p));
+    element_output.add_yield_curves(
+      0, start->yield_curves({start->stress(), axis, 1.1 * largest_p}));
+    element_output.add_yield_curves(
+      1, point->yield_curves({point->stress(), axis, 1.1 * largest_p}));
   }
 
   void

@@ -221,4 +221,20 @@ namespace geocone
     const std::optional<FlowCone> cone = initial_cone();
     return cone && cone->a > 0. ? (cone->a - cone->b) / cone->a : 0.;
   }
+
+  std::vector<YieldCurve>
+  Material::yield_curves(const Components &,
+                         const double       *history,
+                         const SectionPlane &plane) const
+  {
+    const auto cone = flow_cone(history);
+    if (!cone)
+      return {};
+    const double p = plane.largest_p;
+    const double tip =
+      cone->a > 0. ? -cone->k / (sqrt2 * cone->a) : std::min(0., -p);
+    const double q      = 2. * cone->a * p + sqrt2 * cone->k;
+    const double at_tip = cone->a > 0. ? 0. : sqrt2 * cone->k;
+    return {{{p, -q}, {tip, -at_tip}, {tip, at_tip}, {p, q}}};
+  }
 } // namespace geocone

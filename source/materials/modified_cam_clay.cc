@@ -457,4 +457,22 @@ namespace geocone
   {
     return elasticity_of(pressure(whole_stress(stress, history)));
   }
+
+  std::vector<YieldCurve>
+  ModifiedCamClay::yield_curves(const Components &,
+                                const double *history,
+                                const SectionPlane &) const
+  {
+    // q^2 = M^2 (p + a) (pc - p)
+    const double half = (preconsolidation(history) + attraction()) / 2.;
+    YieldCurve   ellipse;
+    constexpr unsigned int n_points = 240;
+    for (unsigned int i = 0; i <= n_points; ++i)
+      {
+        const double angle = 2. * pi * i / n_points;
+        ellipse.emplace_back(half * (1. + std::cos(angle)) - attraction(),
+                             critical_slope() * half * std::sin(angle));
+      }
+    return {ellipse};
+  }
 } // namespace geocone

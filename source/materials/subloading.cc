@@ -6,6 +6,7 @@
 #include <geocone/base/types.h>
 #include <geocone/materials/spin.h>
 #include <geocone/materials/subloading.h>
+#include <geocone/materials/subloading_curves.h>
 
 #include <algorithm>
 #include <cmath>
@@ -608,5 +609,13 @@ namespace geocone
       for (const int first : {inclination, centre})
         for (int k = 0; k < n_spatial; ++k)
           *values++ = history[first + k];
+  }
+
+  std::vector<YieldCurve>
+  Subloading::yield_curves(const Components   &stress,
+                           const double       *history,
+                           const SectionPlane &plane) const
+  {
+    return subloading_curves(model<n_spatial>(), state(stress, history), plane);
   }
 } // namespace geocone

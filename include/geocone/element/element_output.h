@@ -32,8 +32,8 @@ namespace geocone
 
     /** Lines of surfaces.csv. @param state 0 for the start, 1 for the end */
     void
-    add_surfaces(const unsigned int          state,
-                 const std::vector<Surface> &surfaces);
+    add_yield_curves(const unsigned int             state,
+                     const std::vector<YieldCurve> &curves);
 
     /** Writes summary.json. @param topics what is put beside the states */
     void

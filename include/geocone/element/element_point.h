@@ -10,27 +10,16 @@
 #include <array>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace geocone
 {
-  /** Components xx, yy, zz, xy, yz, zx of a tensor (no Mandel factors). */
-  using Tensor6 = std::array<double, 6>;
-
-  /** Their names. */
+  /** Names of the components of a Tensor6. */
   extern const std::array<const char *, 6> component_names;
 
   /** Frobenius norm: shear components count twice. */
   double
   norm(const Tensor6 &x);
-
-  /** A named curve in the plane of p and q, for pictures (Pa). */
-  struct Surface
-  {
-    std::string                            name;
-    std::vector<std::pair<double, double>> p_and_q;
-  };
 
   /**
    * One material point of any law, tension positive. Trials start from the last
@@ -70,17 +59,9 @@ namespace geocone
     values() const = 0;
     /** @} */
 
-    /**
-     * Yield surfaces of the accepted state, cut by the plane of the hydrostatic
-     * axis and the deviator of @p stress; p compression positive.
-     * @param axis 0 to 2: q counts positive where this component is compressed
-     * more than the others; else the deviator points to positive q
-     * @param largest_p how far open surfaces are drawn (Pa)
-     */
-    virtual std::vector<Surface>
-    surfaces(const Tensor6     &stress,
-             const unsigned int axis,
-             const double       largest_p) const = 0;
+    /** Sections of the yield surfaces of the accepted state. */
+    virtual std::vector<YieldCurve>
+    yield_curves(const SectionPlane &plane) const = 0;
 
     /** The accepted state, for a checkpoint. */
     virtual void

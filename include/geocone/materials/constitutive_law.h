@@ -7,6 +7,7 @@
 #include <geocone/base/types.h>
 #include <geocone/materials/frictional_strength.h>
 #include <geocone/materials/point_block.h>
+#include <geocone/materials/yield_curve.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
@@ -145,6 +146,16 @@ namespace geocone
     };
     virtual std::vector<Shown>
     shown() const = 0;
+
+    /** Sections of the yield surfaces of a state, the outermost first; none where the
+     *  law does not tell them. */
+    virtual std::vector<YieldCurve>
+    yield_curves(const Components & /*stress*/,
+                 const double * /*history*/,
+                 const SectionPlane & /*plane*/) const
+    {
+      return {};
+    }
 
     /** The values for shown(). */
     virtual void

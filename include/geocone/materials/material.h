@@ -194,6 +194,12 @@ namespace geocone
       return std::nullopt;
     }
 
+    /** |s_t| <= a s_n + k with s_n = sqrt2 p, |s_t| = q/sqrt2, of flow_cone(). */
+    std::vector<YieldCurve>
+    yield_curves(const Components   &stress,
+                 const double       *history,
+                 const SectionPlane &plane) const override;
+
     /**
      * The cone that a step solves for: flow_cone(), but for what of the normal
      * stress is that of the past (FlowCone::delayed()).

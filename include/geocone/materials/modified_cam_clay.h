@@ -51,6 +51,11 @@ namespace geocone
       return 1. - 3. * M / (6. + M);
     }
 
+    std::vector<YieldCurve>
+    yield_curves(const Components   &stress,
+                 const double       *history,
+                 const SectionPlane &plane) const override;
+
     double
     wave_modulus(const Stress &stress, const double *history) const override;
 

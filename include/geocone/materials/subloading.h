@@ -76,6 +76,11 @@ namespace geocone
          const double     *history,
          double           *values) const override;
 
+    std::vector<YieldCurve>
+    yield_curves(const Components   &stress,
+                 const double       *history,
+                 const SectionPlane &plane) const override;
+
     /** @name One point with n = 4 or 6 components, compression positive */
     /** @{ */
     template <int n>
