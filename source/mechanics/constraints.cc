@@ -716,14 +716,7 @@ namespace geocone
           for (unsigned int d = 0; d < dim; ++d)
             add_force(k[i].condition, o.node, d, along[i] * k[i].d[d], result);
       }
-    StateRow of_rank;
-    for (Reaction &reaction : result)
-      of_rank(reaction);
-    std::vector<double> sums = of_rank.values();
-    sum_over_ranks(sums, comm);
-    StateRow of_all(sums);
-    for (Reaction &reaction : result)
-      of_all(reaction);
+    sum_states_over_ranks(result, comm);
     return result;
   }
 

@@ -3,6 +3,8 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/over_ranks.h>
+#include <geocone/base/over_ranks.h>
 #include <geocone/base/stop_request.h>
 #include <geocone/base/stopwatch.h>
 #include <geocone/mechanics/cartesian_transfer.h>
@@ -426,10 +428,13 @@ namespace geocone
       refresh();
     report.unbalanced_force =
       Utilities::MPI::max(nodes->unbalanced_force(), comm);
-    for (const Reaction &impulse : nodes->take_support_impulses())
-      report.reactions.push_back(
-        {Utilities::MPI::sum(impulse.force, comm) / h,
-         Utilities::MPI::sum(impulse.moment, comm) / h});
+    report.reactions = nodes->take_support_impulses();
+    sum_states_over_ranks(report.reactions, comm);
+    for (Reaction &reaction : report.reactions)
+      {
+        reaction.force /= h;
+        reaction.moment /= h;
+      }
     progress.begun = false;
     return report;
   }

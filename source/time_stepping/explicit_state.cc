@@ -3,6 +3,7 @@
 
 // What the explicit material point method tells of its points: sums and extremes
 // of all ranks.
+#include <geocone/base/over_ranks.h>
 #include <geocone/time_stepping/explicit_mpm.h>
 
 #include <deal.II/base/mpi.h>
@@ -151,19 +152,9 @@ namespace geocone
   Exchange
   ExplicitMPM::exchange() const
   {
-    Exchange all          = sum;
-    all.stress_work       = Utilities::MPI::sum(sum.stress_work, comm);
-    all.gravity_work      = Utilities::MPI::sum(sum.gravity_work, comm);
-    all.damping_work      = Utilities::MPI::sum(sum.damping_work, comm);
-    all.support_work      = Utilities::MPI::sum(sum.support_work, comm);
-    all.impulse           = Utilities::MPI::sum(sum.impulse, comm);
-    all.removed_mass      = Utilities::MPI::sum(sum.removed_mass, comm);
-    all.removed_momentum  = Utilities::MPI::sum(sum.removed_momentum, comm);
-    all.removed_energy    = Utilities::MPI::sum(sum.removed_energy, comm);
-    all.removed_potential = Utilities::MPI::sum(sum.removed_potential, comm);
-    all.stopped_energy    = Utilities::MPI::sum(sum.stopped_energy, comm);
-    all.small_masses      = Utilities::MPI::sum(sum.small_masses, comm);
-    return all;
+    std::vector<Exchange> all = {sum};
+    sum_states_over_ranks(all, comm);
+    return all[0];
   }
 
   LawCounts

@@ -4,10 +4,14 @@
 #ifndef geocone_base_over_ranks_h
 #define geocone_base_over_ranks_h
 
+#include <geocone/base/state_row.h>
+
 #include <deal.II/base/array_view.h>
 #include <deal.II/base/mpi.h>
 
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace geocone
 {
@@ -23,6 +27,22 @@ namespace geocone
         dealii::ArrayView<const Number>(x.data(), x.size()),
         comm,
         dealii::ArrayView<Number>(x.data(), x.size()));
+  }
+
+  /** Sums all that the classes of a list name in their function state(), of as many on
+   *  all ranks, in place. Collective. */
+  template <typename Class>
+  void
+  sum_states_over_ranks(std::vector<Class> &list, const MPI_Comm comm)
+  {
+    StateRow of_rank;
+    for (Class &x : list)
+      of_rank(x);
+    std::vector<double> sums = of_rank.values();
+    sum_over_ranks(sums, comm);
+    StateRow of_all(std::move(sums));
+    for (Class &x : list)
+      of_all(x);
   }
 } // namespace geocone
 

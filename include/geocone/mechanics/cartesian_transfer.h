@@ -4,6 +4,7 @@
 #ifndef geocone_mechanics_cartesian_transfer_h
 #define geocone_mechanics_cartesian_transfer_h
 
+#include <geocone/base/lexicographic.h>
 #include <geocone/discretisation/cartesian_grid.h>
 #include <geocone/mechanics/grid_transfer.h>
 
