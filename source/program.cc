@@ -91,83 +91,59 @@ namespace geocone
           "'geocone FILE.prm'");
     }
 
-    int
-    run(const int argc, char **argv, Drawing &drawing)
+    bool
+    on_first_rank()
     {
-      const bool first =
-        dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-      const CommandLine call =
-        parse_command_line(argc, argv, "geocone", {"--replay", "--resume"});
-      if (call.version)
-        {
-          if (first)
-            std::cout << "geocone " << version << " (deal.II "
-                      << DEAL_II_PACKAGE_VERSION << ", "
+      return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    }
+
+    void
+    print_version()
+    {
+      std::cout << "geocone " << version << " (deal.II "
+                << DEAL_II_PACKAGE_VERSION << ", "
 #ifdef __clang__
-                      << "clang " << __clang_version__
+                << "clang " << __clang_version__
 #else
-                      << "g++ " << __VERSION__
+                << "g++ " << __VERSION__
 #endif
 #ifdef DEBUG
-                      << ", with assertions)" << std::endl;
+                << ", with assertions)" << std::endl;
 #else
-                      << ", optimised)" << std::endl;
+                << ", optimised)" << std::endl;
 #endif
-          return 0;
-        }
-      if (call.help)
-        {
-          if (first)
-            {
-              // In one piece, for the reader of a pipe may have seen enough of it.
-              std::ostringstream text;
-              print_defaults(text, call.overrides);
-              std::cout << usage << "\nAll parameters, with their defaults:\n\n"
-                        << text.str() << std::flush;
-              if (!std::cout)
-                std::_Exit(0); // or else libraries complain of the closed pipe
-            }
-          return 0;
-        }
-      if (!call.defaults_file.empty())
-        {
-          if (first)
-            write_file(call.defaults_file, [&](std::ostream &out) {
-              print_defaults(out, call.overrides);
-            });
-          return 0;
-        }
-      if (call.own.count("--replay") > 0)
-        {
-          if (!call.file.empty())
-            throw InputError("--replay takes no parameter file, but '" +
-                             call.file +
-                             "' was given\n  remedy:  use --set for "
-                             "options of the solver");
-          if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
-            throw InputError("--replay works on one rank\n"
-                             "  remedy:  call it without mpirun");
-          if constexpr (dim == 2) // frozen problems are those of plane scenes
-            {
-              Log log(MPI_COMM_WORLD, call.quiet);
-              return replay(call.own.at("--replay"),
-                            call.overrides,
-                            call.folder,
-                            log)
-                       ? 0
-                       : 1;
-            }
-        }
-      const bool resumes = call.own.count("--resume") > 0;
-      if (call.file.empty() && !resumes)
-        {
-          if (first)
-            std::cerr << "error: no parameter file\n" << usage;
-          return 1;
-        }
-      if (resumes)
-        check_resume(call);
+    }
 
+    void
+    print_help(const std::vector<std::string> &overrides)
+    {
+      // In one piece, for the reader of a pipe may have seen enough of it.
+      std::ostringstream text;
+      print_defaults(text, overrides);
+      std::cout << usage << "\nAll parameters, with their defaults:\n\n"
+                << text.str() << std::flush;
+      if (!std::cout)
+        std::_Exit(0); // or else libraries complain of the closed pipe
+    }
+
+    /** @throws InputError if --replay is given with what it does not take */
+    void
+    check_replay(const CommandLine &call)
+    {
+      if (!call.file.empty())
+        throw InputError("--replay takes no parameter file, but '" + call.file +
+                         "' was given\n  remedy:  use --set for "
+                         "options of the solver");
+      if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+        throw InputError("--replay works on one rank\n"
+                         "  remedy:  call it without mpirun");
+    }
+
+    /** Runs a scene, or goes on with it. @return whether its expectations hold */
+    bool
+    run_scene(const CommandLine &call, Drawing &drawing)
+    {
+      const bool                    resumes   = call.own.count("--resume") > 0;
       const ParameterFile::OfOthers of_others = parameters_of_laws();
       const ParameterFile           file      = resumes
                                                   ? parameters_of_run(call.own.at("--resume"))
@@ -197,9 +173,50 @@ namespace geocone
           throw;
         }
       OutputBase &output = simulation.output();
-      if (first && !call.dry_run && output.wants_pictures())
+      if (on_first_rank() && !call.dry_run && output.wants_pictures())
         drawing = {output.folder(), call.quiet};
-      return ok ? 0 : 1;
+      return ok;
+    }
+
+    int
+    run(const int argc, char **argv, Drawing &drawing)
+    {
+      const bool        first = on_first_rank();
+      const CommandLine call =
+        parse_command_line(argc, argv, "geocone", {"--replay", "--resume"});
+      if (call.version || call.help || !call.defaults_file.empty())
+        {
+          if (first && call.version)
+            print_version();
+          else if (first && call.help)
+            print_help(call.overrides);
+          else if (first)
+            write_file(call.defaults_file, [&](std::ostream &out) {
+              print_defaults(out, call.overrides);
+            });
+          return 0;
+        }
+      if (const auto frozen = call.own.find("--replay");
+          frozen != call.own.end())
+        {
+          check_replay(call);
+          if constexpr (dim == 2) // frozen problems are those of plane scenes
+            {
+              Log log(MPI_COMM_WORLD, call.quiet);
+              return replay(frozen->second, call.overrides, call.folder, log)
+                       ? 0
+                       : 1;
+            }
+        }
+      if (call.own.count("--resume") > 0)
+        check_resume(call);
+      else if (call.file.empty())
+        {
+          if (first)
+            std::cerr << "error: no parameter file\n" << usage;
+          return 1;
+        }
+      return run_scene(call, drawing) ? 0 : 1;
     }
   } // namespace
 

@@ -277,6 +277,15 @@ namespace geocone
 
   namespace
   {
+    namespace occ = gmsh::model::occ;
+
+    void
+    limit_sizes(const double smallest, const double largest)
+    {
+      gmsh::option::setNumber("Mesh.MeshSizeMin", smallest);
+      gmsh::option::setNumber("Mesh.MeshSizeMax", largest);
+    }
+
     /** Sizes as gmsh's background field, by a view that is data. */
     void
     set_sizes(const CellSizes &sizes)
@@ -303,46 +312,78 @@ namespace geocone
       const int field = gmsh::model::mesh::field::add("PostView");
       gmsh::model::mesh::field::setNumber(field, "ViewIndex", 0);
       gmsh::model::mesh::field::setAsBackgroundMesh(field);
-      gmsh::option::setNumber("Mesh.MeshSizeMin", smallest);
-      gmsh::option::setNumber("Mesh.MeshSizeMax", largest);
+      limit_sizes(smallest, largest);
     }
 
-    /** The mesh of the domain by gmsh, from numbers only. @param sizes or null */
-    MshData
-    mesh_domain(const MeshParameters &parameters,
-                const Regions        &regions,
-                const MeshLines      &lines,
-                const CellSizes      *sizes,
-                const std::string    &what)
+    /** The cell size, or the sizes around the grading points (MeshParameters). */
+    void
+    set_sizes(const MeshParameters &parameters)
     {
-      namespace occ = gmsh::model::occ;
-      gmsh::model::add("domain");
+      if (parameters.grading_points.empty())
+        {
+          // A cell is no larger than the domain.
+          double extent = 0.;
+          for (const Point<dim> &x : parameters.outline)
+            extent = std::max(extent, x.distance(parameters.outline[0]));
+          const double size = std::min(parameters.cell_size, extent);
+          return limit_sizes(size, size);
+        }
+      // One field per point, by formula: the options of gmsh's distance
+      // fields have changed names between versions.
+      std::vector<double> fields;
+      for (const Point<dim> &x : parameters.grading_points)
+        {
+          const int field = gmsh::model::mesh::field::add("MathEval");
+          gmsh::model::mesh::field::setString(
+            field,
+            "F",
+            format("%.17g*Sqrt((x-(%.17g))^2+(y-(%.17g))^2+(z-(%.17g))^2)",
+                   parameters.size_ratio,
+                   x[0],
+                   x[1],
+                   dim == 3 ? x[dim - 1] : 0.));
+          fields.push_back(field);
+        }
+      const int smallest = gmsh::model::mesh::field::add("Min");
+      gmsh::model::mesh::field::setNumbers(smallest, "FieldsList", fields);
+      gmsh::model::mesh::field::setAsBackgroundMesh(smallest);
+      limit_sizes(parameters.smallest, parameters.largest);
+    }
 
-      // A plane surface, or in three dimensions a box.
-      const auto body = [](const Polygon &polygon) {
-        if constexpr (dim == 3)
-          {
-            const Point<dim>            &a    = polygon[0];
-            const dealii::Tensor<1, dim> size = polygon[1] - a;
-            return occ::addBox(a[0], a[1], a[2], size[0], size[1], size[2]);
-          }
-        std::vector<int> points, lines;
-        for (const Point<dim> &x : polygon)
-          points.push_back(occ::addPoint(x[0], x[1], 0.));
-        for (std::size_t i = 0; i < points.size(); ++i)
-          lines.push_back(
-            occ::addLine(points[i], points[(i + 1) % points.size()]));
-        return occ::addPlaneSurface({occ::addCurveLoop(lines)});
-      };
+    /** A plane surface, or in three dimensions a box. @return its tag */
+    int
+    add_body(const Polygon &polygon)
+    {
+      if constexpr (dim == 3)
+        {
+          const Point<dim>            &a    = polygon[0];
+          const dealii::Tensor<1, dim> size = polygon[1] - a;
+          return occ::addBox(a[0], a[1], a[2], size[0], size[1], size[2]);
+        }
+      std::vector<int> points, lines;
+      for (const Point<dim> &x : polygon)
+        points.push_back(occ::addPoint(x[0], x[1], 0.));
+      for (std::size_t i = 0; i < points.size(); ++i)
+        lines.push_back(
+          occ::addLine(points[i], points[(i + 1) % points.size()]));
+      return occ::addPlaneSurface({occ::addCurveLoop(lines)});
+    }
 
-      // The domain is fragmented by the borders of the body and the materials, by
-      // lines of which it takes what is inside, and by the grading points, which so become edges and vertices of the mesh.
-      const gmsh::vectorpair domain = {{int(dim), body(parameters.outline)}};
-      gmsh::vectorpair       tools;
+    /** The domain, fragmented by the borders of the body and the materials, by lines of
+     *  which it takes what is inside, and by the grading points, which so become edges
+     *  and vertices of the mesh. @return the tags of its pieces */
+    std::set<int>
+    add_domain(const MeshParameters &parameters,
+               const Regions        &regions,
+               const MeshLines      &lines)
+    {
+      const gmsh::vectorpair domain = {
+        {int(dim), add_body(parameters.outline)}};
+      gmsh::vectorpair tools;
       if (!parameters.body.empty())
-        tools.emplace_back(dim, body(parameters.body));
+        tools.emplace_back(dim, add_body(parameters.body));
       for (const Polygon &polygon : regions.polygons())
-        tools.emplace_back(dim, body(polygon));
+        tools.emplace_back(dim, add_body(polygon));
       for (const auto &line : lines)
         {
           const int tag =
@@ -363,46 +404,26 @@ namespace geocone
       if (!tools.empty())
         occ::fragment(domain, tools, pieces, origin);
       occ::synchronize();
-      std::set<int> cells_of;
+      std::set<int> tags;
       for (const auto &piece : origin[0])
-        cells_of.insert(piece.second);
+        tags.insert(piece.second);
+      return tags;
+    }
 
+    /** The mesh of the domain by gmsh, from numbers only. @param sizes or null */
+    MshData
+    mesh_domain(const MeshParameters &parameters,
+                const Regions        &regions,
+                const MeshLines      &lines,
+                const CellSizes      *sizes,
+                const std::string    &what)
+    {
+      gmsh::model::add("domain");
+      const std::set<int> pieces = add_domain(parameters, regions, lines);
       if (sizes != nullptr)
         set_sizes(*sizes);
-      else if (parameters.grading_points.empty())
-        {
-          // A cell is no larger than the domain.
-          double extent = 0.;
-          for (const Point<dim> &x : parameters.outline)
-            extent = std::max(extent, x.distance(parameters.outline[0]));
-          const double size = std::min(parameters.cell_size, extent);
-          gmsh::option::setNumber("Mesh.MeshSizeMin", size);
-          gmsh::option::setNumber("Mesh.MeshSizeMax", size);
-        }
       else
-        {
-          // One field per point, by formula: the options of gmsh's distance
-          // fields have changed names between versions.
-          std::vector<double> fields;
-          for (const Point<dim> &x : parameters.grading_points)
-            {
-              const int field = gmsh::model::mesh::field::add("MathEval");
-              gmsh::model::mesh::field::setString(
-                field,
-                "F",
-                format("%.17g*Sqrt((x-(%.17g))^2+(y-(%.17g))^2+(z-(%.17g))^2)",
-                       parameters.size_ratio,
-                       x[0],
-                       x[1],
-                       dim == 3 ? x[dim - 1] : 0.));
-              fields.push_back(field);
-            }
-          const int smallest = gmsh::model::mesh::field::add("Min");
-          gmsh::model::mesh::field::setNumbers(smallest, "FieldsList", fields);
-          gmsh::model::mesh::field::setAsBackgroundMesh(smallest);
-          gmsh::option::setNumber("Mesh.MeshSizeMin", parameters.smallest);
-          gmsh::option::setNumber("Mesh.MeshSizeMax", parameters.largest);
-        }
+        set_sizes(parameters);
       gmsh::option::setNumber("Mesh.MeshSizeFromPoints", 0);
       gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
       gmsh::option::setNumber("Mesh.Algorithm", parameters.algorithm);
@@ -415,12 +436,9 @@ namespace geocone
           gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 1);
         }
       gmsh::model::mesh::generate(dim);
-      return copy_model(cells_of, what);
+      return copy_model(pieces, what);
     }
-  } // namespace
 
-  namespace
-  {
     CoarseMesh
     mesh_by_gmsh(const MeshParameters &parameters,
                  const Regions        &regions,

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 namespace geocone
 {
@@ -259,6 +260,243 @@ namespace geocone
       return name == data.face_names.end() ? std::to_string(group)
                                            : "'" + name->second + "'";
     }
+
+    /** There must be cells, and not too many for deal.II's numbers. */
+    void
+    check_amount(const MshData &data, const std::string &what)
+    {
+      if (data.cells.empty())
+        throw InputError(
+          what +
+          (dim == 2
+             ? " holds no cells in two dimensions\n"
+               "  allowed: triangles or quadrilaterals\n"
+               "  remedy:  mesh a surface in the (x, y) plane and save it "
+               "(if there are physical groups, the surface needs one)"
+             : " holds no cells in three dimensions\n"
+               "  allowed: tetrahedra or hexahedra\n"
+               "  remedy:  mesh a volume and save it (if there are "
+               "physical groups, the volume needs one), or set "
+               "Geometry/Dimension = 2"));
+      if (data.nodes.size() >= std::numeric_limits<int>::max() ||
+          data.cells.size() >= std::numeric_limits<int>::max())
+        throw InputError(what + " has more than 2^31 nodes or cells\n"
+                                "  remedy:  mesh with fewer cells");
+    }
+
+    using Elements = std::vector<const MshData::Element *>;
+
+    /** The cells by surface, and the triangles of a surface come first. */
+    Elements
+    in_order_of_gmsh(const std::vector<MshData::Element> &cells)
+    {
+      Elements order;
+      for (const MshData::Element &cell : cells)
+        order.push_back(&cell);
+      std::stable_sort(
+        order.begin(), order.end(), [](const auto *first, const auto *second) {
+          return std::make_pair(first->entity, first->type) <
+                 std::make_pair(second->entity, second->type);
+        });
+      return order;
+    }
+
+    /** Which vertices the nodes are: only those of cells, there may be others. */
+    class VertexNumbers
+    {
+    public:
+      /** @throws InputError if tags are not unique */
+      VertexNumbers(const std::vector<MshData::Node> &nodes,
+                    const std::string                &what)
+        : nodes(nodes)
+        , what(what)
+        , vertex(nodes.size(), CoarseMesh::no_vertex)
+      {
+        for (unsigned int i = 0; i < nodes.size(); ++i)
+          node_of_tag.emplace_back(nodes[i].tag, i);
+        std::sort(node_of_tag.begin(), node_of_tag.end());
+        for (std::size_t i = 0; i + 1 < node_of_tag.size(); ++i)
+          if (node_of_tag[i].first == node_of_tag[i + 1].first)
+            throw InputError(
+              what + ": there are two nodes with the tag " +
+              std::to_string(node_of_tag[i].first) +
+              "\n  allowed: tags that are unique\n  remedy:  " + msh_remedy);
+        for (const MshData::Node &node : nodes)
+          for (const double x : node.x)
+            largest = std::max(largest, std::abs(x));
+      }
+
+      /** The vertices of a cell; where its nodes are new, so are these.
+       *  @throws InputError if a node is missing or not in the plane */
+      std::vector<unsigned int>
+      of_cell(const MshData::Element &cell, std::vector<Point<dim>> &points)
+      {
+        std::vector<unsigned int> vertices;
+        for (unsigned int i = 0; i < n_nodes_of_type(cell.type); ++i)
+          {
+            const unsigned int n = node(cell, i);
+            if (vertex[n] == CoarseMesh::no_vertex)
+              {
+                vertex[n] = points.size();
+                points.push_back(place_of(nodes[n]));
+              }
+            vertices.push_back(vertex[n]);
+          }
+        return vertices;
+      }
+
+      /** The vertices of a face, or none if one of its nodes is of no cell.
+       *  @throws InputError if a node is missing */
+      std::optional<CoarseMesh::Face>
+      of_face(const MshData::Element &element) const
+      {
+        CoarseMesh::Face face;
+        face.fill(CoarseMesh::no_vertex);
+        bool is_known = true;
+        for (unsigned int i = 0; i < n_nodes_of_type(element.type); ++i)
+          {
+            face[i]  = vertex[node(element, i)];
+            is_known = is_known && face[i] != CoarseMesh::no_vertex;
+          }
+        return is_known ? std::make_optional(face) : std::nullopt;
+      }
+
+    private:
+      unsigned int
+      node(const MshData::Element &element, const unsigned int i) const
+      {
+        const std::uint64_t tag = element.nodes[i];
+        const auto          at  = std::lower_bound(
+          node_of_tag.begin(), node_of_tag.end(), std::make_pair(tag, 0U));
+        if (at == node_of_tag.end() || at->first != tag)
+          throw InputError(
+            what + ": the node " + std::to_string(tag) + " of the element " +
+            std::to_string(element.tag) +
+            " is missing\n  allowed: nodes of the section $Nodes\n"
+            "  remedy:  " +
+            msh_remedy);
+        return at->second;
+      }
+
+      Point<dim>
+      place_of(const MshData::Node &node) const
+      {
+        const auto &x = node.x;
+        if (dim == 2 && !(std::abs(x[2]) <= 1e-9 * largest))
+          throw InputError(
+            what + ": the node " + std::to_string(node.tag) +
+            format(" is at (%g, %g, %g)", x[0], x[1], x[2]) +
+            "\n  allowed: nodes in the plane z = 0\n  remedy:  turn or "
+            "move the mesh into the (x, y) plane (in gmsh: Rotate, "
+            "Translate)");
+        Point<dim> point;
+        for (unsigned int c = 0; c < dim; ++c)
+          point[c] = x[c];
+        return point;
+      }
+
+      const std::vector<MshData::Node>                   &nodes;
+      const std::string                                  &what;
+      std::vector<unsigned int>                           vertex; ///< of a node
+      std::vector<std::pair<std::uint64_t, unsigned int>> node_of_tag;
+      double largest = 0.; ///< coordinate
+    };
+
+    /** A mesh may be oriented clockwise as a whole; single cells may not. */
+    void
+    orient(const std::vector<Point<dim>>          &points,
+           const Elements                         &cells,
+           const std::string                      &what,
+           std::vector<std::vector<unsigned int>> &around)
+    {
+      double total = 0.;
+      for (const auto &v : around)
+        total +=
+          dim == 2 ? signed_area(points, v) : worst_corner_of_solid(points, v);
+      for (std::size_t c = 0; c < around.size(); ++c)
+        {
+          std::vector<unsigned int> &v = around[c];
+          if (total < 0.)
+            turn_round(v);
+          if (!((dim == 2 ? worst_corner(points, v)
+                          : worst_corner_of_solid(points, v)) > 0.))
+            throw InputError(
+              what + ": the cell " + std::to_string(cells[c]->tag) + " at " +
+              place(points[v[0]]) +
+              " is inverted or not convex\n  allowed: cells with positive area "
+              "at every corner\n  remedy:  reorder its nodes, or mesh anew");
+        }
+    }
+
+    /** Makes cells, with their vertices in deal.II's order, which is lexicographic but
+     *  for simplices, and the last material that fills them, as everywhere. */
+    void
+    add_cells(const Elements                               &cells,
+              const std::vector<std::vector<unsigned int>> &around,
+              const std::vector<std::vector<int>>          &group_lists,
+              const Regions                                &regions,
+              CoarseMesh                                   &mesh)
+    {
+      for (std::size_t c = 0; c < around.size(); ++c)
+        {
+          dealii::CellData<dim> cell(around[c].size());
+          cell.vertices = around[c];
+          if (cell.vertices.size() != dim + 1)
+            for (unsigned int i = 2; i < cell.vertices.size(); i += 4)
+              std::swap(cell.vertices[i], cell.vertices[i + 1]);
+          const Point<dim> centre = mesh.centre(cell);
+          unsigned int     filled = regions.material_at(centre, -1);
+          for (const int group : group_lists[cells[c]->groups])
+            filled = std::max(filled, regions.material_at(centre, group));
+          cell.material_id = filled;
+          mesh.cells.push_back(cell);
+        }
+    }
+
+    /** Faces, by their sorted vertices, with a physical group that they are in. */
+    using FaceGroups = std::vector<std::pair<CoarseMesh::Face, int>>;
+
+    FaceGroups
+    groups_of_faces(const MshData &data, const VertexNumbers &vertices)
+    {
+      FaceGroups groups;
+      for (const MshData::Element &element : data.faces)
+        if (const auto face = vertices.of_face(element))
+          for (const int group : data.group_lists[element.groups])
+            groups.emplace_back(CoarseMesh::sorted(*face), group);
+      std::sort(groups.begin(), groups.end());
+      groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
+      return groups;
+    }
+
+    /** Gives outer faces the numbers of their physical groups, one for each. */
+    void
+    set_boundary(const FaceGroups  &groups,
+                 const MshData     &data,
+                 const std::string &what,
+                 CoarseMesh        &mesh)
+    {
+      for (const CoarseMesh::Face &outer : mesh.outer_faces())
+        {
+          const CoarseMesh::Face face = CoarseMesh::sorted(outer);
+          const auto             side = std::lower_bound(
+            groups.begin(), groups.end(), std::make_pair(face, 0));
+          if (side == groups.end() || side->first != face)
+            continue;
+          if (side + 1 != groups.end() && (side + 1)->first == face)
+            throw InputError(
+              what + ": the " + (dim == 2 ? "edge from " : "face with ") +
+              place(mesh.points[outer[0]]) + (dim == 2 ? " to " : " and ") +
+              place(mesh.points[outer[1]]) + " is on the physical " +
+              face_word + "s " + name_of_curve(data, side->second) + " and " +
+              name_of_curve(data, (side + 1)->second) +
+              "\n  allowed: one physical " + face_word +
+              (dim == 2 ? " for each edge" : " for each face") +
+              "\n  remedy:  make groups that share no " + face_word +
+              "; a condition takes several sides");
+          mesh.add_boundary(outer, side->second);
+        }
+    }
   } // namespace
 
   CoarseMesh
@@ -266,178 +504,22 @@ namespace geocone
               const std::string &what,
               const Regions     &regions)
   {
-    if (data.cells.empty())
-      throw InputError(
-        what + (dim == 2
-                  ? " holds no cells in two dimensions\n"
-                    "  allowed: triangles or quadrilaterals\n"
-                    "  remedy:  mesh a surface in the (x, y) plane and save it "
-                    "(if there "
-                    "are physical groups, the surface needs one)"
-                  : " holds no cells in three dimensions\n"
-                    "  allowed: tetrahedra or hexahedra\n"
-                    "  remedy:  mesh a volume and save it (if there are "
-                    "physical groups, "
-                    "the volume needs one), or set Geometry/Dimension = 2"));
-    if (data.nodes.size() >= std::numeric_limits<int>::max() ||
-        data.cells.size() >= std::numeric_limits<int>::max())
-      throw InputError(what + " has more than 2^31 nodes or cells\n"
-                              "  remedy:  mesh with fewer cells");
-
-    std::vector<std::pair<std::uint64_t, unsigned int>> node_of_tag;
-    for (unsigned int i = 0; i < data.nodes.size(); ++i)
-      node_of_tag.emplace_back(data.nodes[i].tag, i);
-    std::sort(node_of_tag.begin(), node_of_tag.end());
-    for (std::size_t i = 0; i + 1 < node_of_tag.size(); ++i)
-      if (node_of_tag[i].first == node_of_tag[i + 1].first)
-        throw InputError(
-          what + ": there are two nodes with the tag " +
-          std::to_string(node_of_tag[i].first) +
-          "\n  allowed: tags that are unique\n  remedy:  " + msh_remedy);
-    const auto node = [&](const MshData::Element &element,
-                          const unsigned int      i) -> unsigned int {
-      const std::uint64_t tag = element.nodes[i];
-      const auto          at  = std::lower_bound(
-        node_of_tag.begin(), node_of_tag.end(), std::make_pair(tag, 0U));
-      if (at == node_of_tag.end() || at->first != tag)
-        throw InputError(what + ": the node " + std::to_string(tag) +
-                         " of the element " + std::to_string(element.tag) +
-                         " is missing\n  allowed: nodes of the section $Nodes\n"
-                         "  remedy:  " +
-                         msh_remedy);
-      return at->second;
-    };
-
-    // gmsh's order: by surface, and the triangles of a surface come first.
-    std::vector<unsigned int> order(data.cells.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::stable_sort(order.begin(),
-                     order.end(),
-                     [&](const unsigned int a, const unsigned int b) {
-                       const MshData::Element &first  = data.cells[a];
-                       const MshData::Element &second = data.cells[b];
-                       return std::make_pair(first.entity, first.type) <
-                              std::make_pair(second.entity, second.type);
-                     });
-
-    // Only nodes of cells become vertices: there may be others.
-    CoarseMesh             mesh;
-    constexpr unsigned int none    = -1;
-    double                 largest = 0.;
-    for (const MshData::Node &node : data.nodes)
-      for (const double x : node.x)
-        largest = std::max(largest, std::abs(x));
-    std::vector<unsigned int>              vertex(data.nodes.size(), none);
+    check_amount(data, what);
+    const Elements                         cells = in_order_of_gmsh(data.cells);
+    VertexNumbers                          vertices(data.nodes, what);
+    CoarseMesh                             mesh;
     std::vector<std::vector<unsigned int>> around;
-    for (const unsigned int c : order)
-      {
-        const MshData::Element   &cell = data.cells[c];
-        std::vector<unsigned int> vertices;
-        for (unsigned int i = 0; i < n_nodes_of_type(cell.type); ++i)
-          {
-            const unsigned int n = node(cell, i);
-            if (vertex[n] == none)
-              {
-                const auto &x = data.nodes[n].x;
-                if (dim == 2 && !(std::abs(x[2]) <= 1e-9 * largest))
-                  throw InputError(
-                    what + ": the node " + std::to_string(data.nodes[n].tag) +
-                    format(" is at (%g, %g, %g)", x[0], x[1], x[2]) +
-                    "\n  allowed: nodes in the plane z = 0\n  remedy:  turn or "
-                    "move the mesh into the (x, y) plane (in gmsh: Rotate, "
-                    "Translate)");
-                vertex[n] = mesh.points.size();
-                mesh.points.emplace_back();
-                for (unsigned int c = 0; c < dim; ++c)
-                  mesh.points.back()[c] = x[c];
-              }
-            vertices.push_back(vertex[n]);
-          }
-        around.push_back(vertices);
-      }
+    for (const MshData::Element *cell : cells)
+      around.push_back(vertices.of_cell(*cell, mesh.points));
     check_resolution(mesh.points, around, what);
-
-    // A mesh may be oriented clockwise as a whole; single cells may not.
-    double total = 0.;
-    for (const auto &vertices : around)
-      total += dim == 2 ? signed_area(mesh.points, vertices)
-                        : worst_corner_of_solid(mesh.points, vertices);
-    for (std::size_t c = 0; c < around.size(); ++c)
-      {
-        std::vector<unsigned int> &v = around[c];
-        if (total < 0.)
-          turn_round(v);
-        if (!((dim == 2 ? worst_corner(mesh.points, v)
-                        : worst_corner_of_solid(mesh.points, v)) > 0.))
-          throw InputError(
-            what + ": the cell " + std::to_string(data.cells[order[c]].tag) +
-            " at " + place(mesh.points[v[0]]) +
-            " is inverted or not convex\n  allowed: cells with positive area "
-            "at every corner\n  remedy:  reorder its nodes, or mesh anew");
-      }
+    orient(mesh.points, cells, what, around);
     if (dim == 2)
       check_overlap(mesh.points, around, what);
-    for (std::size_t c = 0; c < around.size(); ++c)
-      {
-        const std::vector<unsigned int> &v = around[c];
-        dealii::CellData<dim>            cell(v.size());
-        cell.vertices = v;
-        if (v.size() != dim + 1)
-          // deal.II numbers lexicographically.
-          for (unsigned int i = 2; i < v.size(); i += 4)
-            std::swap(cell.vertices[i], cell.vertices[i + 1]);
-        mesh.cells.push_back(cell);
-        // The last material that fills the cell, as everywhere.
-        const Point<dim> centre = mesh.centre(cell);
-        unsigned int     filled = regions.material_at(centre, -1);
-        for (const int group : data.group_lists[data.cells[order[c]].groups])
-          filled = std::max(filled, regions.material_at(centre, group));
-        mesh.cells.back().material_id = filled;
-      }
+    add_cells(cells, around, data.group_lists, regions, mesh);
 
-    // Faces, by their sorted vertices, with the physical groups they are in.
-    using Face = CoarseMesh::Face;
-    std::vector<std::pair<Face, int>> groups_of_faces;
-    for (const MshData::Element &element : data.faces)
-      {
-        Face face;
-        face.fill(CoarseMesh::no_vertex);
-        bool is_known = true;
-        for (unsigned int i = 0; i < n_nodes_of_type(element.type); ++i)
-          {
-            face[i]  = vertex[node(element, i)];
-            is_known = is_known && face[i] != none;
-          }
-        if (is_known)
-          for (const int group : data.group_lists[element.groups])
-            groups_of_faces.emplace_back(CoarseMesh::sorted(face), group);
-      }
-    std::sort(groups_of_faces.begin(), groups_of_faces.end());
-    groups_of_faces.erase(
-      std::unique(groups_of_faces.begin(), groups_of_faces.end()),
-      groups_of_faces.end());
+    const FaceGroups groups = groups_of_faces(data, vertices);
     set_sides(data, what, mesh);
-    for (const Face &outer : mesh.outer_faces())
-      {
-        const Face face = CoarseMesh::sorted(outer);
-        const auto side = std::lower_bound(groups_of_faces.begin(),
-                                           groups_of_faces.end(),
-                                           std::make_pair(face, 0));
-        if (side == groups_of_faces.end() || side->first != face)
-          continue;
-        if (side + 1 != groups_of_faces.end() && (side + 1)->first == face)
-          throw InputError(
-            what + ": the " + (dim == 2 ? "edge from " : "face with ") +
-            place(mesh.points[outer[0]]) + (dim == 2 ? " to " : " and ") +
-            place(mesh.points[outer[1]]) + " is on the physical " + face_word +
-            "s " + name_of_curve(data, side->second) + " and " +
-            name_of_curve(data, (side + 1)->second) +
-            "\n  allowed: one physical " + face_word +
-            (dim == 2 ? " for each edge" : " for each face") +
-            "\n  remedy:  make groups that share no " + face_word +
-            "; a condition takes several sides");
-        mesh.add_boundary(outer, side->second);
-      }
+    set_boundary(groups, data, what, mesh);
     check_hanging_nodes(mesh, what);
     if (!mesh.has_simplices())
       dealii::GridTools::consistently_order_cells(mesh.cells);

@@ -50,6 +50,26 @@ namespace geocone
       return result;
     }
 
+    /** Mandel vectors of three numbers each. */
+    std::vector<Mandel>
+    mandel_vectors(const std::vector<double> &numbers)
+    {
+      std::vector<Mandel> result;
+      for (std::size_t i = 0; i < numbers.size(); i += n_mandel)
+        result.emplace_back(&numbers[i]);
+      return result;
+    }
+
+    /** Points of two numbers each. */
+    std::vector<Point<dim>>
+    points_from(const std::vector<double> &numbers)
+    {
+      std::vector<Point<dim>> result;
+      for (std::size_t i = 0; i < numbers.size(); i += dim)
+        result.emplace_back(numbers[i], numbers[i + 1]);
+      return result;
+    }
+
     /** What a frozen file says that it is. */
     const std::string frozen_format = "geocone-1";
 
@@ -128,12 +148,8 @@ namespace geocone
     p.mass                 = gather(points.mass, comm);
     p.history.width        = points.n_history();
     p.history              = gather(points.history, comm);
-    const std::vector<double> stresses = gather(flat(points.stress), comm);
-    for (std::size_t i = 0; i < stresses.size(); i += n_mandel)
-      p.stress.emplace_back(&stresses[i]);
-    const std::vector<double> places = gather(flat(points.position), comm);
-    for (std::size_t i = 0; i < places.size(); i += dim)
-      p.position.emplace_back(places[i], places[i + 1]);
+    p.stress               = mandel_vectors(gather(flat(points.stress), comm));
+    p.position             = points_from(gather(flat(points.position), comm));
 
     for (unsigned int dof = 0; dof < layout->locally_owned_size(); ++dof)
       frozen.kind.push_back(std::min(0, unknowns.free_row[dof]));
@@ -211,159 +227,255 @@ namespace geocone
     file.close();
   }
 
+  namespace
+  {
+    /** A frozen file that may come from anywhere. */
+    struct FrozenFile
+    {
+      explicit FrozenFile(const std::string &name)
+        : name(name)
+        , file(name, Hdf5File::Access::read)
+      {}
+
+      /** @throws RunError, unless something @p holds, with what is wrong */
+      void
+      check(const bool holds, const std::string &what) const
+      {
+        if (!holds)
+          throw RunError("the file '" + name + "' is inconsistent: " + what +
+                         "\n  remedy:  freeze the step again ('Output/Freeze "
+                         "steps')");
+      }
+
+      std::vector<unsigned int>
+      unsigned_array(const std::string &array) const
+      {
+        const std::vector<int> values = file.read_integers(array);
+        for (const int value : values)
+          check(value >= 0, "negative numbers in '" + array + "'");
+        return std::vector<unsigned int>(values.begin(), values.end());
+      }
+
+      std::vector<double>
+      doubles(const std::string &array) const
+      {
+        const std::vector<double> values = file.read_doubles(array);
+        for (const double value : values)
+          check(std::abs(value) <= largest_quantity,
+                "numbers in '" + array +
+                  "' that are not finite, or beyond 1e30");
+        return values;
+      }
+
+      const std::string name;
+      const Hdf5File    file;
+    };
+
+    /** Arrays of numbers that become vectors and a matrix once their lengths hold. */
+    struct FlatArrays
+    {
+      std::vector<double> stress, position, H, q;
+    };
+
+    /** Reads all but the arrays. */
+    void
+    read_step(const FrozenFile &in, FrozenProblem &frozen)
+    {
+      in.check(in.file.read_text("format") == frozen_format,
+               "its format is another one than '" + frozen_format + "'");
+      frozen.materials            = in.file.read_text("materials");
+      const std::string objection = objection_to_materials(frozen.materials);
+      in.check(objection.empty(), objection);
+      const auto step = in.doubles("step");
+      in.check(step.size() == 2 && step[0] > 0., "the step must be > 0 s");
+      in.check(step[1] >= 0. && step[1] <= 1.,
+               "the consistent part of the mass must be 0 to 1");
+      frozen.h               = step[0];
+      frozen.consistent_part = step[1];
+      const auto particles   = in.unsigned_array("particles");
+      const auto n_nodes     = in.unsigned_array("points/n_nodes");
+      in.check(particles.size() == 1 && n_nodes.size() == 1,
+               "it lacks numbers");
+      in.check(n_nodes[0] >= 1 &&
+                 n_nodes[0] <= (max_degree + 1) * (max_degree + 1),
+               "cells have 1 to 16 nodes");
+      frozen.particles      = particles[0] != 0;
+      frozen.points.n_nodes = n_nodes[0];
+    }
+
+    /** Reads all arrays, whose lengths are still to be checked. */
+    FlatArrays
+    read_arrays(const FrozenFile &in, FrozenProblem &frozen)
+    {
+      FlatArrays      flat;
+      MaterialPoints &p      = frozen.points;
+      p.first_point          = in.unsigned_array("points/first_point");
+      p.nodes                = in.unsigned_array("points/nodes");
+      p.gradients            = in.doubles("points/gradients");
+      p.values               = in.doubles("points/values");
+      p.volumetric_gradients = in.doubles("points/mean_gradients");
+      p.material             = in.unsigned_array("points/material");
+      p.weight               = in.doubles("points/weight");
+      p.mass                 = in.doubles("points/mass");
+      flat.stress            = in.doubles("points/stress");
+      flat.position          = in.doubles("points/position");
+      if (in.file.has("points/history")) // older files lack it
+        p.history = in.doubles("points/history");
+      if (in.file.has("ghosts/nodes"))
+        {
+          frozen.ghost_nodes  = in.file.read_integers("ghosts/nodes");
+          frozen.ghost_values = in.doubles("ghosts/values");
+        }
+      frozen.kind             = in.file.read_integers("dofs/kind");
+      frozen.mass             = in.doubles("dofs/mass");
+      frozen.force            = in.doubles("dofs/force");
+      frozen.velocity_L       = in.doubles("dofs/velocity_L");
+      frozen.prescribed       = in.doubles("dofs/prescribed");
+      frozen.start            = in.doubles("dofs/start");
+      frozen.constrained_dofs = in.file.read_integers("constraints/dofs");
+      flat.H                  = in.doubles("constraints/coefficients");
+      flat.q                  = in.doubles("constraints/targets");
+      return flat;
+    }
+
+    void
+    check_lengths(const FrozenFile     &in,
+                  const MaterialPoints &p,
+                  const FlatArrays     &flat)
+    {
+      const std::size_t n = p.n_points(), functions = p.n_nodes;
+      in.check(p.first_point.size() >= 2 && p.first_point[0] == 0 &&
+                 p.first_point.back() == n &&
+                 std::is_sorted(p.first_point.begin(), p.first_point.end()) &&
+                 std::adjacent_find(p.first_point.begin(),
+                                    p.first_point.end()) == p.first_point.end(),
+               "the cells do not hold its points");
+      in.check(p.nodes.size() == p.n_cells() * functions &&
+                 p.gradients.size() == dim * n * functions &&
+                 p.material.size() == n && flat.stress.size() == n_mandel * n &&
+                 flat.position.size() == dim * n &&
+                 (p.mass.empty() || p.mass.size() == n),
+               "the arrays of its points differ in length");
+      in.check(p.history.size() % n == 0,
+               "the histories of its points differ in length");
+    }
+
+    /** Of former files the volumetric gradients are one for all points of a cell. */
+    void
+    give_points_gradients_of_cells(MaterialPoints &p)
+    {
+      const std::size_t n = dim * p.n_nodes;
+      if (p.volumetric_gradients.size() != n * p.n_cells())
+        return;
+      const std::vector<double> of_cells = std::move(p.volumetric_gradients);
+      p.volumetric_gradients.clear();
+      for (unsigned int c = 0; c < p.n_cells(); ++c)
+        for (unsigned int q = p.first_point[c]; q < p.first_point[c + 1]; ++q)
+          p.volumetric_gradients.insert(p.volumetric_gradients.end(),
+                                        &of_cells[n * c],
+                                        &of_cells[n * (c + 1)]);
+    }
+
+    void
+    check_points(const FrozenFile &in, const FrozenProblem &frozen)
+    {
+      const MaterialPoints &p = frozen.points;
+      in.check((p.values.empty() ||
+                p.values.size() == std::size_t(p.n_points()) * p.n_nodes) &&
+                 (p.volumetric_gradients.empty() ||
+                  p.volumetric_gradients.size() == p.gradients.size()),
+               "the functions of its points differ in number");
+      for (const double weight : p.weight)
+        in.check(weight > 0., "it has points without a volume");
+      for (const std::vector<double> *masses :
+           {static_cast<const std::vector<double> *>(&p.mass), &frozen.mass})
+        for (const double mass : *masses)
+          in.check(mass >= 0., "it has negative masses");
+      in.check(frozen.kind.size() % dim == 0, "it has half a node");
+      for (const std::size_t node : p.nodes)
+        in.check(dim * node + dim <= frozen.kind.size(),
+                 "it has cells without nodes");
+    }
+
+    void
+    check_ghosts(const FrozenFile &in, const FrozenProblem &frozen)
+    {
+      in.check(frozen.ghost_nodes.size() % 3 == 0 &&
+                 frozen.ghost_values.size() ==
+                   frozen.ghost_nodes.size() / 3 * 4,
+               "its ghost stiffness differs in length");
+      for (const int node : frozen.ghost_nodes)
+        in.check(node >= 0 &&
+                   dim * std::size_t(node) + dim <= frozen.kind.size(),
+                 "its ghost stiffness is of nodes that it lacks");
+      for (std::size_t i = 3; i < frozen.ghost_values.size(); i += 4)
+        in.check(frozen.ghost_values[i] >= 0.,
+                 "its ghost stiffness is negative");
+    }
+
+    void
+    check_dofs(const FrozenFile &in, const FrozenProblem &frozen)
+    {
+      const std::size_t n_dofs = frozen.kind.size();
+      for (const int kind : frozen.kind)
+        in.check(
+          kind == 0 || kind == Unknowns::prescribed_row ||
+            kind == Unknowns::massless_row,
+          "it has dofs that are neither free nor prescribed nor without mass");
+      for (const auto *array :
+           {&frozen.velocity_L, &frozen.prescribed, &frozen.start})
+        in.check(array->size() == n_dofs,
+                 "the arrays of its dofs differ in length");
+      for (const auto *array : {&frozen.mass, &frozen.force})
+        in.check(array->empty() || array->size() == n_dofs,
+                 "the arrays of its dofs differ in length");
+      const MaterialPoints &p = frozen.points;
+      const std::size_t     n = p.n_points();
+      in.check(frozen.consistent_part == 0. ||
+                 (p.values.size() == n * p.n_nodes && p.mass.size() == n),
+               "it lacks the functions or masses of a consistent mass");
+    }
+
+    void
+    check_constraints(const FrozenFile    &in,
+                      const FrozenProblem &frozen,
+                      const FlatArrays    &flat)
+    {
+      std::vector<int> dofs = frozen.constrained_dofs;
+      in.check(flat.H.size() == flat.q.size() * dofs.size(),
+               "its constraints differ in length");
+      for (const int dof : dofs)
+        in.check(dof >= 0 && std::size_t(dof) < frozen.kind.size() &&
+                   frozen.kind[dof] == 0,
+                 "it has constraints on dofs that are not free");
+      std::sort(dofs.begin(), dofs.end());
+      in.check(std::adjacent_find(dofs.begin(), dofs.end()) == dofs.end() &&
+                 flat.q.size() <= dofs.size(),
+               "it has more constraints than dofs in them, or dofs twice");
+    }
+  } // namespace
+
   FrozenProblem
   FrozenProblem::read(const std::string &file_name)
   {
-    const Hdf5File file(file_name, Hdf5File::Access::read);
-    const auto     check = [&](const bool holds, const std::string &what) {
-      if (!holds)
-        throw RunError("the file '" + file_name + "' is inconsistent: " + what +
-                       "\n  remedy:  freeze the step again ('Output/Freeze "
-                           "steps')");
-    };
-    const auto unsigned_array = [&](const std::string &name) {
-      const std::vector<int> values = file.read_integers(name);
-      for (const int value : values)
-        check(value >= 0, "negative numbers in '" + name + "'");
-      return std::vector<unsigned int>(values.begin(), values.end());
-    };
-    const auto doubles = [&](const std::string &name) {
-      const std::vector<double> values = file.read_doubles(name);
-      for (const double value : values)
-        check(std::abs(value) <= largest_quantity,
-              "numbers in '" + name + "' that are not finite, or beyond 1e30");
-      return values;
-    };
+    const FrozenFile in(file_name);
+    FrozenProblem    frozen;
+    read_step(in, frozen);
+    const FlatArrays flat = read_arrays(in, frozen);
+    MaterialPoints  &p    = frozen.points;
+    check_lengths(in, p, flat);
+    p.history.width = p.history.size() / p.n_points();
+    give_points_gradients_of_cells(p);
+    check_points(in, frozen);
+    check_ghosts(in, frozen);
+    check_dofs(in, frozen);
+    check_constraints(in, frozen, flat);
 
-    check(file.read_text("format") == frozen_format,
-          "its format is another one than '" + frozen_format + "'");
-    FrozenProblem frozen;
-    frozen.materials            = file.read_text("materials");
-    const std::string objection = objection_to_materials(frozen.materials);
-    check(objection.empty(), objection);
-    const auto step = doubles("step");
-    check(step.size() == 2 && step[0] > 0., "the step must be > 0 s");
-    check(step[1] >= 0. && step[1] <= 1.,
-          "the consistent part of the mass must be 0 to 1");
-    frozen.h               = step[0];
-    frozen.consistent_part = step[1];
-    const auto particles   = unsigned_array("particles");
-    const auto n_nodes     = unsigned_array("points/n_nodes");
-    check(particles.size() == 1 && n_nodes.size() == 1, "it lacks numbers");
-    check(n_nodes[0] >= 1 && n_nodes[0] <= (max_degree + 1) * (max_degree + 1),
-          "cells have 1 to 16 nodes");
-    frozen.particles = particles[0] != 0;
-
-    MaterialPoints &p      = frozen.points;
-    p.n_nodes              = n_nodes[0];
-    p.first_point          = unsigned_array("points/first_point");
-    p.nodes                = unsigned_array("points/nodes");
-    p.gradients            = doubles("points/gradients");
-    p.values               = doubles("points/values");
-    p.volumetric_gradients = doubles("points/mean_gradients");
-    p.material             = unsigned_array("points/material");
-    p.weight               = doubles("points/weight");
-    p.mass                 = doubles("points/mass");
-    const auto stress      = doubles("points/stress");
-    const auto x           = doubles("points/position");
-    if (file.has("points/history")) // older files lack it
-      p.history = doubles("points/history");
-    if (file.has("ghosts/nodes"))
-      {
-        frozen.ghost_nodes  = file.read_integers("ghosts/nodes");
-        frozen.ghost_values = doubles("ghosts/values");
-      }
-    frozen.kind             = file.read_integers("dofs/kind");
-    frozen.mass             = doubles("dofs/mass");
-    frozen.force            = doubles("dofs/force");
-    frozen.velocity_L       = doubles("dofs/velocity_L");
-    frozen.prescribed       = doubles("dofs/prescribed");
-    frozen.start            = doubles("dofs/start");
-    frozen.constrained_dofs = file.read_integers("constraints/dofs");
-    const auto H            = doubles("constraints/coefficients");
-    const auto q            = doubles("constraints/targets");
-
-    const std::size_t n = p.n_points(), n_dofs = frozen.kind.size();
-    const std::size_t functions = p.n_nodes;
-    check(p.first_point.size() >= 2 && p.first_point[0] == 0 &&
-            p.first_point.back() == n &&
-            std::is_sorted(p.first_point.begin(), p.first_point.end()) &&
-            std::adjacent_find(p.first_point.begin(), p.first_point.end()) ==
-              p.first_point.end(),
-          "the cells do not hold its points");
-    check(p.nodes.size() == p.n_cells() * functions &&
-            p.gradients.size() == dim * n * functions &&
-            p.material.size() == n && stress.size() == n_mandel * n &&
-            x.size() == dim * n && (p.mass.empty() || p.mass.size() == n),
-          "the arrays of its points differ in length");
-    check(p.history.size() % n == 0,
-          "the histories of its points differ in length");
-    p.history.width = p.history.size() / n;
-    // Of former files: one for all points of a cell.
-    if (p.volumetric_gradients.size() == dim * p.n_cells() * functions)
-      {
-        const std::vector<double> of_cells = std::move(p.volumetric_gradients);
-        p.volumetric_gradients.clear();
-        for (unsigned int c = 0; c < p.n_cells(); ++c)
-          for (unsigned int q = p.first_point[c]; q < p.first_point[c + 1]; ++q)
-            p.volumetric_gradients.insert(p.volumetric_gradients.end(),
-                                          &of_cells[dim * functions * c],
-                                          &of_cells[dim * functions * (c + 1)]);
-      }
-    check((p.values.empty() || p.values.size() == n * functions) &&
-            (p.volumetric_gradients.empty() ||
-             p.volumetric_gradients.size() == p.gradients.size()),
-          "the functions of its points differ in number");
-    for (const double weight : p.weight)
-      check(weight > 0., "it has points without a volume");
-    for (const std::vector<double> *masses :
-         {static_cast<std::vector<double> *>(&p.mass), &frozen.mass})
-      for (const double mass : *masses)
-        check(mass >= 0., "it has negative masses");
-    check(n_dofs % dim == 0, "it has half a node");
-    for (const std::size_t node : p.nodes)
-      check(dim * node + dim <= n_dofs, "it has cells without nodes");
-    check(frozen.ghost_nodes.size() % 3 == 0 &&
-            frozen.ghost_values.size() == frozen.ghost_nodes.size() / 3 * 4,
-          "its ghost stiffness differs in length");
-    for (const int node : frozen.ghost_nodes)
-      check(node >= 0 && dim * std::size_t(node) + dim <= n_dofs,
-            "its ghost stiffness is of nodes that it lacks");
-    for (std::size_t i = 3; i < frozen.ghost_values.size(); i += 4)
-      check(frozen.ghost_values[i] >= 0., "its ghost stiffness is negative");
-    for (const int kind : frozen.kind)
-      check(
-        kind == 0 || kind == Unknowns::prescribed_row ||
-          kind == Unknowns::massless_row,
-        "it has dofs that are neither free nor prescribed nor without mass");
-    for (const auto *array :
-         {&frozen.velocity_L, &frozen.prescribed, &frozen.start})
-      check(array->size() == n_dofs, "the arrays of its dofs differ in length");
-    for (const auto *array : {&frozen.mass, &frozen.force})
-      check(array->empty() || array->size() == n_dofs,
-            "the arrays of its dofs differ in length");
-    check(frozen.consistent_part == 0. ||
-            (p.values.size() == n * functions && p.mass.size() == n),
-          "it lacks the functions or masses of a consistent mass");
-    check(H.size() == q.size() * frozen.constrained_dofs.size(),
-          "its constraints differ in length");
-    for (const int dof : frozen.constrained_dofs)
-      check(dof >= 0 && std::size_t(dof) < n_dofs && frozen.kind[dof] == 0,
-            "it has constraints on dofs that are not free");
-    std::vector<int> dofs = frozen.constrained_dofs;
-    std::sort(dofs.begin(), dofs.end());
-    check(std::adjacent_find(dofs.begin(), dofs.end()) == dofs.end() &&
-            q.size() <= dofs.size(),
-          "it has more constraints than dofs in them, or dofs twice");
-
-    for (std::size_t i = 0; i < n; ++i)
-      {
-        p.stress.emplace_back(&stress[n_mandel * i]);
-        p.position.emplace_back(x[dim * i], x[dim * i + 1]);
-      }
-    frozen.q = Eigen::Map<const Eigen::VectorXd>(q.data(), q.size());
+    p.stress   = mandel_vectors(flat.stress);
+    p.position = points_from(flat.position);
+    frozen.q = Eigen::Map<const Eigen::VectorXd>(flat.q.data(), flat.q.size());
     frozen.H = Eigen::Map<const Eigen::MatrixXd>(
-      H.data(), q.size(), frozen.constrained_dofs.size());
+      flat.H.data(), flat.q.size(), frozen.constrained_dofs.size());
     return frozen;
   }
 

@@ -92,6 +92,38 @@ namespace geocone
       return names;
     }
 
+    /** The material and the means over volume that names_of_means() names. */
+    std::vector<double>
+    means_of_cell(const MaterialPoints &points,
+                  const Materials      &materials,
+                  const unsigned int    c)
+    {
+      const unsigned int first = points.first_point[c],
+                         last  = points.first_point[c + 1];
+      double area              = 0.;
+      for (unsigned int p = first; p < last; ++p)
+        area += points.weight[p];
+      std::vector<double> means = {double(points.material[first])};
+      const auto          add   = [&](const auto &value) {
+        double sum = 0.;
+        for (unsigned int p = first; p < last; ++p)
+          sum += points.weight[p] * value(p);
+        means.push_back(sum / area);
+      };
+      for (int i = 0; i < n_mandel; ++i)
+        add([&](const auto p) { return component(points.stress[p], i); });
+      if constexpr (dim == 2)
+        add([&](const auto p) {
+          return materials[points.material[p]].stress_zz(
+            components_of(points.stress[p]), points.history_of(p));
+        });
+      add([&](const auto p) { return points.plastic_strain_rate[p]; });
+      add([&](const auto p) { return points.cumulative_plastic_strain[p]; });
+      if (materials.are_undrained())
+        add([&](const auto p) { return points.excess_pressure(p); });
+      return means;
+    }
+
     /** The components of points or vectors, one after another. */
     template <typename Values>
     FieldTable::Fill
@@ -101,6 +133,132 @@ namespace geocone
         for (std::size_t i = 0; i < to.size(); ++i)
           to[i] = values[i / dim][i % dim];
       };
+    }
+
+    FieldTable::Fill
+    copy_of(std::vector<double> &&from)
+    {
+      return [from = std::move(from)](std::vector<double> &to) { to = from; };
+    }
+
+    /** Cells as linear ones, with vectors on nodes and means, which the table holds. */
+    FieldTable
+    table_of_cells(const BackgroundMesh                              &mesh,
+                   const Space                                       &space,
+                   const MaterialPoints                              &points,
+                   const Materials                                   &materials,
+                   const std::vector<std::pair<std::string, Vector>> &on_nodes)
+    {
+      const auto parts = sub_cells(space.degree(), mesh.is_simplicial());
+      const std::vector<std::string>   names = names_of_means(materials);
+      std::vector<double>              places, N(points.n_nodes);
+      std::vector<std::vector<double>> vectors(on_nodes.size()),
+        means(names.size());
+      for (unsigned int c = 0; c < points.n_cells(); ++c)
+        {
+          const auto               &cell  = points.cells[c];
+          const unsigned int       *nodes = &points.nodes[c * points.n_nodes];
+          const std::vector<double> mean  = means_of_cell(points, materials, c);
+          for (const auto &part : parts)
+            for (const Point<dim> &unit : part)
+              {
+                const Point<dim> x =
+                  mesh.mapping().transform_unit_to_real_cell(cell, unit);
+                space.evaluate(cell, unit, N.data(), nullptr);
+                for (unsigned int d = 0; d < dim; ++d)
+                  {
+                    places.push_back(x[d]);
+                    for (unsigned int f = 0; f < on_nodes.size(); ++f)
+                      {
+                        double value = 0.;
+                        for (unsigned int i = 0; i < points.n_nodes; ++i)
+                          value += N[i] * on_nodes[f].second.local_element(
+                                            dim * nodes[i] + d);
+                        vectors[f].push_back(value);
+                      }
+                  }
+                for (unsigned int m = 0; m < mean.size(); ++m)
+                  means[m].push_back(mean[m]);
+              }
+        }
+      FieldTable table;
+      using Kind      = FieldTable::Cell;
+      table.cell      = mesh.is_simplicial()
+                          ? dim == 2 ? Kind::triangle : Kind::tetrahedron
+                        : dim == 2 ? Kind::quadrilateral
+                                   : Kind::hexahedron;
+      table.n_nodes   = places.size() / dim;
+      table.positions = copy_of(std::move(places));
+      for (unsigned int f = 0; f < on_nodes.size(); ++f)
+        table.columns.push_back(
+          {on_nodes[f].first, dim, copy_of(std::move(vectors[f]))});
+      for (unsigned int m = 0; m < names.size(); ++m)
+        table.columns.push_back({names[m], 1, copy_of(std::move(means[m]))});
+      return table;
+    }
+
+    /** The points with their variables, all of which stay where they are. */
+    FieldTable
+    table_of_points(const BackgroundMesh &mesh,
+                    const MaterialPoints &points,
+                    const Materials      &materials,
+                    const bool            moving)
+    {
+      FieldTable table;
+      table.n_nodes   = points.n_points();
+      table.positions = components(points.position);
+      const auto add  = [&](const std::string &name, const auto &value) {
+        table.columns.push_back(
+          {name, 1, [value = value](std::vector<double> &to) mutable {
+             for (std::size_t p = 0; p < to.size(); ++p)
+               to[p] = value(p);
+           }});
+      };
+      if (moving)
+        {
+          table.columns.push_back(
+            {"velocity", dim, components(points.velocity)});
+          table.columns.push_back(
+            {"displacement", dim, components(points.displacement)});
+        }
+      add("material", [&](const std::size_t p) { return points.material[p]; });
+      add("volume", [&](const std::size_t p) { return points.weight[p]; });
+      // What a point is in the plane of the pictures.
+      if (mesh.is_axisymmetric())
+        add("area", [&](const std::size_t p) {
+          return points.weight[p] / mesh.measure(points.position[p]);
+        });
+      const auto add_tensor = [&](const std::string         &name,
+                                  const std::vector<Mandel> &values) {
+        for (int i = 0; i < n_mandel; ++i)
+          add(name + "_" + tensor_component[i],
+              [&values, i](const std::size_t p) {
+                return component(values[p], i);
+              });
+      };
+      add_tensor("stress", points.stress);
+      for (const std::string &name : materials.shown_names())
+        {
+          std::vector<ShownValue> of_law;
+          for (unsigned int m = 0; m < materials.size(); ++m)
+            of_law.emplace_back(materials.law(m), name);
+          add(name, [&points, of_law](const std::size_t p) mutable {
+            return of_law[points.material[p]](components_of(points.stress[p]),
+                                              points.history_of(p));
+          });
+        }
+      if (materials.are_undrained())
+        add("excess_pore_pressure",
+            [&](const std::size_t p) { return points.excess_pressure(p); });
+      add_tensor("plastic_strain", points.plastic_strain);
+      add("plastic_strain_rate",
+          [&](const std::size_t p) { return points.plastic_strain_rate[p]; });
+      add("cumulative_plastic_strain", [&](const std::size_t p) {
+        return points.cumulative_plastic_strain[p];
+      });
+      if (moving) // their order changes from time to time
+        add("id", [&](const std::size_t p) { return points.id[p]; });
+      return table;
     }
   } // namespace
 
@@ -123,132 +281,11 @@ namespace geocone
     on_nodes.emplace_back("velocity", kinematics.velocity);
     for (auto &field : on_nodes)
       field.second.update_ghost_values();
-
-    const auto          parts = sub_cells(space.degree(), mesh.is_simplicial());
-    std::vector<double> N(points.n_nodes);
-
-    // At the nodes of the parts: places, the fields on nodes; means of the cells.
-    std::vector<double>              places;
-    std::vector<std::vector<double>> vectors(on_nodes.size());
-    const std::vector<std::string>   names = names_of_means(materials);
-    std::vector<std::vector<double>> means(names.size());
-    for (unsigned int c = 0; c < points.n_cells(); ++c)
-      {
-        const auto         &cell  = points.cells[c];
-        const unsigned int  first = points.first_point[c];
-        double              area  = 0.;
-        std::vector<double> mean(names.size(), 0.);
-        for (unsigned int p = first; p < points.first_point[c + 1]; ++p)
-          {
-            const double V = points.weight[p];
-            area += V;
-            for (int i = 0; i < n_mandel; ++i)
-              mean[1 + i] += V * component(points.stress[p], i);
-            if (dim == 2)
-              mean[4] +=
-                V * materials[points.material[p]].stress_zz(
-                      components_of(points.stress[p]), points.history_of(p));
-            mean[1 + n_spatial] += V * points.plastic_strain_rate[p];
-            mean[2 + n_spatial] += V * points.cumulative_plastic_strain[p];
-            if (mean.size() > 3 + n_spatial)
-              mean[3 + n_spatial] += V * points.excess_pressure(p);
-          }
-        for (double &value : mean)
-          value /= area;
-        mean[0]                   = points.material[first];
-        const unsigned int *nodes = &points.nodes[c * points.n_nodes];
-        for (const auto &part : parts)
-          for (const Point<dim> &unit : part)
-            {
-              const Point<dim> x =
-                mesh.mapping().transform_unit_to_real_cell(cell, unit);
-              space.evaluate(cell, unit, N.data(), nullptr);
-              for (unsigned int d = 0; d < dim; ++d)
-                {
-                  places.push_back(x[d]);
-                  for (unsigned int f = 0; f < on_nodes.size(); ++f)
-                    {
-                      double value = 0.;
-                      for (unsigned int i = 0; i < points.n_nodes; ++i)
-                        value += N[i] * on_nodes[f].second.local_element(
-                                          dim * nodes[i] + d);
-                      vectors[f].push_back(value);
-                    }
-                }
-              for (unsigned int m = 0; m < mean.size(); ++m)
-                means[m].push_back(mean[m]);
-            }
-      }
-    const auto copy_of = [](const std::vector<double> &from) {
-      return [&from](std::vector<double> &to) { to = from; };
-    };
-    FieldTable on_cells;
-    using Kind         = FieldTable::Cell;
-    on_cells.cell      = mesh.is_simplicial()
-                           ? dim == 2 ? Kind::triangle : Kind::tetrahedron
-                         : dim == 2 ? Kind::quadrilateral
-                                    : Kind::hexahedron;
-    on_cells.n_nodes   = places.size() / dim;
-    on_cells.positions = copy_of(places);
-    for (unsigned int f = 0; f < on_nodes.size(); ++f)
-      on_cells.columns.push_back({on_nodes[f].first, dim, copy_of(vectors[f])});
-    for (unsigned int m = 0; m < names.size(); ++m)
-      on_cells.columns.push_back({names[m], 1, copy_of(means[m])});
-    cells.write(on_cells, folder, time, comm);
-
-    FieldTable on_points;
-    on_points.n_nodes   = points.n_points();
-    on_points.positions = components(points.position);
-    const auto add      = [&](const std::string &name, const auto &value) {
-      on_points.columns.push_back(
-        {name, 1, [value = value](std::vector<double> &to) mutable {
-           for (std::size_t p = 0; p < to.size(); ++p)
-             to[p] = value(p);
-         }});
-    };
-    if (moving)
-      {
-        on_points.columns.push_back(
-          {"velocity", dim, components(points.velocity)});
-        on_points.columns.push_back(
-          {"displacement", dim, components(points.displacement)});
-      }
-    add("material", [&](const std::size_t p) { return points.material[p]; });
-    add("volume", [&](const std::size_t p) { return points.weight[p]; });
-    if (mesh.is_axisymmetric()) // what a point is in the plane of the pictures
-      add("area", [&](const std::size_t p) {
-        return points.weight[p] / mesh.measure(points.position[p]);
-      });
-    const auto add_tensor = [&](const std::string         &name,
-                                const std::vector<Mandel> &values) {
-      for (int i = 0; i < n_mandel; ++i)
-        add(name + "_" + tensor_component[i],
-            [&values, i](const std::size_t p) {
-              return component(values[p], i);
-            });
-    };
-    add_tensor("stress", points.stress);
-    for (const std::string &name : materials.shown_names())
-      {
-        std::vector<ShownValue> of_law;
-        for (unsigned int m = 0; m < materials.size(); ++m)
-          of_law.emplace_back(materials.law(m), name);
-        add(name, [&points, of_law](const std::size_t p) mutable {
-          return of_law[points.material[p]](components_of(points.stress[p]),
-                                            points.history_of(p));
-        });
-      }
-    if (materials.are_undrained())
-      add("excess_pore_pressure",
-          [&](const std::size_t p) { return points.excess_pressure(p); });
-    add_tensor("plastic_strain", points.plastic_strain);
-    add("plastic_strain_rate",
-        [&](const std::size_t p) { return points.plastic_strain_rate[p]; });
-    add("cumulative_plastic_strain", [&](const std::size_t p) {
-      return points.cumulative_plastic_strain[p];
-    });
-    if (moving) // their order changes from time to time
-      add("id", [&](const std::size_t p) { return points.id[p]; });
-    point_clouds.write(on_points, folder, time, comm);
+    cells.write(table_of_cells(mesh, space, points, materials, on_nodes),
+                folder,
+                time,
+                comm);
+    point_clouds.write(
+      table_of_points(mesh, points, materials, moving), folder, time, comm);
   }
 } // namespace geocone
