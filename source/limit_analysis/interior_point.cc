@@ -160,6 +160,41 @@ namespace geocone
       void
       keep_stresses();
 
+      /** Whether the gap is closed, with velocities that flow as they must. */
+      bool
+      is_closed() const
+      {
+        return gap < allowed_gap() && flow < options.flow_tolerance &&
+               std::abs(r_g) < options.tolerance;
+      }
+
+      double
+      allowed_gap() const
+      {
+        return options.tolerance * std::abs(load);
+      }
+
+      /** @name Whether the iterate is the last one; the solution then says why */
+      /** @{ */
+      bool
+      has_diverged();
+      bool
+      has_ended(const unsigned int iteration);
+      /** @} */
+
+      /** Counts iterates that come no nearer to stresses that prove something. */
+      void
+      watch_stresses();
+
+      /** Moves the iterate along a direction, but for a hundredth of the way to the
+       *  border of the cones. */
+      void
+      advance(const Direction &along);
+
+      /** Gives the best stresses and the velocities to the solution. */
+      void
+      collect();
+
       const BoundProblem          &problem;
       const InteriorPoint::Options options;
       const unsigned int           n;
@@ -182,6 +217,14 @@ namespace geocone
 
       Points kept; ///< stresses() of the best iterate, and what they bear
       double kept_load = 0., most_admissible = no_load;
+
+      double       most         = 0.; ///< largest stress over the strength
+      unsigned int first_solved = options.max_iterations + 1;
+      unsigned int n_without    = 0; ///< iterates, of watch_stresses()
+      double       smallest_gap = std::numeric_limits<double>::infinity(),
+             least_equilibrium  = smallest_gap;
+
+      BoundSolution solution;
     };
 
     void
@@ -489,111 +532,97 @@ namespace geocone
       evaluate();
     }
 
-    BoundSolution
-    Solver::solve()
+    bool
+    Solver::has_diverged()
     {
-      BoundSolution solution;
-      start();
-      double       most         = 0.; // largest stress of the last iterate
-      unsigned int first_solved = options.max_iterations + 1;
-      unsigned int n_without    = 0;
-      double       smallest_gap = std::numeric_limits<double>::infinity(),
-             least_equilibrium  = smallest_gap;
-      for (unsigned int iteration = 0;; ++iteration)
+      double stress = 0., strength = 0.;
+      for (unsigned int p = 0; p < n; ++p)
         {
-          evaluate();
-          double stress = 0., strength = 0.;
-          for (unsigned int p = 0; p < n; ++p)
-            {
-              stress   = std::max({stress, x[p][0], std::abs(s_n[p])});
-              strength = std::max(strength, problem.cone[p].k);
-            }
-          if (!std::isfinite(gap + load + flow + equilibrium))
-            {
-              solution.reason = "the iterates are not finite";
-              solution.grows  = most > 1e5;
-              break;
-            }
-          most = stress / std::max(strength, 1.);
-          if (most > 1e12)
-            {
-              solution.reason = "the stresses grow beyond all bounds";
-              solution.grows  = true;
-              break;
-            }
-          const double allowed   = options.tolerance * std::abs(load);
-          const bool   is_closed = gap < allowed &&
-                                 flow < options.flow_tolerance &&
-                                 std::abs(r_g) < options.tolerance;
-          const bool is_solved =
-            is_closed && equilibrium < options.equilibrium_tolerance;
-          if (is_solved)
-            first_solved = std::min(first_solved, iteration);
-          // Stresses that are kept are in equilibrium and in their cones.
-          if (is_closed && most_admissible > load - 0.3 * allowed)
-            {
-              solution.converged = true;
-              break;
-            }
-          // What cannot be scaled back is beyond its cones in proportion to the gap:
-          // it needs a sharper optimum. Where no stresses are in equilibrium, the gap
-          // grows again, or closes without them.
-          if (flow < options.flow_tolerance)
-            smallest_gap = std::min(smallest_gap, gap);
-          if (most_admissible == no_load &&
-              most < 1e3) // or no load is the limit
-            n_without += gap > 5. * smallest_gap ||
-                         (is_closed && equilibrium > least_equilibrium / 2.);
-          least_equilibrium = std::min(least_equilibrium, equilibrium);
-          if ((is_solved && (!options.stresses || most_admissible > no_load)) ||
-              iteration == first_solved + 6 ||
-              (options.stresses && n_without == 4))
-            {
-              solution.converged = is_solved;
-              if (!is_solved)
-                solution.reason = format(
-                  "no stresses are in equilibrium and in their cones: the "
-                  "best ones miss %.1e of the forces",
-                  equilibrium);
-              break;
-            }
-          if (iteration == options.max_iterations)
-            {
-              solution.reason =
-                format("the gap is %.1e of the load, the residuals are %.1e "
-                       "(equilibrium) and %.1e (flow) after %u iterations",
-                       gap / std::max(std::abs(load), 1e-300),
-                       equilibrium,
-                       flow,
-                       iteration);
-              break;
-            }
-
-          if (!factorise())
-            {
-              solution.reason =
-                "the matrix is singular: some velocities have no resistance";
-              break;
-            }
-          if (options.stresses &&
-              gap < std::max(4. * allowed,
-                             0.05 * std::abs(load) * !problem.can_be_scaled()))
-            keep_stresses();
-          const Direction along = centred_direction();
-          const double    b_x   = std::min(1., 0.99 * along.steps[0]),
-                       b_z      = std::min(1., 0.99 * along.steps[1]);
-          last_step             = std::min(b_x, b_z);
-          for (unsigned int p = 0; p < n; ++p)
-            {
-              x[p] += b_x * along.x[p];
-              z[p] += b_z * along.z[p];
-            }
-          s_n += b_x * along.s_n;
-          lambda += b_x * along.lambda;
-          q += b_z * along.q;
+          stress   = std::max({stress, x[p][0], std::abs(s_n[p])});
+          strength = std::max(strength, problem.cone[p].k);
         }
-      if (solution.converged && !scaling.empty())
-        polish();
+      if (!std::isfinite(gap + load + flow + equilibrium))
+        {
+          solution.reason = "the iterates are not finite";
+          solution.grows  = most > 1e5;
+          return true;
+        }
+      most           = stress / std::max(strength, 1.);
+      solution.grows = most > 1e12;
+      if (solution.grows)
+        solution.reason = "the stresses grow beyond all bounds";
+      return solution.grows;
+    }
+
+    void
+    Solver::watch_stresses()
+    {
+      // What cannot be scaled back is beyond its cones in proportion to the gap:
+      // it needs a sharper optimum. Where no stresses are in equilibrium, the gap
+      // grows again, or closes without them.
+      if (flow < options.flow_tolerance)
+        smallest_gap = std::min(smallest_gap, gap);
+      if (most_admissible == no_load && most < 1e3) // or no load is the limit
+        n_without += gap > 5. * smallest_gap ||
+                     (is_closed() && equilibrium > least_equilibrium / 2.);
+      least_equilibrium = std::min(least_equilibrium, equilibrium);
+    }
+
+    bool
+    Solver::has_ended(const unsigned int iteration)
+    {
+      const bool is_solved =
+        is_closed() && equilibrium < options.equilibrium_tolerance;
+      if (is_solved)
+        first_solved = std::min(first_solved, iteration);
+      // Stresses that are kept are in equilibrium and in their cones.
+      if (is_closed() && most_admissible > load - 0.3 * allowed_gap())
+        {
+          solution.converged = true;
+          return true;
+        }
+      watch_stresses();
+      if ((is_solved && (!options.stresses || most_admissible > no_load)) ||
+          iteration == first_solved + 6 || (options.stresses && n_without == 4))
+        {
+          solution.converged = is_solved;
+          if (!is_solved)
+            solution.reason =
+              format("no stresses are in equilibrium and in their cones: the "
+                     "best ones miss %.1e of the forces",
+                     equilibrium);
+          return true;
+        }
+      if (iteration == options.max_iterations)
+        solution.reason =
+          format("the gap is %.1e of the load, the residuals are %.1e "
+                 "(equilibrium) and %.1e (flow) after %u iterations",
+                 gap / std::max(std::abs(load), 1e-300),
+                 equilibrium,
+                 flow,
+                 iteration);
+      return iteration == options.max_iterations;
+    }
+
+    void
+    Solver::advance(const Direction &along)
+    {
+      const double b_x = std::min(1., 0.99 * along.steps[0]),
+                   b_z = std::min(1., 0.99 * along.steps[1]);
+      last_step        = std::min(b_x, b_z);
+      for (unsigned int p = 0; p < n; ++p)
+        {
+          x[p] += b_x * along.x[p];
+          z[p] += b_z * along.z[p];
+        }
+      s_n += b_x * along.s_n;
+      lambda += b_x * along.lambda;
+      q += b_z * along.q;
+    }
+
+    void
+    Solver::collect()
+    {
       solution.q = q;
       solution.s = stresses();
       if (!kept.empty() &&
@@ -607,6 +636,32 @@ namespace geocone
           solution.s[p][0] /= problem.cone[p].a;
       solution.load           = load;
       solution.factorisations = matrix.n_factorisations;
+    }
+
+    BoundSolution
+    Solver::solve()
+    {
+      start();
+      for (unsigned int iteration = 0;; ++iteration)
+        {
+          evaluate();
+          if (has_diverged() || has_ended(iteration))
+            break;
+          if (!factorise())
+            {
+              solution.reason =
+                "the matrix is singular: some velocities have no resistance";
+              break;
+            }
+          if (options.stresses &&
+              gap < std::max(4. * allowed_gap(),
+                             0.05 * std::abs(load) * !problem.can_be_scaled()))
+            keep_stresses();
+          advance(centred_direction());
+        }
+      if (solution.converged && !scaling.empty())
+        polish();
+      collect();
       return solution;
     }
   } // namespace

@@ -26,6 +26,23 @@ namespace geocone
       return std::sqrt(1.5) * s.norm();
     }
 
+    /** Takes the deviator of what it multiplies. */
+    SpatialMandelMatrix
+    along_deviators()
+    {
+      const SpatialMandel I = unit_tensor<n_spatial>();
+      return SpatialMandelMatrix::Identity() - I * I.transpose() / 3.;
+    }
+
+    /** What a step starts from, and its strain. */
+    struct StrainStep
+    {
+      double        P_n, Pc_n; ///< (Pa)
+      double        v;         ///< volume strain, compression positive
+      SpatialMandel e;         ///< deviator of the strain
+      SpatialMandel s_n;       ///< deviator of the stress at t_n (Pa)
+    };
+
     /** (exp(x) - 1)/x. */
     double
     mean_exponential(const double x)
@@ -170,21 +187,16 @@ namespace geocone
     return P + q * q / (M * M * P);
   }
 
-  /** With the volume strain v, the deviator e of the strain and the deviator s_n of the
-   *  stress at t_n. Primes in comments are derivatives; those by v are at fixed phi. */
+  /** Primes in comments are derivatives; those by v are at fixed phi. */
   struct ModifiedCamClay::Trial
   {
-    Trial(const ModifiedCamClay &law,
-          const double           P_n,
-          const double           Pc_n,
-          const double           v,
-          const SpatialMandel   &e,
-          const SpatialMandel   &s_n,
-          const double           phi)
-      : cosine(std::cos(phi))
+    Trial(const ModifiedCamClay &law, const StrainStep &step, const double phi)
+      : M(law.M)
+      , cosine(std::cos(phi))
       , sine(std::sin(phi))
     {
-      const double kappa = law.kappa, hardening = law.lambda - kappa, M = law.M;
+      const auto &[P_n, Pc_n, v, e, s_n] = step;
+      const double kappa = law.kappa, hardening = law.lambda - kappa;
       const double A    = kappa * hardening / law.lambda;
       w                 = A * (v / kappa + std::log(P_n / Pc_n) -
                2. * std::log(std::cos(phi / 2.)));
@@ -221,6 +233,84 @@ namespace geocone
                      D * M / 2. * cosine + q_t * sine;
     }
 
+    /**
+     * The solution, with plastic flow.
+     * @param P,q of the elastic trial stress, q over M (Pa)
+     */
+    static Trial
+    of_flow(const ModifiedCamClay &law,
+            const StrainStep      &step,
+            const double           P,
+            const double           q)
+    {
+      // The half of the ellipse to which plastic flow leads, and where on it the size
+      // would not change; from there on the trial stress is outside.
+      const double part      = P / step.Pc_n;
+      const bool   contracts = part >= 0.5;
+      const double unchanged = part < 1. ? 2. * std::acos(std::sqrt(part)) : 0.;
+      const double low   = contracts ? std::min(unchanged, pi / 2.) : pi / 2.,
+                   high  = contracts ? pi / 2. : std::max(unchanged, pi / 2.);
+      const double guess = std::atan2(q, P - step.Pc_n / 2.);
+      const double phi   = increasing_root(
+        low,
+        high,
+        guess >= low && guess <= high ? guess : (low + high) / 2.,
+        [&](const double x) {
+          const Trial here(law, step, x);
+          return std::pair(here.value, here.by_phi.value);
+        });
+      return Trial(law, step, phi);
+    }
+
+    /** Near the critical state N/D is 0/0. */
+    bool
+    by_quotient() const
+    {
+      return std::abs(cosine) > 0.5;
+    }
+
+    /** rho of s = rho t. */
+    double
+    factor_of_t() const
+    {
+      return by_quotient() ? N / D : M * Pc * sine / 2. / q_t;
+    }
+
+    /** ds/de. @param opens whether the pressure does not change */
+    SpatialMandelMatrix
+    tangent(const SpatialMandel &e, const bool opens) const
+    {
+      // Gradients by the strain: v' = -I, and q_t' = q_t_G G' + normal.
+      const double        rho = factor_of_t();
+      const SpatialMandel I   = unit_tensor<n_spatial>();
+      const SpatialMandel normal =
+        q_t > 0. ? SpatialMandel(3. * G / q_t * t) : SpatialMandel::Zero();
+      const SpatialMandel of_phi =
+        (by_v.value * I + cosine * normal) / by_phi.value;
+      const auto gradient = [&](const double x_v, const double x_phi) {
+        return SpatialMandel(x_phi * of_phi - x_v * I);
+      };
+      const SpatialMandel of_P = gradient(by_v.P, by_phi.P),
+                          of_G = gradient(by_v.G, by_phi.G);
+      SpatialMandel of_rho;
+      if (by_quotient())
+        of_rho =
+          (gradient(by_v.N, by_phi.N) - rho * gradient(by_v.D, by_phi.D)) / D;
+      else
+        of_rho =
+          (M / 2. *
+             (sine * gradient(by_v.Pc, by_phi.Pc) + Pc * cosine * of_phi) -
+           rho * (q_t_G * of_G + normal)) /
+          q_t;
+      SpatialMandelMatrix result = 2. * rho * G * along_deviators() +
+                                   2. * rho * e * of_G.transpose() +
+                                   t * of_rho.transpose();
+      if (!opens)
+        result -= I * of_P.transpose();
+      return result;
+    }
+
+    double M;
     double cosine, sine;
     double w;        ///< plastic volume strain, compression positive
     double P, G, Pc; ///< at the end of the step (Pa)
@@ -247,12 +337,13 @@ namespace geocone
                            double              *history,
                            SpatialMandelMatrix *tangent) const
   {
-    const SpatialMandel I = unit_tensor<n_spatial>(), e = deviator(strain),
-                        s_n = deviator(stress_n);
-    const double v          = -trace(strain);
-    const double P_n        = pressure(stress_n);
-    const double Pc_n       = history_n[place_of_pc()] + a;
-    const auto   set        = [&](const Mode           mode,
+    const SpatialMandel I    = unit_tensor<n_spatial>();
+    const StrainStep    step = {pressure(stress_n),
+                                history_n[place_of_pc()] + a,
+                                -trace(strain),
+                                deviator(strain),
+                                deviator(stress_n)};
+    const auto          set  = [&](const Mode           mode,
                          const SpatialMandel &s,
                          const double         P,
                          const double         Pc) {
@@ -264,79 +355,27 @@ namespace geocone
           (opens ? std::max(Pc, least + q * q / least) : Pc) - a;
       return opens ? Mode::apex : mode;
     };
-    const SpatialMandelMatrix along_deviators =
-      SpatialMandelMatrix::Identity() - I * I.transpose() / 3.;
 
-    const Elastic       trial   = elastic(P_n, v);
-    const SpatialMandel t       = s_n + 2. * trial.G * e;
+    const Elastic       trial   = elastic(step.P_n, step.v);
+    const SpatialMandel t       = step.s_n + 2. * trial.G * step.e;
     const double        q_trial = equivalent(t) / M;
-    if (q_trial * q_trial + trial.P * (trial.P - Pc_n) <= 0.)
+    if (q_trial * q_trial + trial.P * (trial.P - step.Pc_n) <= 0.)
       {
-        const Mode mode = set(Mode::elastic, t, trial.P, Pc_n);
+        const Mode mode = set(Mode::elastic, t, trial.P, step.Pc_n);
         if (tangent != nullptr)
           {
-            *tangent = 2. * trial.G * along_deviators -
-                       2. * trial.slope * e * I.transpose();
+            *tangent = 2. * trial.G * along_deviators() -
+                       2. * trial.slope * step.e * I.transpose();
             if (mode != Mode::apex)
               *tangent += trial.P / kappa * I * I.transpose();
           }
         return mode;
       }
 
-    // The half of the ellipse to which plastic flow leads, and where on it the size
-    // would not change; from there on the trial stress is outside.
-    const double part      = trial.P / Pc_n;
-    const bool   contracts = part >= 0.5;
-    const double unchanged = part < 1. ? 2. * std::acos(std::sqrt(part)) : 0.;
-    const double low       = contracts ? std::min(unchanged, pi / 2.) : pi / 2.,
-                 high      = contracts ? pi / 2. : std::max(unchanged, pi / 2.);
-    const double guess     = std::atan2(q_trial, trial.P - Pc_n / 2.);
-    const auto   at        = [&](const double phi) {
-      return Trial(*this, P_n, Pc_n, v, e, s_n, phi);
-    };
-    const double phi =
-      increasing_root(low,
-                      high,
-                      guess >= low && guess <= high ? guess : (low + high) / 2.,
-                      [&](const double x) {
-                        const Trial here = at(x);
-                        return std::pair(here.value, here.by_phi.value);
-                      });
-    const Trial end = at(phi);
-    // Near the critical state N/D is 0/0.
-    const bool   by_quotient = std::abs(end.cosine) > 0.5;
-    const double q           = M * end.Pc * end.sine / 2.;
-    const double rho         = by_quotient ? end.N / end.D : q / end.q_t;
-    const Mode   mode        = set(Mode::cone, rho * end.t, end.P, end.Pc);
+    const Trial end = Trial::of_flow(*this, step, trial.P, q_trial);
+    const Mode mode = set(Mode::cone, end.factor_of_t() * end.t, end.P, end.Pc);
     if (tangent != nullptr)
-      {
-        // Gradients by the strain: v' = -I, and q_t' = q_t_G G' + normal.
-        const SpatialMandel normal =
-          end.q_t > 0. ? SpatialMandel(3. * end.G / end.q_t * end.t)
-                       : SpatialMandel::Zero();
-        const SpatialMandel of_phi =
-          (end.by_v.value * I + end.cosine * normal) / end.by_phi.value;
-        const auto gradient = [&](const double by_v, const double by_phi) {
-          return SpatialMandel(by_phi * of_phi - by_v * I);
-        };
-        const SpatialMandel of_P = gradient(end.by_v.P, end.by_phi.P),
-                            of_G = gradient(end.by_v.G, end.by_phi.G);
-        SpatialMandel of_rho;
-        if (by_quotient)
-          of_rho = (gradient(end.by_v.N, end.by_phi.N) -
-                    rho * gradient(end.by_v.D, end.by_phi.D)) /
-                   end.D;
-        else
-          of_rho = (M / 2. *
-                      (end.sine * gradient(end.by_v.Pc, end.by_phi.Pc) +
-                       end.Pc * end.cosine * of_phi) -
-                    rho * (end.q_t_G * of_G + normal)) /
-                   end.q_t;
-        *tangent = 2. * rho * end.G * along_deviators +
-                   2. * rho * e * of_G.transpose() + end.t * of_rho.transpose();
-        if (mode != Mode::apex)
-          *tangent -= I * of_P.transpose();
-      }
+      *tangent = end.tangent(step.e, mode == Mode::apex);
     return mode;
   }
 

@@ -93,91 +93,184 @@ namespace geocone
       h(size)      = state.pcb;
       h(structure) = state.Rb;
     }
+
+    using Constants = SubloadingConstants;
+
+    /** A number of the model as a parameter. */
+    struct Constant
+    {
+      const char *name;
+      double Constants::*value;
+      const char        *documentation;
+      bool (*holds)(const Constants &);
+      const char *allowed;
+      const char *remedy;
+
+      double Constants::*bound = nullptr; ///< whose value ends what is allowed
+    };
+
+    /** Apart from the tables, which have the order of the declarations and the checks:
+     *  M's bound, which is that of rotational hardening, follows its check. */
+    constexpr Constant rotational_hardening = {
+      "Rotational hardening rate cbeta",
+      &Constants::cbeta,
+      "cbeta (-), >= 0; 0: the inclination beta does not change.",
+      [](const Constants &c) { return c.cbeta >= 0.; },
+      "cbeta >= 0",
+      "0 switches it off"};
+
+    constexpr Constant elasticity_and_strength[] = {
+      {"Swelling index kappa",
+       &Constants::kappa,
+       "Slope of swelling lines in ln v over ln p (-), 0 < kappa < lambda. It "
+       "is the textbooks' kappa over v.",
+       [](const Constants &c) { return c.kappa > 0.; },
+       "kappa > 0",
+       "clays have 0.005 to 0.05"},
+      {"Compression index lambda",
+       &Constants::lambda,
+       "Slope of compression lines in ln v over ln p (-).",
+       [](const Constants &c) { return c.lambda > c.kappa; },
+       "lambda > kappa = ",
+       "clays have lambda of 4 to 10 times kappa",
+       &Constants::kappa},
+      {"Poisson ratio",
+       &Constants::nu,
+       "nu (-), between -1 and 0.5, both excluded.",
+       [](const Constants &c) { return c.nu > -1. && c.nu < 0.5; },
+       "-1 < nu < 0.5",
+       "soils have 0.1 to 0.4"},
+      {"Elastic cohesion pe",
+       &Constants::pe,
+       "pe (Pa), >= 0: the bulk modulus is (p + pe)/kappa.",
+       [](const Constants &c) { return c.pe >= 0.; },
+       "pe >= 0 Pa",
+       "0, or some kPa for stiffness without pressure"},
+      {"Apex ratio xi",
+       &Constants::xi,
+       "xi (-), 0 <= xi < 0.5: the yield surface reaches to the tension p = "
+       "-xi pcb.",
+       [](const Constants &c) { return c.xi >= 0. && c.xi < 0.5; },
+       "0 <= xi < 0.5",
+       "0 for soil without tensile strength"},
+      {"Yield slope M",
+       &Constants::M,
+       "M (-), > 0: half axes of the yield ellipsoid, q over p. With "
+       "rotational hardening M <= k Mc.",
+       [](const Constants &c) { return c.M > 0.; },
+       "M > 0",
+       "soils have 0.7 to 1.5"},
+      {"Critical state slope Mc",
+       &Constants::Mc,
+       "Mc (-), > 0: q/p at the critical state in triaxial compression, 6 "
+       "sin(phi)/(3 - sin(phi)). It acts by rotational hardening only; "
+       "without, the critical state is at M.",
+       [](const Constants &c) { return c.Mc > 0.; },
+       "Mc > 0",
+       "6 sin(phi)/(3 - sin(phi)), with the friction angle phi"},
+      {"Strength ratio k",
+       &Constants::k,
+       "k (-), 0.5 < k <= 1: critical state slope in triaxial extension over "
+       "that in compression; 3/(3 + Mc) is Mohr-Coulomb's.",
+       [](const Constants &c) { return c.k > 0.5 && c.k <= 1.; },
+       "0.5 < k <= 1",
+       "3/(3 + Mc) is Mohr-Coulomb's"}};
+
+    constexpr Constant flow_and_hardening[] = {
+      {"Potential ratio alpha",
+       &Constants::alpha,
+       "alpha (-), 0 < alpha < sqrt(2): slope of the plastic potential over M; "
+       "1 is associated flow.",
+       [](const Constants &c) { return c.alpha > 0. && c.alpha < sqrt2; },
+       "0 < alpha < sqrt(2)",
+       "1 is associated flow"},
+      {"Subloading rate cR",
+       &Constants::cR,
+       "cR (-), > 0: how fast the subloading surface grows to the yield "
+       "surface with plastic strain.",
+       [](const Constants &c) { return c.cR > 0.; },
+       "cR > 0",
+       "20 to 1000; the larger, the more like a classical yield surface"},
+      rotational_hardening,
+      {"Structure loss rate cb",
+       &Constants::cb,
+       "cb (-), >= 0; 0: the structure ratio does not change.",
+       [](const Constants &c) { return c.cb >= 0.; },
+       "cb >= 0",
+       "0 switches it off"},
+      {"Final structure ratio Rbf",
+       &Constants::Rbf,
+       "Rbf (-), >= 1: what remains of the structure.",
+       [](const Constants &c) { return c.Rbf >= 1.; },
+       "Rbf >= 1",
+       "1: all structure can be lost"},
+      {"Similarity centre rate ca",
+       &Constants::ca,
+       "ca (-), >= 0; 0: the centre moves with the surface only.",
+       [](const Constants &c) { return c.ca >= 0.; },
+       "ca >= 0",
+       "0 switches it off"},
+      {"Atmospheric pressure",
+       &Constants::patm,
+       "Reference pressure of rotational hardening (Pa), > 0.",
+       [](const Constants &c) { return c.patm > 0.; },
+       "> 0 Pa",
+       "1e5 Pa is usual"},
+      {"Elastic ratio Rmin",
+       &Constants::Rmin,
+       "Rmin (-), 0 < Rmin < 1, much less than 1: elastic below it.",
+       [](const Constants &c) { return c.Rmin > 0. && c.Rmin < 1.; },
+       "0 < Rmin < 1",
+       "0.01 is usual"},
+      {"Centre margin delta",
+       &Constants::delta,
+       "delta (-), 0 < delta < 1, much less than 1: how near the similarity "
+       "centre comes to the yield surface.",
+       [](const Constants &c) { return c.delta > 0. && c.delta < 1.; },
+       "0 < delta < 1",
+       "0.01 is usual"}};
+
+    constexpr Constant integration[] = {
+      {"Error tolerance",
+       &Constants::tolerance,
+       "Relative error of a substep of the integration (-), 0 < STOL <= 0.1. "
+       "Smaller increments need fewer substeps.",
+       [](const Constants &c) {
+         return c.tolerance > 0. && c.tolerance <= 0.1;
+       },
+       "0 < STOL <= 0.1",
+       "1e-4 is usual"},
+      {"Smallest substep",
+       &Constants::smallest_substep,
+       "Smallest part of an increment (-), > 0 and <= 1; substeps of this size "
+       "are accepted with any error, and counted.",
+       [](const Constants &c) {
+         return c.smallest_substep > 0. && c.smallest_substep <= 1.;
+       },
+       "> 0 and <= 1",
+       "1e-4 is usual"},
+      {"Lowest pressure",
+       &Constants::lowest_pressure,
+       "p + pe is kept at this value or above (Pa), > 0; counted.",
+       [](const Constants &c) { return c.lowest_pressure > 0.; },
+       "> 0 Pa",
+       "1 Pa is usual: without pressure there is no stiffness"}};
   } // namespace
 
   Subloading::Subloading(const std::string &section)
     : ConstitutiveLaw(section)
   {
-    add_parameter("Swelling index kappa",
-                  c.kappa,
-                  "Slope of swelling lines in ln v over ln p (-), 0 < kappa < "
-                  "lambda. It is the textbooks' kappa over v.");
-    add_parameter("Compression index lambda",
-                  c.lambda,
-                  "Slope of compression lines in ln v over ln p (-).");
-    add_parameter(
-      "Poisson ratio", c.nu, "nu (-), between -1 and 0.5, both excluded.");
-    add_parameter("Elastic cohesion pe",
-                  c.pe,
-                  "pe (Pa), >= 0: the bulk modulus is (p + pe)/kappa.");
-    add_parameter("Apex ratio xi",
-                  c.xi,
-                  "xi (-), 0 <= xi < 0.5: the yield surface reaches to the "
-                  "tension p = -xi pcb.");
-    add_parameter(
-      "Yield slope M",
-      c.M,
-      "M (-), > 0: half axes of the yield ellipsoid, q over p. With "
-      "rotational hardening M <= k Mc.");
-    add_parameter(
-      "Critical state slope Mc",
-      c.Mc,
-      "Mc (-), > 0: q/p at the critical state in triaxial "
-      "compression, 6 sin(phi)/(3 - sin(phi)). It acts by rotational "
-      "hardening only; without, the critical state is at M.");
-    add_parameter("Strength ratio k",
-                  c.k,
-                  "k (-), 0.5 < k <= 1: critical state slope in triaxial "
-                  "extension over that in compression; 3/(3 + Mc) is "
-                  "Mohr-Coulomb's.");
-    add_parameter("Potential ratio alpha",
-                  c.alpha,
-                  "alpha (-), 0 < alpha < sqrt(2): slope of the plastic "
-                  "potential over M; 1 is associated flow.");
-    add_parameter("Subloading rate cR",
-                  c.cR,
-                  "cR (-), > 0: how fast the subloading surface grows to the "
-                  "yield surface with plastic strain.");
-    add_parameter("Rotational hardening rate cbeta",
-                  c.cbeta,
-                  "cbeta (-), >= 0; 0: the inclination beta does not change.");
-    add_parameter("Structure loss rate cb",
-                  c.cb,
-                  "cb (-), >= 0; 0: the structure ratio does not change.");
-    add_parameter("Final structure ratio Rbf",
-                  c.Rbf,
-                  "Rbf (-), >= 1: what remains of the structure.");
-    add_parameter("Similarity centre rate ca",
-                  c.ca,
-                  "ca (-), >= 0; 0: the centre moves with the surface only.");
-    add_parameter("Atmospheric pressure",
-                  c.patm,
-                  "Reference pressure of rotational hardening (Pa), > 0.");
-    add_parameter(
-      "Elastic ratio Rmin",
-      c.Rmin,
-      "Rmin (-), 0 < Rmin < 1, much less than 1: elastic below it.");
-    add_parameter("Centre margin delta",
-                  c.delta,
-                  "delta (-), 0 < delta < 1, much less than 1: how near the "
-                  "similarity centre comes to the yield surface.");
+    const auto declare = [&](const auto &constants) {
+      for (const Constant &constant : constants)
+        add_parameter(constant.name, c.*constant.value, constant.documentation);
+    };
+    declare(elasticity_and_strength);
+    declare(flow_and_hardening);
     rotation.declare(*this,
                      "Pressure of rotation",
                      ": the reading of the report's equation (24), sh = s - p "
                      "beta or s - ph beta with ph = p + xi pcb.");
-    add_parameter(
-      "Error tolerance",
-      c.tolerance,
-      "Relative error of a substep of the integration (-), 0 < STOL "
-      "<= 0.1. Smaller increments need fewer substeps.");
-    add_parameter(
-      "Smallest substep",
-      c.smallest_substep,
-      "Smallest part of an increment (-), > 0 and <= 1; substeps of "
-      "this size are accepted with any error, and counted.");
-    add_parameter("Lowest pressure",
-                  c.lowest_pressure,
-                  "p + pe is kept at this value or above (Pa), > 0; counted.");
+    declare(integration);
 
     add_parameter("Overconsolidation ratio",
                   ocr,
@@ -226,104 +319,27 @@ namespace geocone
   void
   Subloading::check_constants() const
   {
-    require(c.kappa > 0.,
-            "Swelling index kappa",
-            c.kappa,
-            "kappa > 0",
-            "clays have 0.005 to 0.05");
-    require(c.lambda > c.kappa,
-            "Compression index lambda",
-            c.lambda,
-            "lambda > kappa = " + format("%g", c.kappa),
-            "clays have lambda of 4 to 10 times kappa");
-    require(c.nu > -1. && c.nu < 0.5,
-            "Poisson ratio",
-            c.nu,
-            "-1 < nu < 0.5",
-            "soils have 0.1 to 0.4");
-    require(c.pe >= 0.,
-            "Elastic cohesion pe",
-            c.pe,
-            "pe >= 0 Pa",
-            "0, or some kPa for stiffness without pressure");
-    require(c.xi >= 0. && c.xi < 0.5,
-            "Apex ratio xi",
-            c.xi,
-            "0 <= xi < 0.5",
-            "0 for soil without tensile strength");
-    require(c.M > 0., "Yield slope M", c.M, "M > 0", "soils have 0.7 to 1.5");
-    require(c.Mc > 0.,
-            "Critical state slope Mc",
-            c.Mc,
-            "Mc > 0",
-            "6 sin(phi)/(3 - sin(phi)), with the friction angle phi");
-    require(c.k > 0.5 && c.k <= 1.,
-            "Strength ratio k",
-            c.k,
-            "0.5 < k <= 1",
-            "3/(3 + Mc) is Mohr-Coulomb's");
-    require(c.cbeta >= 0.,
-            "Rotational hardening rate cbeta",
-            c.cbeta,
-            "cbeta >= 0",
-            "0 switches it off");
+    const auto check = [&](const Constant &constant) {
+      require(constant.holds(c),
+              constant.name,
+              c.*constant.value,
+              constant.allowed + (constant.bound != nullptr
+                                    ? format("%g", c.*constant.bound)
+                                    : ""),
+              constant.remedy);
+    };
+    for (const Constant &constant : elasticity_and_strength)
+      check(constant);
+    check(rotational_hardening);
     require(c.cbeta == 0. || c.M <= c.k * c.Mc * (1. + 1e-12),
             "Yield slope M",
             c.M,
             "M <= k Mc = " + format("%g", c.k * c.Mc) + " where cbeta > 0",
             "lower M, or there is no critical state in extension");
-    require(c.alpha > 0. && c.alpha < sqrt2,
-            "Potential ratio alpha",
-            c.alpha,
-            "0 < alpha < sqrt(2)",
-            "1 is associated flow");
-    require(c.cR > 0.,
-            "Subloading rate cR",
-            c.cR,
-            "cR > 0",
-            "20 to 1000; the larger, the more like a classical yield surface");
-    require(c.cb >= 0.,
-            "Structure loss rate cb",
-            c.cb,
-            "cb >= 0",
-            "0 switches it off");
-    require(c.Rbf >= 1.,
-            "Final structure ratio Rbf",
-            c.Rbf,
-            "Rbf >= 1",
-            "1: all structure can be lost");
-    require(c.ca >= 0.,
-            "Similarity centre rate ca",
-            c.ca,
-            "ca >= 0",
-            "0 switches it off");
-    require(
-      c.patm > 0., "Atmospheric pressure", c.patm, "> 0 Pa", "1e5 Pa is usual");
-    require(c.Rmin > 0. && c.Rmin < 1.,
-            "Elastic ratio Rmin",
-            c.Rmin,
-            "0 < Rmin < 1",
-            "0.01 is usual");
-    require(c.delta > 0. && c.delta < 1.,
-            "Centre margin delta",
-            c.delta,
-            "0 < delta < 1",
-            "0.01 is usual");
-    require(c.tolerance > 0. && c.tolerance <= 0.1,
-            "Error tolerance",
-            c.tolerance,
-            "0 < STOL <= 0.1",
-            "1e-4 is usual");
-    require(c.smallest_substep > 0. && c.smallest_substep <= 1.,
-            "Smallest substep",
-            c.smallest_substep,
-            "> 0 and <= 1",
-            "1e-4 is usual");
-    require(c.lowest_pressure > 0.,
-            "Lowest pressure",
-            c.lowest_pressure,
-            "> 0 Pa",
-            "1 Pa is usual: without pressure there is no stiffness");
+    for (const Constant &constant : flow_and_hardening)
+      check(constant);
+    for (const Constant &constant : integration)
+      check(constant);
   }
 
   void

@@ -20,6 +20,58 @@ namespace geocone
     const double along = std::cos(radians(10.));
 
     constexpr unsigned int n_motions = RigidMotion::n_components;
+
+    /** What the sums over the nodes of an obstacle are: sum G' q, sum rho G' Q G by
+     *  rows, and the size of what is added. */
+    constexpr unsigned int n_sums = n_motions + n_motions * n_motions + 1;
+
+    /** Of an obstacle at a motion: what its equilibrium lacks, E, and the size of its
+     *  sums. */
+    struct BodyBalance
+    {
+      Eigen::Vector3d R = Eigen::Vector3d::Zero();
+      Eigen::Matrix3d E = Eigen::Matrix3d::Identity();
+      double          size;
+
+      BodyBalance(const ObstacleBody &body,
+                  const RigidMotion  &motion,
+                  const double       *sums)
+        : size(sums[n_sums - 1])
+      {
+        for (unsigned int k = 0; k < n_motions; ++k)
+          if (body.is_free[k])
+            {
+              const double inertia = body.inertia[k];
+              R[k] = inertia * (motion[k] - body.without_contact[k]) + sums[k];
+              size += inertia *
+                      (std::abs(motion[k]) + std::abs(body.without_contact[k]));
+              for (unsigned int l = 0; l < n_motions; ++l)
+                if (body.is_free[l])
+                  E(k, l) = sums[n_motions + n_motions * k + l] +
+                            (k == l ? inertia : 0.);
+            }
+      }
+    };
+    using Balances = std::vector<BodyBalance>;
+
+    bool
+    is_solved(const Balances &now)
+    {
+      return std::all_of(now.begin(), now.end(), [](const BodyBalance &body) {
+        return body.R.norm() <= 1e-14 * body.size;
+      });
+    }
+
+    /** Of all residuals, each over the diagonal of E at @p scale. */
+    double
+    norm(const Balances &at, const Balances &scale)
+    {
+      double sum = 0.;
+      for (unsigned int o = 0; o < at.size(); ++o)
+        for (unsigned int k = 0; k < n_motions; ++k)
+          sum += at[o].R[k] * at[o].R[k] / scale[o].E(k, k);
+      return std::sqrt(sum);
+    }
   } // namespace
 
   unsigned int
@@ -109,6 +161,33 @@ namespace geocone
     return result;
   }
 
+  std::vector<double>
+  Contact::sums_of_nodes(const std::vector<Local> &locals,
+                         const MPI_Comm            comm) const
+  {
+    std::vector<double> sums(n_sums * bodies.size(), 0.);
+    for (unsigned int i = 0; i < list.size(); ++i)
+      if (const ContactNode &node = list[i];
+          is_owned(node) && bodies[node.obstacle].n_free() > 0)
+        {
+          const Projection at =
+            project(node, locals[i], motion[node.obstacle].at(node.arm));
+          double *const own = &sums[n_sums * node.obstacle];
+          for (unsigned int k = 0; k < n_motions; ++k)
+            {
+              const Force G = RigidMotion::of_point(k, node.arm);
+              own[k] += G * at.q;
+              for (unsigned int l = 0; l < n_motions; ++l)
+                own[n_motions + n_motions * k + l] +=
+                  locals[i].rho *
+                  (G * (at.Q * RigidMotion::of_point(l, node.arm)));
+            }
+          own[n_sums - 1] += at.q.norm() * (1. + node.arm.norm());
+        }
+    sum_over_ranks(sums, comm);
+    return sums;
+  }
+
   void
   Contact::move_bodies(const std::vector<Local> &locals, const MPI_Comm comm)
   {
@@ -116,86 +195,27 @@ namespace geocone
     body_error = 0.;
     if (n_free == 0)
       return;
-    using Vector3 = Eigen::Vector3d;
-    // Of all obstacles at given motions: residuals, E, and the size of the sums.
-    struct Balance
-    {
-      std::vector<Vector3>         R;
-      std::vector<Eigen::Matrix3d> E;
-      std::vector<double>          size;
-    };
-    constexpr unsigned int stride  = n_motions + n_motions * n_motions + 1;
-    const auto             balance = [&]() {
-      std::vector<double> sums(stride * bodies.size(), 0.);
-      for (unsigned int i = 0; i < list.size(); ++i)
-        if (const ContactNode &node = list[i];
-            is_owned(node) && bodies[node.obstacle].n_free() > 0)
-          {
-            const Projection at =
-              project(node, locals[i], motion[node.obstacle].at(node.arm));
-            double *const own = &sums[stride * node.obstacle];
-            for (unsigned int k = 0; k < n_motions; ++k)
-              {
-                const Force G = RigidMotion::of_point(k, node.arm);
-                own[k] += G * at.q;
-                for (unsigned int l = 0; l < n_motions; ++l)
-                  own[n_motions + n_motions * k + l] +=
-                    locals[i].rho *
-                    (G * (at.Q * RigidMotion::of_point(l, node.arm)));
-              }
-            own[stride - 1] += at.q.norm() * (1. + node.arm.norm());
-          }
-      sum_over_ranks(sums, comm);
-      Balance result;
+    const auto balance = [&]() {
+      const std::vector<double> sums = sums_of_nodes(locals, comm);
+      Balances                  result;
       for (unsigned int o = 0; o < bodies.size(); ++o)
-        {
-          const double *const own  = &sums[stride * o];
-          Vector3             R    = Vector3::Zero();
-          Eigen::Matrix3d     E    = Eigen::Matrix3d::Identity();
-          double              size = own[stride - 1];
-          for (unsigned int k = 0; k < n_motions; ++k)
-            if (bodies[o].is_free[k])
-              {
-                const double inertia = bodies[o].inertia[k];
-                R[k] = inertia * (motion[o][k] - bodies[o].without_contact[k]) +
-                       own[k];
-                size += inertia * (std::abs(motion[o][k]) +
-                                   std::abs(bodies[o].without_contact[k]));
-                for (unsigned int l = 0; l < n_motions; ++l)
-                  if (bodies[o].is_free[l])
-                    E(k, l) = own[n_motions + n_motions * k + l] +
-                              (k == l ? inertia : 0.);
-              }
-          result.R.push_back(R);
-          result.E.push_back(E);
-          result.size.push_back(size);
-        }
+        result.emplace_back(bodies[o], motion[o], &sums[n_sums * o]);
       return result;
-    };
-    const auto norm = [](const Balance &at, const Balance &scale) {
-      double sum = 0.;
-      for (unsigned int o = 0; o < at.R.size(); ++o)
-        for (unsigned int k = 0; k < n_motions; ++k)
-          sum += at.R[o][k] * at.R[o][k] / scale.E[o](k, k);
-      return std::sqrt(sum);
     };
 
     // Newton's method from the last motions, in shorter steps where it must.
-    Balance now = balance();
-    for (unsigned int iteration = 0; iteration < 50; ++iteration)
+    Balances now = balance();
+    for (unsigned int iteration = 0; iteration < 50 && !is_solved(now);
+         ++iteration)
       {
-        bool is_solved = true;
-        for (unsigned int o = 0; o < bodies.size(); ++o)
-          is_solved = is_solved && now.R[o].norm() <= 1e-14 * now.size[o];
-        if (is_solved)
-          break;
         const std::vector<RigidMotion> before = motion;
-        const Balance                  old    = now;
+        const Balances                 old    = now;
         for (double step = 1.; step > 1e-4; step /= 2.)
           {
             for (unsigned int o = 0; o < bodies.size(); ++o)
               {
-                const Vector3 change = old.E[o].partialPivLu().solve(old.R[o]);
+                const Eigen::Vector3d change =
+                  old[o].E.partialPivLu().solve(old[o].R);
                 for (unsigned int k = 0; k < n_motions; ++k)
                   motion[o][k] = before[o][k] - step * change[k];
               }
@@ -208,8 +228,8 @@ namespace geocone
       }
     for (unsigned int o = 0; o < bodies.size(); ++o)
       {
-        body_error += now.R[o].norm();
-        const Eigen::Matrix3d inverse = now.E[o].inverse();
+        body_error += now[o].R.norm();
+        const Eigen::Matrix3d inverse = now[o].E.inverse();
         for (unsigned int k = 0; k < n_motions; ++k)
           for (unsigned int l = 0; l < n_motions; ++l)
             if (bodies[o].is_free[k] && bodies[o].is_free[l])

@@ -15,6 +15,44 @@ namespace geocone
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** The stress scale (Pa) and the strain scale of Quality. */
+    struct Scales
+    {
+      double stress, strain;
+    };
+
+    /** Of a point, but for the excess of the exact cone. @param cone that was solved
+     *  for @param z,s in its axes, in the plane or in space */
+    template <typename Vector>
+    Quality
+    quality_of(const FlowCone &cone,
+               const Vector   &z,
+               const Vector   &s,
+               const double    two_G,
+               const Scales   &scales)
+    {
+      Quality here;
+      here.cone_violation = cone.yield_function(s) / scales.stress;
+      // The complementarity law is that of a cone without a cut-off.
+      if (s[0] > -cone.tension + 1e-12 * scales.stress)
+        {
+          const auto y = cone.psi(z);
+          here.natural_map =
+            natural_map(cone, s, y, two_G).norm() / scales.stress;
+          if (scales.strain > 0.)
+            {
+              here.dual_violation = cone.dual_violation(y) / scales.strain;
+              here.complementarity =
+                std::abs(cone.complementarity_product(y, s)) /
+                (scales.strain * scales.stress);
+            }
+        }
+      return here;
+    }
+  } // namespace
+
   std::string
   InternalForces::not_a_number() const
   {
@@ -50,47 +88,48 @@ namespace geocone
     return Utilities::MPI::sum(sum, comm);
   }
 
+  template <typename Function>
+  void
+  InternalForces::for_each_cone(const Function &f) const
+  {
+    for (const Run &run : runs)
+      {
+        const Material   &law     = materials[run.material];
+        const Elasticity &elastic = law.elasticity();
+        const bool        is_cone =
+          law.flow_cone(points.history_of(run.begin)).has_value();
+        for (unsigned int p = run.begin; p < run.end; ++p)
+          if (law.is_spatial())
+            {
+              const SpatialMandel s = whole_stress(p), s_n = whole_stress_n(p);
+              if (const auto solved = law.spatial_cone(s_n, step_law()))
+                f(SpatialMandel(
+                    spatial_axes() *
+                    (elastic.strain(SpatialMandel(s - s_n)) - whole_strain(p))),
+                  SpatialMandel(spatial_axes() * s),
+                  *solved,
+                  *law.spatial_cone(s_n, {}),
+                  elastic.two_G);
+            }
+          else if (is_cone)
+            {
+              const Mandel z = to_cone_axes(
+                Mandel(elastic.strain(Mandel(stress[p] - points.stress[p])) -
+                       strain[p]));
+              const double slip = FlowCone::tangential_norm(z);
+              f(z,
+                to_cone_axes(stress[p]),
+                *law.end_cone(
+                  points.stress[p], points.history_of(p), step_law(), slip),
+                *law.exact_end_cone(points.history_of(p), slip),
+                elastic.two_G);
+            }
+      }
+  }
+
   Quality
   InternalForces::quality() const
   {
-    // Calls f(z, s, the cone that was solved for, the exact one, 2G) for each point of
-    // a law with a cone, in its axes; both cones at the end of the step.
-    const auto for_each_cone = [&](const auto &f) {
-      for (const Run &run : runs)
-        {
-          const Material   &law     = materials[run.material];
-          const Elasticity &elastic = law.elasticity();
-          const bool        is_cone =
-            law.flow_cone(points.history_of(run.begin)).has_value();
-          for (unsigned int p = run.begin; p < run.end; ++p)
-            if (law.is_spatial())
-              {
-                const SpatialMandel s   = whole_stress(p),
-                                    s_n = whole_stress_n(p);
-                if (const auto solved = law.spatial_cone(s_n, step_law()))
-                  f(SpatialMandel(spatial_axes() *
-                                  (elastic.strain(SpatialMandel(s - s_n)) -
-                                   whole_strain(p))),
-                    SpatialMandel(spatial_axes() * s),
-                    *solved,
-                    *law.spatial_cone(s_n, {}),
-                    elastic.two_G);
-              }
-            else if (is_cone)
-              {
-                const Mandel z = to_cone_axes(
-                  Mandel(elastic.strain(Mandel(stress[p] - points.stress[p])) -
-                         strain[p]));
-                const double slip = FlowCone::tangential_norm(z);
-                f(z,
-                  to_cone_axes(stress[p]),
-                  *law.end_cone(
-                    points.stress[p], points.history_of(p), step_law(), slip),
-                  *law.exact_end_cone(points.history_of(p), slip),
-                  elastic.two_G);
-              }
-        }
-    };
     // Two passes: the scales of all ranks first.
     double stress_scale = 0., k_scale = 0., y_scale = 0., compliance = 0.;
     for_each_cone([&](const auto     &z,
@@ -103,34 +142,21 @@ namespace geocone
       stress_scale = std::max(stress_scale, s.norm());
       y_scale      = std::max(y_scale, solved.psi(z).norm());
     });
-    stress_scale = Utilities::MPI::max(stress_scale, comm) +
-                   Utilities::MPI::max(k_scale, comm);
-    y_scale = std::max(Utilities::MPI::max(y_scale, comm),
-                       stress_scale * Utilities::MPI::max(compliance, comm));
+    Scales scales;
+    scales.stress = Utilities::MPI::max(stress_scale, comm) +
+                    Utilities::MPI::max(k_scale, comm);
+    scales.strain =
+      std::max(Utilities::MPI::max(y_scale, comm),
+               scales.stress * Utilities::MPI::max(compliance, comm));
 
     Quality worst;
     for_each_cone([&](const auto     &z,
                       const auto     &s,
-                      const FlowCone &cone,
+                      const FlowCone &solved,
                       const FlowCone &exact,
                       const double    two_G) {
-      Quality here;
-      here.cone_violation = cone.yield_function(s) / stress_scale;
-      here.cone_excess    = exact.yield_function(s);
-      // The complementarity law is that of a cone without a cut-off.
-      if (s[0] > -cone.tension + 1e-12 * stress_scale)
-        {
-          const auto y = cone.psi(z);
-          here.natural_map =
-            natural_map(cone, s, y, two_G).norm() / stress_scale;
-          if (y_scale > 0.)
-            {
-              here.dual_violation = cone.dual_violation(y) / y_scale;
-              here.complementarity =
-                std::abs(cone.complementarity_product(y, s)) /
-                (y_scale * stress_scale);
-            }
-        }
+      Quality here     = quality_of(solved, z, s, two_G, scales);
+      here.cone_excess = exact.yield_function(s);
       worst.take_worse(here);
     });
     // Of laws with another surface, its excess alone.

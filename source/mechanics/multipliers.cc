@@ -7,6 +7,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace geocone
@@ -33,6 +35,172 @@ namespace geocone
     {
       sum_over_ranks(x, comm);
       return x;
+    }
+
+    /** A row as the ranks give it: its coefficients by dof, and its right-hand side. */
+    struct GivenRow
+    {
+      std::map<types::global_dof_index, double> coefficients;
+      double                                    target = 0.;
+    };
+
+    /** By condition, component and number. */
+    using GivenRows = std::map<std::array<unsigned int, 3>, GivenRow>;
+
+    /** The rows that all ranks have given, each the sum of their parts.
+     *  @param contributions of this rank, as Multipliers has them. Collective. */
+    GivenRows
+    rows_of_all_ranks(const std::vector<std::array<double, 5>> &contributions,
+                      const MPI_Comm                            comm)
+    {
+      GivenRows rows;
+      for (const auto &of_rank :
+           Utilities::MPI::all_gather(comm, contributions))
+        for (const auto &[condition, component, number, node, value] : of_rank)
+          {
+            GivenRow &row = rows[{{static_cast<unsigned int>(condition),
+                                   static_cast<unsigned int>(component),
+                                   static_cast<unsigned int>(number)}}];
+            if (node < 0.)
+              row.target += value;
+            else
+              row
+                .coefficients[dim * static_cast<types::global_dof_index>(node) +
+                              static_cast<unsigned int>(component)] += value;
+          }
+      return rows;
+    }
+
+    /** The dofs that rows touch, each with its column, and what it is as its owner
+     *  knows: free, prescribed (with its value), or without mass. */
+    struct TouchedDofs
+    {
+      std::map<types::global_dof_index, unsigned int> column;
+      VectorXd is_free, is_held, value; ///< by column
+
+      /** Collective. */
+      TouchedDofs(const GivenRows   &rows,
+                  const Space       &space,
+                  const Constraints &constraints,
+                  const Vector      &prescribed)
+      {
+        for (const auto &row : rows)
+          for (const auto &entry : row.second.coefficients)
+            column.emplace(entry.first, 0);
+        unsigned int n_dofs = 0;
+        for (auto &entry : column)
+          entry.second = n_dofs++;
+        is_free = is_held = value = VectorXd::Zero(n_dofs);
+        const auto &layout        = *space.partitioner();
+        for (const auto &[dof, j] : column)
+          if (layout.in_local_range(dof))
+            {
+              const unsigned int local = layout.global_to_local(dof);
+              is_free[j]               = constraints.is_free(local);
+              is_held[j]               = constraints.is_prescribed(local);
+              value[j] =
+                is_held[j] != 0. ? prescribed.local_element(local) : 0.;
+            }
+        for (VectorXd *sum : {&is_free, &is_held, &value})
+          sum_over_ranks(*sum, prescribed.get_mpi_communicator());
+      }
+    };
+
+    /** The rows, in order, as equations for the free dofs. */
+    struct Equations
+    {
+      std::vector<Multipliers::Key> keys;
+      MatrixXd                      matrix; ///< columns of TouchedDofs
+      VectorXd                      asked;  ///< right-hand sides as given
+      VectorXd target;     ///< less what prescribed dofs contribute
+      double   scale = 0.; ///< of the velocities (m/s)
+
+      Equations(const unsigned int n_rows, const unsigned int n_dofs)
+        : matrix(MatrixXd::Zero(n_rows, n_dofs))
+        , asked(n_rows)
+        , target(n_rows)
+      {}
+
+      /** @return the sum of its coefficients, or nothing if no function with mass is
+       *  in it */
+      std::optional<double>
+      add(const Multipliers::Key &key,
+          const GivenRow         &row,
+          const TouchedDofs      &dofs)
+      {
+        double all = 0., supported = 0., free = 0.;
+        for (const auto &[dof, coefficient] : row.coefficients)
+          {
+            const unsigned int j = dofs.column.at(dof);
+            all += coefficient;
+            if (dofs.is_free[j] != 0. || dofs.is_held[j] != 0.)
+              supported += coefficient;
+            if (dofs.is_free[j] != 0.)
+              free += std::abs(coefficient);
+          }
+        if (!(supported > 1e-8 * all))
+          return std::nullopt;
+        const unsigned int r = keys.size();
+        keys.push_back(key);
+        asked[r] = target[r] = row.target;
+        scale                = std::max(scale, std::abs(row.target));
+        // On prescribed nodes but for a rounding.
+        const bool is_fixed = free < rounding * supported;
+        for (const auto &[dof, coefficient] : row.coefficients)
+          {
+            const unsigned int j = dofs.column.at(dof);
+            const double       c = coefficient * (all / supported);
+            if (dofs.is_free[j] != 0. && !is_fixed)
+              matrix(r, j) = c;
+            else if (dofs.is_held[j] != 0.)
+              {
+                target[r] -= c * dofs.value[j];
+                scale = std::max(scale, std::abs(c * dofs.value[j]));
+              }
+          }
+        return all;
+      }
+    };
+
+    /** The numbers of rows that do not depend on each other, in order. */
+    std::vector<int>
+    independent_rows(const MatrixXd &matrix)
+    {
+      Eigen::ColPivHouseholderQR<MatrixXd> qr(matrix.transpose());
+      qr.setThreshold(rank_tolerance);
+      const auto      &ordered = qr.colsPermutation().indices();
+      std::vector<int> kept(ordered.data(), ordered.data() + qr.rank());
+      std::sort(kept.begin(), kept.end());
+      return kept;
+    }
+
+    /** The first of the other rows that, as a combination of those kept, asks for
+     *  something else. @param independent,q the rows and targets of those kept */
+    std::optional<Multipliers::Refusal>
+    disagreement(const Equations        &all,
+                 const std::vector<int> &kept,
+                 const MatrixXd         &independent,
+                 const VectorXd         &q)
+    {
+      if (kept.size() == all.keys.size())
+        return std::nullopt;
+      Eigen::ColPivHouseholderQR<MatrixXd> basis;
+      if (!kept.empty())
+        basis.compute(independent.transpose());
+      for (unsigned int i = 0; i < all.keys.size(); ++i)
+        if (!std::binary_search(kept.begin(), kept.end(), i))
+          {
+            const double left =
+              kept.empty()
+                ? 0.
+                : VectorXd(basis.solve(all.matrix.row(i).transpose())).dot(q);
+            if (std::abs(left - all.target[i]) > rank_tolerance * all.scale)
+              return Multipliers::Refusal{all.keys[i],
+                                          true,
+                                          all.asked[i],
+                                          all.asked[i] - all.target[i] + left};
+          }
+      return std::nullopt;
     }
   } // namespace
 
@@ -77,135 +245,44 @@ namespace geocone
                         const Constraints &constraints,
                         const Vector      &prescribed)
   {
-    comm          = prescribed.get_mpi_communicator();
-    using RowName = std::array<unsigned int, 3>;
-    struct Row
-    {
-      std::map<types::global_dof_index, double> coefficients; // of dofs
-      double                                    target = 0.;
-    };
-    std::map<RowName, Row> rows;
-    for (const auto &of_rank : Utilities::MPI::all_gather(comm, contributions))
-      for (const auto &[condition, component, number, node, value] : of_rank)
-        {
-          Row &row = rows[{{static_cast<unsigned int>(condition),
-                            static_cast<unsigned int>(component),
-                            static_cast<unsigned int>(number)}}];
-          if (node < 0.)
-            row.target += value;
-          else
-            row.coefficients[dim * static_cast<types::global_dof_index>(node) +
-                             static_cast<unsigned int>(component)] += value;
-        }
+    comm                 = prescribed.get_mpi_communicator();
+    const GivenRows rows = rows_of_all_ranks(contributions, comm);
     contributions.clear();
     given = rows.size();
     if (given == 0)
       return std::nullopt;
 
-    // What each touched dof is, as its owner knows: free, prescribed (with its
-    // value), or without mass.
-    std::map<types::global_dof_index, unsigned int> place;
-    for (const auto &row : rows)
-      for (const auto &entry : row.second.coefficients)
-        place.emplace(entry.first, 0);
-    unsigned int n_dofs = 0;
-    for (auto &entry : place)
-      entry.second = n_dofs++;
-    VectorXd is_free = VectorXd::Zero(n_dofs), is_held = is_free,
-             value     = is_free;
-    const auto &layout = *space.partitioner();
-    for (const auto &[dof, j] : place)
-      if (layout.in_local_range(dof))
-        {
-          const unsigned int local = layout.global_to_local(dof);
-          is_free[j]               = constraints.is_free(local);
-          is_held[j]               = constraints.is_prescribed(local);
-          value[j] = is_held[j] != 0. ? prescribed.local_element(local) : 0.;
-        }
-    for (VectorXd *sum : {&is_free, &is_held, &value})
-      sum_over_ranks(*sum, comm);
-
-    MatrixXd             full = MatrixXd::Zero(rows.size(), n_dofs);
-    VectorXd             target(rows.size());
-    double               scale = 0.; // of the velocities
-    unsigned int         r     = 0;
-    std::vector<RowName> names;
+    const TouchedDofs dofs(rows, space, constraints, prescribed);
+    Equations         all(given, dofs.column.size());
     for (const auto &[name, row] : rows)
       {
-        double all = 0., supported = 0., free = 0.;
-        for (const auto &[dof, coefficient] : row.coefficients)
-          {
-            const unsigned int j = place[dof];
-            all += coefficient;
-            if (is_free[j] != 0. || is_held[j] != 0.)
-              supported += coefficient;
-            if (is_free[j] != 0.)
-              free += std::abs(coefficient);
-          }
-        if (!(supported > 1e-8 * all))
-          return Refusal{{name[0], name[1], name[2]}, false};
-        asked.push_back({{name[0], name[1], name[2]}, row.target, all});
-        target[r] = row.target;
-        scale     = std::max(scale, std::abs(row.target));
-        // On prescribed nodes but for a rounding.
-        const bool is_fixed = free < rounding * supported;
-        for (const auto &[dof, coefficient] : row.coefficients)
-          {
-            const unsigned int j = place[dof];
-            const double       c = coefficient * (all / supported);
-            if (is_free[j] != 0. && !is_fixed)
-              full(r, j) = c;
-            else if (is_held[j] != 0.)
-              {
-                target[r] -= c * value[j];
-                scale = std::max(scale, std::abs(c * value[j]));
-              }
-          }
-        names.push_back(name);
-        ++r;
+        const Key  key = {name[0], name[1], name[2]};
+        const auto sum = all.add(key, row, dofs);
+        if (!sum)
+          return Refusal{key, false};
+        asked.push_back({key, row.target, *sum});
       }
 
-    Eigen::ColPivHouseholderQR<MatrixXd> qr(full.transpose());
-    qr.setThreshold(rank_tolerance);
-    const unsigned int rank    = qr.rank();
-    const auto        &ordered = qr.colsPermutation().indices();
-    std::vector<int>   kept(ordered.data(), ordered.data() + rank);
-    std::sort(kept.begin(), kept.end());
-    MatrixXd independent(rank, n_dofs);
+    const std::vector<int> kept = independent_rows(all.matrix);
+    const unsigned int     rank = kept.size();
+    MatrixXd               independent(rank, dofs.column.size());
     q.resize(rank);
     keys.clear();
     for (unsigned int k = 0; k < rank; ++k)
       {
-        independent.row(k) = full.row(kept[k]);
-        q[k]               = target[kept[k]];
-        keys.push_back(
-          {names[kept[k]][0], names[kept[k]][1], names[kept[k]][2]});
+        independent.row(k) = all.matrix.row(kept[k]);
+        q[k]               = all.target[kept[k]];
+        keys.push_back(all.keys[kept[k]]);
       }
     row_sum = independent.rowwise().sum();
-    if (rank < rows.size())
-      {
-        // The others as combinations of those kept.
-        Eigen::ColPivHouseholderQR<MatrixXd> basis;
-        if (rank > 0)
-          basis.compute(independent.transpose());
-        for (unsigned int i = 0; i < rows.size(); ++i)
-          if (!std::binary_search(kept.begin(), kept.end(), i))
-            {
-              const double left =
-                rank > 0 ? VectorXd(basis.solve(full.row(i).transpose())).dot(q)
-                         : 0.;
-              if (std::abs(left - target[i]) > rank_tolerance * scale)
-                return Refusal{{names[i][0], names[i][1], names[i][2]},
-                               true,
-                               rows[names[i]].target,
-                               rows[names[i]].target - target[i] + left};
-            }
-      }
+    if (const auto refusal = disagreement(all, kept, independent, q))
+      return refusal;
 
     std::vector<unsigned int> columns;
+    const auto               &layout = *space.partitioner();
     touched.clear();
-    for (const auto &[dof, j] : place)
-      if (is_free[j] != 0. && layout.in_local_range(dof))
+    for (const auto &[dof, j] : dofs.column)
+      if (dofs.is_free[j] != 0. && layout.in_local_range(dof))
         {
           touched.push_back(layout.global_to_local(dof));
           columns.push_back(j);

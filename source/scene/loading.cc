@@ -15,7 +15,130 @@ namespace geocone
   namespace
   {
     constexpr double most_steps = 1e8; ///< of a stage
-  }                                    // namespace
+
+    /** How the body is brought to failure: what is divided, and what is raised. */
+    void
+    declare_failure(Stage &stage)
+    {
+      stage.add_parameter(
+        "Strength factor",
+        stage.strength_factor,
+        "FEM and MPM: by what c and tan(phi) of all materials are divided at "
+        "the end of the stage, linear in time from what they were before; "
+        "theta is at most the reduced phi. 0: as before. With 'Until failure' "
+        "= true the factor at which no equilibrium is found is the factor of "
+        "safety.");
+      stage.add_parameter(
+        "Until failure",
+        stage.until_failure,
+        "FEM and MPM: the first step that cannot be solved, however it is cut, "
+        "ends the stage and the run as wanted: loads that grow in time are "
+        "raised until the body carries no more. summary.json tells until when "
+        "it did (topic 'failure').");
+      stage.add_parameter(
+        "Raised loads",
+        stage.raised_loads,
+        "FEM and MPM: names in 'Tractions/Names', and 'weight': what they "
+        "exert is multiplied by a load factor which is found in each step, so "
+        "that they move the body at the 'Raising velocity', also where they "
+        "can grow no more. Other loads are as given.");
+      stage.add_parameter(
+        "Raising velocity",
+        stage.raising_velocity,
+        "Mean velocity (m/s) along the raised loads, F.v/sum |F| with their "
+        "forces F on the nodes; > 0, or < 0 to take them back.");
+    }
+
+    /** For explicit MPM only: ways to a state of rest, and what is set anew. */
+    void
+    declare_explicit_only(Stage &stage)
+    {
+      stage.add_parameter(
+        "Damping",
+        stage.damping,
+        "Explicit MPM: local damping, the part (0 to 1) of each node's "
+        "unbalanced force that opposes its velocity; 0.5 to 0.75 where a state "
+        "of rest is looked for.");
+      stage.add_parameter(
+        "Kinetic damping",
+        stage.kinetic_damping,
+        "Explicit MPM: set all velocities to zero at each peak of the kinetic "
+        "energy.");
+      stage.add_parameter(
+        "Largest unbalanced force",
+        stage.largest_unbalanced_force,
+        "Explicit MPM: the stage must end in equilibrium, with no node's "
+        "unbalanced force larger than this part of the weight of the body, "
+        "e.g. 1e-3; 0: not tested.");
+      stage.add_parameter(
+        "Largest kinetic energy",
+        stage.largest_kinetic_energy,
+        "Explicit MPM: the stage must end with a kinetic energy of at most "
+        "this part of the stress work of the stage, e.g. 1e-6; 0: not tested.");
+      stage.add_parameter("Reset velocity",
+                          stage.reset_velocity,
+                          "Explicit MPM: begin this stage at rest.");
+      stage.add_parameter(
+        "Reset history",
+        stage.reset_history,
+        "Explicit MPM: at the beginning of this stage, set the internal "
+        "variables of the soil from its stress, as at the start of a run.");
+    }
+
+    /** What is taken away at the beginning. */
+    void
+    declare_removal(Stage &stage, std::string &text_of_where)
+    {
+      stage.add_parameter(
+        "Removed polygon",
+        stage.removed_polygon,
+        std::string(dim == 2 ? "Vertices x, y; x, y; ... (m)"
+                             : "Lowest and highest corner x, y, z; x, y, z of "
+                               "a box (m)") +
+          "; the points (FEM: cells, by their centres) that lie in it when the "
+          "stage begins are taken away (a cut, an excavation)" +
+          (dim == 2 ? ". Unstructured meshes have edges along it." : "."));
+      stage.add_parameter(
+        "Removed where",
+        text_of_where,
+        std::string("The points (FEM: cells, by their centres) where "
+                    "this formula in ") +
+          coordinates +
+          " (m) is > 0 when the stage begins are taken away, e.g. y - x above "
+          "a slope of 45 degrees; of those in 'Removed polygon' if that is "
+          "given, too.");
+      stage.add_parameter(
+        "Removal duration",
+        stage.removal_duration,
+        "Time (s) over which the weight and the stress of the removed points "
+        "go to zero: with FEM and MPM, the forces that what is removed at once "
+        "exerted on the rest; 0: at once.");
+    }
+
+    /** What is added at the beginning, or changed. */
+    void
+    declare_new_materials(Stage &stage)
+    {
+      stage.add_parameter(
+        "Added materials",
+        stage.added_materials,
+        "FEM and MPM: names of materials whose regions are empty before this "
+        "stage (an embankment, a backfill): they are there from its beginning "
+        "on, without stress, with what is elastic of them at once.");
+      stage.add_parameter(
+        "Addition duration",
+        stage.addition_duration,
+        "FEM and MPM: time (s) over which the weight of the added materials "
+        "grows from zero; 0: at once.");
+      stage.add_parameter(
+        "Changed materials",
+        stage.changed_materials,
+        "FEM and MPM: OLD: NEW, ...: at the beginning of the stage all of the "
+        "material OLD becomes the material NEW, with its strength, stiffness "
+        "and density (ground that is improved, or softens); stresses stay. NEW "
+        "needs no region of its own.");
+    }
+  } // namespace
 
   Stage::Stage(const std::string &name)
     : dealii::ParameterAcceptor("/Loading/" + name)
@@ -39,100 +162,10 @@ namespace geocone
                   reset_displacement,
                   "Count displacements and plastic strains from the beginning "
                   "of this stage.");
-    add_parameter("Strength factor",
-                  strength_factor,
-                  "FEM and MPM: by what c and tan(phi) of all materials are "
-                  "divided at the end of the stage, linear in time from what "
-                  "they were before; theta is at most the reduced phi. 0: as "
-                  "before. With 'Until failure' = true the factor at which no "
-                  "equilibrium is found is the factor of safety.");
-    add_parameter("Until failure",
-                  until_failure,
-                  "FEM and MPM: the first step that cannot be solved, however "
-                  "it is cut, ends the stage and the run as wanted: loads that "
-                  "grow in time are raised until the body carries no more. "
-                  "summary.json tells until when it did (topic 'failure').");
-    add_parameter(
-      "Raised loads",
-      raised_loads,
-      "FEM and MPM: names in 'Tractions/Names', and 'weight': what they exert "
-      "is multiplied by a load factor which is found in each step, so that "
-      "they move the body at the 'Raising velocity', also where they can grow "
-      "no more. Other loads are as given.");
-    add_parameter(
-      "Raising velocity",
-      raising_velocity,
-      "Mean velocity (m/s) along the raised loads, F.v/sum |F| with their "
-      "forces F on the nodes; > 0, or < 0 to take them back.");
-    add_parameter("Damping",
-                  damping,
-                  "Explicit MPM: local damping, the part (0 to 1) of each "
-                  "node's unbalanced force that opposes its velocity; 0.5 to "
-                  "0.75 where a state of rest is looked for.");
-    add_parameter(
-      "Kinetic damping",
-      kinetic_damping,
-      "Explicit MPM: set all velocities to zero at each peak of the "
-      "kinetic energy.");
-    add_parameter("Largest unbalanced force",
-                  largest_unbalanced_force,
-                  "Explicit MPM: the stage must end in equilibrium, with no "
-                  "node's unbalanced force larger than this part of the "
-                  "weight of the body, e.g. 1e-3; 0: not tested.");
-    add_parameter(
-      "Largest kinetic energy",
-      largest_kinetic_energy,
-      "Explicit MPM: the stage must end with a kinetic energy of at "
-      "most this part of the stress work of the stage, e.g. 1e-6; 0: not "
-      "tested.");
-    add_parameter("Reset velocity",
-                  reset_velocity,
-                  "Explicit MPM: begin this stage at rest.");
-    add_parameter("Reset history",
-                  reset_history,
-                  "Explicit MPM: at the beginning of this stage, set the "
-                  "internal variables of the soil from its stress, as at the "
-                  "start of a run.");
-    add_parameter(
-      "Removed polygon",
-      removed_polygon,
-      std::string(dim == 2 ? "Vertices x, y; x, y; ... (m)"
-                           : "Lowest and highest corner x, y, z; x, y, z of "
-                             "a box (m)") +
-        "; the points (FEM: cells, by their centres) that lie in it when the "
-        "stage begins are taken away (a cut, an excavation)" +
-        (dim == 2 ? ". Unstructured meshes have edges along it." : "."));
-    add_parameter("Removed where",
-                  removed_where_text,
-                  std::string("The points (FEM: cells, by their centres) where "
-                              "this formula in ") +
-                    coordinates +
-                    " (m) is > 0 when the stage begins are taken away, e.g. y "
-                    "- x above a slope of 45 degrees; of those in 'Removed "
-                    "polygon' if that is given, too.");
-    add_parameter("Removal duration",
-                  removal_duration,
-                  "Time (s) over which the weight and the stress of the "
-                  "removed points go to zero: with FEM and MPM, the forces "
-                  "that what is removed at once exerted on the rest; 0: at "
-                  "once.");
-    add_parameter(
-      "Added materials",
-      added_materials,
-      "FEM and MPM: names of materials whose regions are empty before this "
-      "stage (an embankment, a backfill): they are there from its beginning "
-      "on, without stress, with what is elastic of them at once.");
-    add_parameter("Addition duration",
-                  addition_duration,
-                  "FEM and MPM: time (s) over which the weight of the added "
-                  "materials grows from zero; 0: at once.");
-    add_parameter(
-      "Changed materials",
-      changed_materials,
-      "FEM and MPM: OLD: NEW, ...: at the beginning of the stage all of the "
-      "material OLD becomes the material NEW, with its strength, stiffness and "
-      "density (ground that is improved, or softens); stresses stay. NEW needs "
-      "no region of its own.");
+    declare_failure(*this);
+    declare_explicit_only(*this);
+    declare_removal(*this, removed_where_text);
+    declare_new_materials(*this);
   }
 
   void

@@ -190,6 +190,11 @@ namespace geocone
     static Projection
     project(const ContactNode &node, const Local &at, const Force &velocity);
 
+    /** sum G' q, sum rho G' Q G and the size of the sums, of each obstacle at its
+     *  motion. Collective. */
+    std::vector<double>
+    sums_of_nodes(const std::vector<Local> &locals, const MPI_Comm comm) const;
+
     /** Finds the motions of the free obstacles. Collective. */
     void
     move_bodies(const std::vector<Local> &locals, const MPI_Comm comm);
