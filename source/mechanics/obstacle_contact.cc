@@ -173,10 +173,10 @@ namespace geocone
                           const Vector  &v,
                           const double   h) const
   {
-    // Open, stick, slip, work, dissipation, width, size of F; error,
-    // penetration, pressure.
-    std::array<double, 7> sums  = {};
-    std::array<double, 3> most  = {};
+    // Open, stick, slip, work, dissipation, width, size of F, width that sticks;
+    // error, penetration, pressure, shear.
+    std::array<double, 8> sums  = {};
+    std::array<double, 4> most  = {};
     const auto           &nodes = contact.nodes();
     for (unsigned int i = 0; i < nodes.size(); ++i)
       {
@@ -208,7 +208,12 @@ namespace geocone
           {
             const double l = length.local_element(dim * node);
             sums[5] += l;
-            most[2] = std::max(most[2], (r * nodes[i].normal) / l);
+            if (touch.state == Contact::State::stick)
+              sums[7] += l;
+            const double pressure = (r * nodes[i].normal) / l;
+            most[2]               = std::max(most[2], pressure);
+            most[3] =
+              std::max(most[3], (r / l - pressure * nodes[i].normal).norm());
           }
         sums[3] += h * (r * u);
         sums[4] -= h * (r * relative);
@@ -226,7 +231,9 @@ namespace geocone
     report.error       = sums[6] > 0. ? most[0] / sums[6] : 0.;
     report.penetration = most[1];
     report.width       = sums[5];
+    report.stick_width = sums[7];
     report.pressure    = most[2];
+    report.shear       = most[3];
     return report;
   }
 

@@ -44,7 +44,9 @@ namespace geocone
             {"stick", last.stick},
             {"slip", last.slip},
             {"width_m", points_move ? Json() : Json(last.width)},
+            {"stick_width_m", points_move ? Json() : Json(last.stick_width)},
             {"pressure_max_Pa", points_move ? Json() : Json(last.pressure)},
+            {"shear_max_Pa", points_move ? Json() : Json(last.shear)},
             {unit("dissipation_J_per_m"), balance.works().contact_dissipation}};
   }
 

@@ -65,6 +65,11 @@ METHODS = {
     "raised": ("fem/raised_footing-01.prm", {"Loading/raise/Output every": "2"}),
     # Sides that move and absorb, by explicit steps.
     "sides": ("explicit/traction_wave-01.prm", {"Loading/shake/Output every": "5"}),
+    # Obstacles: a free body on soil, and particles that slide.
+    "free": ("contact/free_footing-01.prm", {"Loading/push/Output every": "3"}),
+    "slide": ("contact/incline-MPM-01.prm", {"Loading/slide/Output every": "20"}),
+    # A bar that hits a wall, by the midpoint rule.
+    "impact": ("contact/bar_impact-01.prm", {"Loading/fly/Output every": "20"}),
     # One point of a law with history.
     "point": ("element/cyclic_shear-01.prm", {
         "Path/forth/Increments": "30000", "Path/failure/Increments": "30000",

@@ -20,8 +20,9 @@ namespace geocone
     unsigned int open = 0, stick = 0, slip = 0; ///< nodes
     double       error = 0.; ///< largest |F| over the sum of |r| + rho |u|
     double       penetration = 0.; ///< greatest (m)
-    double       width       = 0.; ///< of what is closed (m), and the greatest
-    double       pressure = 0.; ///< pressure (Pa), where the mesh is the body
+    /** Where the mesh is the body: width of what is closed, and of what of it sticks
+     *  (m), greatest pressure and shear traction (Pa). */
+    double width = 0., stick_width = 0., pressure = 0., shear = 0.;
     double       work  = 0.; ///< of the step, of the forces on the body (J/m)
     double dissipation = 0.; ///< of the step, of friction and impact (J/m)
 
@@ -41,7 +42,9 @@ namespace geocone
           error,
           penetration,
           width,
+          stick_width,
           pressure,
+          shear,
           work,
           dissipation);
     }
