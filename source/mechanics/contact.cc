@@ -128,7 +128,7 @@ namespace geocone
   Contact::Projection
   Contact::project(const ContactNode &node,
                    const Local       &at,
-                   const Force       &velocity)
+                   const Force       &velocity) const
   {
     Projection   result;
     const Force &n = node.normal;
@@ -138,7 +138,8 @@ namespace geocone
     // What rests without a force is held: it may have no other support.
     if (!(p >= 0.))
       return result;
-    const double bound = node.friction * p + node.adhesion;
+    const double mu    = rubs ? node.friction : 0.;
+    const double bound = rubs ? mu * p + node.adhesion : 0.;
     const double pull  = at.r * t - rho * (u * t);
     double       F_t, q_t;
     result.Q = outer_product(n, n);
@@ -154,7 +155,7 @@ namespace geocone
         result.state = State::slip;
         q_t          = std::copysign(bound, pull);
         F_t          = at.r * t - q_t;
-        result.Q += std::copysign(node.friction, pull) * outer_product(t, n);
+        result.Q += std::copysign(mu, pull) * outer_product(t, n);
       }
     result.F = rho * w * n + F_t * t;
     result.q = p * n + q_t * t;
@@ -238,9 +239,23 @@ namespace geocone
     body_error /= dealii::Utilities::MPI::n_mpi_processes(comm);
   }
 
-  void
-  Contact::replace(Vector &residual, const Vector &v, const Vector &scale)
+  bool
+  Contact::has_friction(const MPI_Comm comm) const
   {
+    const bool here =
+      std::any_of(list.begin(), list.end(), [](const ContactNode &node) {
+        return node.friction > 0. || node.adhesion > 0.;
+      });
+    return dealii::Utilities::MPI::max(int(here), comm) > 0;
+  }
+
+  void
+  Contact::replace(Vector       &residual,
+                   const Vector &v,
+                   const Vector &scale,
+                   const bool    rubs_now)
+  {
+    rubs = rubs_now;
     touch.assign(list.size(), Touch());
     rho_Q.assign(list.size(), Matrix());
     rho.assign(list.size(), 0.);

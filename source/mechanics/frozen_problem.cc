@@ -372,8 +372,8 @@ namespace geocone
       for (unsigned int c = 0; c < p.n_cells(); ++c)
         for (unsigned int q = p.first_point[c]; q < p.first_point[c + 1]; ++q)
           p.volumetric_gradients.insert(p.volumetric_gradients.end(),
-                                        &of_cells[n * c],
-                                        &of_cells[n * (c + 1)]);
+                                        of_cells.begin() + n * c,
+                                        of_cells.begin() + n * (c + 1));
     }
 
     void

@@ -90,7 +90,7 @@ namespace geocone
       }
     if (contact_term)
       {
-        contact_term->replace(dst, v, scale());
+        contact_term->replace(dst, v, scale(), law.obstacles_rub);
         sums.push_back(contact_term->size());
       }
     internal.count_modes(sums.data());

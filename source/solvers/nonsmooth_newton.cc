@@ -10,6 +10,8 @@
 #include <geocone/solvers/reduced_formulation.h>
 #include <geocone/solvers/reduced_newton.h>
 
+#include <algorithm>
+
 namespace geocone
 {
   using dealii::TimerOutput;
@@ -187,24 +189,42 @@ namespace geocone
     NewtonLoop newton;
     newton.tolerance          = relative_tolerance;
     newton.absolute_tolerance = absolute_tolerance;
-    newton.allowed            = allowed(automatic);
     newton.elastic_first      = elastic_first;
-    std::optional<NaturalMap> map;
-    if (natural_map_start != nullptr)
-      newton.law.natural_map =
-        &map.emplace(work.problem.make_natural_map(rho, *natural_map_start));
-
-    LineSearch    search;
-    ElasticBlend  blend(map ? ElasticBlend::with_natural_map
-                           : ElasticBlend::with_return_map);
-    MeritSearch   merit;
-    Globalisation full_steps;
-    newton.run(method == Method::line_search     ? search
-               : method == Method::elastic_blend ? blend
-               : method == Method::merit_search
-                 ? static_cast<Globalisation &>(merit)
-                 : full_steps,
-               work);
+    const auto run            = [&](const unsigned int most, const bool rubs) {
+      std::optional<NaturalMap> map;
+      newton.allowed           = allowed(most);
+      newton.law.obstacles_rub = rubs;
+      newton.law.natural_map   = nullptr;
+      if (natural_map_start != nullptr)
+        newton.law.natural_map =
+          &map.emplace(work.problem.make_natural_map(rho, *natural_map_start));
+      LineSearch    search;
+      ElasticBlend  blend(map ? ElasticBlend::with_natural_map
+                             : ElasticBlend::with_return_map);
+      MeritSearch   merit;
+      Globalisation full_steps;
+      newton.run(method == Method::line_search     ? search
+                 : method == Method::elastic_blend ? blend
+                 : method == Method::merit_search
+                   ? static_cast<Globalisation &>(merit)
+                   : full_steps,
+                 work);
+    };
+    if (!work.problem.has_contact_friction())
+      {
+        run(automatic, true);
+        return;
+      }
+    // Where many nodes come down in a step, those that would stick hinder each other:
+    // then the step without friction is the better start.
+    const Vector start = work.v;
+    run(std::min(automatic, 30U), true);
+    if (work.report.converged)
+      return;
+    work.v = start;
+    run(30, false);
+    newton.elastic_first = false;
+    run(automatic, true);
   }
 
   void

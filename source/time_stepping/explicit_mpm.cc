@@ -4,7 +4,6 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/base/over_ranks.h>
-#include <geocone/base/over_ranks.h>
 #include <geocone/base/stop_request.h>
 #include <geocone/base/stopwatch.h>
 #include <geocone/mechanics/cartesian_transfer.h>

@@ -353,19 +353,12 @@ namespace geocone
   double
   ImplicitFEM::update_points(const TimeStep &step, MaterialPoints &points) const
   {
-    const InternalForces &solved      = problem->internal_forces();
-    double                dissipation = 0.;
-    std::vector<double>   history     = solved.trial_history();
-    extrapolate(integration, points.history, history);
-    points.history = std::move(history);
+    const std::vector<EndOfStep> ends = end_step(
+      integration, problem->internal_forces(), scene->materials, points);
+    double dissipation = 0.;
     for (unsigned int p = 0; p < points.n_points(); ++p)
       {
-        const EndOfStep end = end_of_step(integration,
-                                          solved,
-                                          p,
-                                          scene->materials[points.material[p]],
-                                          points.stress[p],
-                                          points.history_of(p));
+        const EndOfStep &end = ends[p];
         dissipation += points.weight[p] * end.dissipation;
         points.stress[p] = end.stress;
         points.plastic_strain[p] += end.plastic;

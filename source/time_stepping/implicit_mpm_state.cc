@@ -342,20 +342,12 @@ namespace geocone
                              const std::vector<Moved> &moved,
                              MaterialPoints           &points) const
   {
-    const InternalForces &internal    = problem->internal_forces();
-    double                dissipation = 0.;
-    std::vector<double>   history     = internal.trial_history();
-    extrapolate(integration, points.history, history);
-    points.history = std::move(history);
+    const std::vector<EndOfStep> ends = end_step(
+      integration, problem->internal_forces(), scene->materials, points);
+    double dissipation = 0.;
     for (unsigned int p = 0; p < points.n_points(); ++p)
       {
-        const auto [stress, plastic, slip, dissipated] =
-          end_of_step(integration,
-                      internal,
-                      p,
-                      scene->materials[points.material[p]],
-                      points.stress[p],
-                      points.history_of(p));
+        const auto &[stress, plastic, slip, dissipated] = ends[p];
         dissipation += points.weight[p] * dissipated;
         points.stress[p] = turn(stress, moved[p].spin);
         points.plastic_strain[p] =

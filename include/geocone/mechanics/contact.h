@@ -102,10 +102,14 @@ namespace geocone
     /**
      * Replaces the forces r in the rows of contact by F, and keeps both.
      * @param[in,out] residual in owned rows
-     * @param scale the diagonal of the elastic Jacobian (kg/(m s)). Collective.
+     * @param scale the diagonal of the elastic Jacobian (kg/(m s))
+     * @param rubs whether there is friction. Collective.
      */
     void
-    replace(Vector &residual, const Vector &v, const Vector &scale);
+    replace(Vector       &residual,
+            const Vector &v,
+            const Vector &scale,
+            const bool    rubs);
 
     /** A and B of the last replace() in place of the Jacobian's rows. Collective
      *  where obstacles are free.
@@ -157,6 +161,10 @@ namespace geocone
       return touch;
     }
 
+    /** Whether a node of any rank has friction. Collective. */
+    bool
+    has_friction(const MPI_Comm comm) const;
+
     /** The velocities of the obstacles at the last replace(). */
     const std::vector<RigidMotion> &
     motions() const
@@ -187,8 +195,10 @@ namespace geocone
       Matrix Q;
       State  state = State::open;
     };
-    static Projection
-    project(const ContactNode &node, const Local &at, const Force &velocity);
+    Projection
+    project(const ContactNode &node,
+            const Local       &at,
+            const Force       &velocity) const;
 
     /** sum G' q, sum rho G' Q G and the size of the sums, of each obstacle at its
      *  motion. Collective. */
@@ -225,8 +235,9 @@ namespace geocone
     std::vector<RigidMotion>     motion;
     std::vector<Eigen::Matrix3d> mobility; ///< E^-1, zero for what is driven
     std::vector<unsigned int> first_free; ///< number of an obstacle's first one
-    unsigned int              n_free     = 0;  ///< motions of all obstacles
-    double                    body_error = 0.; ///< of their equilibrium (N/m)
+    unsigned int              n_free     = 0;    ///< motions of all obstacles
+    double                    body_error = 0.;   ///< of their equilibrium (N/m)
+    bool                      rubs       = true; ///< in the last replace()
   };
 } // namespace geocone
 

@@ -215,6 +215,14 @@ namespace geocone
       return contact_term.has_value();
     }
 
+    /** Whether there are obstacles that rub. Collective. */
+    bool
+    has_contact_friction() const
+    {
+      return contact_term &&
+             contact_term->has_friction(layout->get_mpi_communicator());
+    }
+
     /** What touches, where there are obstacles. */
     const Contact &
     contact() const

@@ -20,6 +20,9 @@ namespace geocone
 
     /** Or the iterate of the natural map, which moves with each residual(). */
     NaturalMap *natural_map = nullptr;
+
+    /** Whether obstacles rub: without, a step is a start for one that does. */
+    bool obstacles_rub = true;
   };
 
   /**

@@ -16,13 +16,15 @@ namespace geocone
   /**
    * Fields as files for ParaView, and, the VTU files, for scripts/plot:
    *  - cells-NNNN.vtu: displacement and velocity on the mesh (cells of degree p
-   *    as p^2 linear ones), and per cell the material, the mean stress, the mean
-   *    plastic strain rate and the mean cumulative plastic strain. Of points
-   *    that move: only the cells with points, and the velocity only;
-   *  - points-NNNN.vtu: the material points with their volume per unit thickness
-   *    (m^2), stress (Pa), plastic strain, plastic strain rate (1/s) and
-   *    cumulative plastic strain; of points that move also their velocity and
-   *    displacement;
+   *    as p^dim linear ones), and per cell the material, the mean stress, the mean
+   *    plastic strain rate and the mean cumulative plastic strain, and of undrained
+   *    soil the mean excess pore pressure. Of points that move: only the cells with
+   *    points, and the velocity only;
+   *  - points-NNNN.vtu: the material points with their material, volume (m^dim; around
+   *    an axis m^3, and the area in the plane of the picture), stress, excess pore
+   *    pressure (Pa), plastic strain, plastic strain rate (1/s), cumulative plastic
+   *    strain, and what the laws show; of points that move also their number,
+   *    velocity and displacement;
    *  - cells.pvd, points.pvd: the series in time.
    * On several ranks a file per rank, and .pvtu records that join them. Or, one
    * file of all ranks for each time, cells-NNNN.h5 and points-NNNN.h5 with the

@@ -56,28 +56,20 @@ namespace geocone
 
   /**
    * From what was solved for: by the midpoint rule the stress is extrapolated, and
-   * taken back into what the soil can bear, by plastic strain.
-   * @param stress_n at the beginning @param history at the end
+   * taken back into what the soil can bear, by plastic strain. Gives the points their
+   * histories, and nothing else yet.
    */
-  EndOfStep
-  end_of_step(const Integration     integration,
-              const InternalForces &solved,
-              const unsigned int    point,
-              const Material       &material,
-              const Mandel         &stress_n,
-              const double         *history);
+  std::vector<EndOfStep>
+  end_step(const Integration     integration,
+           const InternalForces &solved,
+           const Materials      &materials,
+           MaterialPoints       &points);
 
   /** @throws InputError for laws that it does not know @param name of the parameter */
   void
   check_midpoint(const Choice<Integration> &integration,
                  const Materials           &materials,
                  const std::string         &name);
-
-  /** The histories at the end from those that were solved for. */
-  void
-  extrapolate(const Integration          integration,
-              const std::vector<double> &history_n,
-              std::vector<double>       &history);
 } // namespace geocone
 
 #endif
