@@ -19,8 +19,8 @@ namespace geocone
   void
   EnergyBalance::add_step(const Energies &end, const Works &of_step)
   {
-    const double step_loss = last.sum() + of_step.external - end.sum() -
-                             of_step.dissipation - of_step.contact_dissipation;
+    const double step_loss =
+      last.sum() + of_step.external - end.sum() - of_step.dissipated();
     done += of_step;
     last = end;
     lost += step_loss;
