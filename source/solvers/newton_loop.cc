@@ -30,8 +30,9 @@ namespace geocone
   }
 
   void
-  NewtonLoop::give_up(const ResidualReport &state, SolverReport &report)
+  NewtonLoop::give_up(const ResidualReport &state, const StepWorkspace &work)
   {
+    SolverReport &report = work.report;
     report.reason = format("the residual stopped at %.1e after %u iterations "
                            "(%u points on the cone, "
                            "%u at the apex, %u of them switching)",
@@ -41,7 +42,7 @@ namespace geocone
                            state.n_apex,
                            state.n_switched);
     report.remedy =
-      state.n_cone + state.n_apex > 0
+      state.n_cone + state.n_apex > 0 || work.problem.has_contact()
         ? ""
         : format(
             "no point flows, so that the step is linear and smaller ones do "
@@ -84,7 +85,7 @@ namespace geocone
           }
         if (report.iterations >= limit + (report.residual < near ? allowed : 0))
           {
-            give_up(line.state, report);
+            give_up(line.state, work);
             return;
           }
 

@@ -42,7 +42,7 @@ namespace geocone
 
     /** Says in the report why no more iterations are made. */
     static void
-    give_up(const ResidualReport &state, SolverReport &report);
+    give_up(const ResidualReport &state, const StepWorkspace &work);
   };
 } // namespace geocone
 
