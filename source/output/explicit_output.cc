@@ -151,12 +151,14 @@ namespace geocone
   ExplicitOutput::update_balance(const ExplicitRecord &record)
   {
     const Exchange &e = record.exchange;
+    Works           works;
+    works.external = e.support_work;
     // Where the weight changes, its work is not what the potential energy loses:
     // the rest is that of an external force.
-    const double released =
-      initial.potential - e.removed_potential - record.state.potential;
-    Works works;
-    works.external    = e.support_work + (e.gravity_work - released);
+    if (scene->gravity.is_ramped())
+      works.external +=
+        e.gravity_work -
+        (initial.potential - e.removed_potential - record.state.potential);
     works.dissipation = e.stress_work + e.damping_work + e.stopped_energy;
     balance.set({record.state.kinetic, 0., record.state.potential},
                 works,
