@@ -100,9 +100,8 @@ namespace geocone
     // The zero of the potential energy is arbitrary.
     const double begin = at_start.kinetic + at_start.elastic;
     const Json   out   = weight_changes ? Json() : Json(released());
-    // Scale of the rounding in the least loss of a step.
-    const double scale = std::max(
-      {turnover(), at_start.sum(), std::numeric_limits<double>::min()});
+    const double scale =
+      std::max(turnover(), std::numeric_limits<double>::min());
     Json json = {
       {unit("external_work_J_per_m"), done.external},
       {unit("kinetic_J_per_m"), last.kinetic},
@@ -112,13 +111,17 @@ namespace geocone
       {unit("initial_J_per_m"), at_start.sum()},
       {unit("released_potential_J_per_m"), out},
       {unit("numerical_loss_J_per_m"), lost},
-      {"numerical_loss_relative", ratio(lost, turnover())},
-      {"numerical_loss_max_relative", ratio(largest_loss, turnover())},
+      {"numerical_loss_relative", lost / scale},
+      {"numerical_loss_max_relative", largest_loss / scale},
       {"loss_to_released", out.is_null() ? out : ratio(lost, released())},
       {"loss_to_initial", ratio(lost, begin)},
-      {"loss_max_to_initial", ratio(largest_loss, begin)},
-      {"kinetic_to_initial", ratio(last.kinetic, at_start.kinetic)},
-      {"least_step_loss_relative", least_step_loss / scale}};
+      // What rounding leaves of nothing is compared with the energy at the start, too.
+      {"least_step_loss_relative",
+       least_step_loss / std::max(scale, at_start.sum())}};
+    if (begin > 0.)
+      json["loss_max_to_initial"] = largest_loss / begin;
+    if (at_start.kinetic > 0.)
+      json["kinetic_to_initial"] = last.kinetic / at_start.kinetic;
     if (taken_away != 0.)
       json[unit("removed_J_per_m")] = taken_away;
     return json;
