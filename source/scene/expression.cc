@@ -16,6 +16,8 @@ namespace geocone
                       const std::string &parameter,
                       const std::string *folder)
   {
+    number.reset();
+    record.reset();
     const std::string word = "record ";
     if (folder != nullptr && text.compare(0, word.size(), word) == 0)
       {

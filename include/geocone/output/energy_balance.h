@@ -45,13 +45,14 @@ namespace geocone
     void
     change_body(const Energies &before, const Energies &after);
 
-    /** At the start, and at the end of the last step. */
+    /** At the start. */
     const Energies &
     initial() const
     {
       return at_start;
     }
 
+    /** Since the start. */
     const Works &
     works() const
     {
