@@ -88,7 +88,7 @@ DEEDS = ("kill", "terminate", "truncate", "ranks")
 NOT_COMPARED = {"run", "cost", "warnings"}  # of the summary
 TIMES = {"CPU time of rank 0 (s)"}
 # Counts, and errors that are rounding themselves.
-NOISE = ("(-)", "newton", "quality", "residual", "identity", "least_step", "cone excess",
+NOISE = ("(-)", "newton", "quality", "residual", "identity", "least_step", "cone excess", "relative_error",
          "nonzeros", "ranks")
 PATIENCE = 300.  # s
 
