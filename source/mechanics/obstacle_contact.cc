@@ -49,6 +49,7 @@ namespace geocone
       }
 
     path.reinit(space.partitioner());
+    path.update_ghost_values(); // zeros, which are read
     const auto ids = mesh.triangulation().get_boundary_ids();
     candidates     = space.nodes_on_sides(
       std::set<types::boundary_id>(ids.begin(), ids.end()));
