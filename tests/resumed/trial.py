@@ -88,8 +88,8 @@ DEEDS = ("kill", "terminate", "truncate", "ranks")
 NOT_COMPARED = {"run", "cost", "warnings"}  # of the summary
 TIMES = {"CPU time of rank 0 (s)"}
 # Counts, and errors that are rounding themselves.
-NOISE = ("(-)", "newton", "quality", "residual", "identity", "least_step", "cone excess", "relative_error",
-         "nonzeros", "ranks")
+NOISE = ("(-)", "newton", "quality", "residual", "identity", "least_step", "cone excess",
+         "relative_error", "penetration", "natural_map", "nonzeros", "ranks")
 PATIENCE = 300.  # s
 
 
