@@ -98,26 +98,31 @@ namespace geocone
       return b > 0. ? Json(a / b) : Json();
     };
     // The zero of the potential energy is arbitrary.
-    const double begin = at_start.kinetic + at_start.elastic;
-    const Json   out   = weight_changes ? Json() : Json(released());
-    const double scale =
-      std::max(turnover(), std::numeric_limits<double>::min());
-    Json json = {
-      {unit("external_work_J_per_m"), done.external},
-      {unit("kinetic_J_per_m"), last.kinetic},
-      {unit("largest_kinetic_J_per_m"), kinetic_max},
-      {unit("potential_J_per_m"), last.potential},
-      {"potential_datum", "lower left corner of the mesh"},
-      {unit("initial_J_per_m"), at_start.sum()},
-      {unit("released_potential_J_per_m"), out},
-      {unit("numerical_loss_J_per_m"), lost},
-      {"numerical_loss_relative", lost / scale},
-      {"numerical_loss_max_relative", largest_loss / scale},
-      {"loss_to_released", out.is_null() ? out : ratio(lost, released())},
-      {"loss_to_initial", ratio(lost, begin)},
-      // What rounding leaves of nothing is compared with the energy at the start, too.
-      {"least_step_loss_relative",
-       least_step_loss / std::max(scale, at_start.sum())}};
+    const double     begin = at_start.kinetic + at_start.elastic;
+    const Json       out   = weight_changes ? Json() : Json(released());
+    constexpr double least = std::numeric_limits<double>::min();
+    const double     scale = std::max(turnover(), least);
+    // What the loss of a step is rounded by.
+    const double rounding = std::max({std::abs(done.external),
+                                      std::abs(released()),
+                                      last.elastic,
+                                      last.kinetic,
+                                      at_start.sum(),
+                                      least});
+    Json         json     = {
+                  {unit("external_work_J_per_m"), done.external},
+                  {unit("kinetic_J_per_m"), last.kinetic},
+                  {unit("largest_kinetic_J_per_m"), kinetic_max},
+                  {unit("potential_J_per_m"), last.potential},
+                  {"potential_datum", "lower left corner of the mesh"},
+                  {unit("initial_J_per_m"), at_start.sum()},
+                  {unit("released_potential_J_per_m"), out},
+                  {unit("numerical_loss_J_per_m"), lost},
+                  {"numerical_loss_relative", lost / scale},
+                  {"numerical_loss_max_relative", largest_loss / scale},
+                  {"loss_to_released", out.is_null() ? out : ratio(lost, released())},
+                  {"loss_to_initial", ratio(lost, begin)},
+                  {"least_step_loss_relative", least_step_loss / rounding}};
     if (begin > 0.)
       json["loss_max_to_initial"] = largest_loss / begin;
     if (at_start.kinetic > 0.)
