@@ -4,8 +4,8 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/files.h>
 #include <geocone/base/parameter_file.h>
+#include <geocone/mechanics/cone_files.h>
 #include <geocone/mechanics/frozen_problem.h>
-#include <geocone/mechanics/reduced_problem.h>
 #include <geocone/output/run_folder.h>
 #include <geocone/replay.h>
 #include <geocone/scene/geometry.h>
@@ -124,13 +124,21 @@ namespace geocone
       return outcome;
     }
 
+    /** Whether it is a problem file of Siconos. */
+    bool
+    is_text(const std::string &file_name)
+    {
+      return std::filesystem::path(file_name).extension() == ".dat";
+    }
+
     Outcome
     replay_reduced(const std::string              &file_name,
                    const std::vector<std::string> &overrides,
                    ResultFolder                   &folder)
     {
-      const ReducedProblem problem = read_siconos(file_name);
-      const ParameterFile  file =
+      const ReducedProblem problem =
+        is_text(file_name) ? read_siconos(file_name) : read_fclib(file_name);
+      const ParameterFile file =
         ParameterFile::from_text("", file_name, overrides);
       NonsmoothNewton newton;
       file.parse();
@@ -176,7 +184,7 @@ namespace geocone
     const std::filesystem::path path(file_name);
     ResultFolder                results(folder);
     const Outcome               outcome =
-      path.extension() == ".dat"
+      is_text(file_name) || is_fclib(file_name)
                       ? replay_reduced(file_name, overrides, results)
                       : replay_incremental(file_name, overrides, results);
     nlohmann::json summary = outcome.summary;

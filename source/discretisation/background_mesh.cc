@@ -25,6 +25,32 @@ namespace geocone
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** Parts the mesh between bodies that touch; its new faces are sides by the name
+     *  of the contact. */
+    void
+    part_bodies(const Contacts &contacts, CoarseMesh &mesh)
+    {
+      for (const auto &pair : contacts.list)
+        {
+          const auto faces =
+            mesh.part([&](const unsigned int a, const unsigned int b) {
+              return (pair->is_first[a] && pair->is_other[b]) ||
+                     (pair->is_first[b] && pair->is_other[a]);
+            });
+          if (faces.empty())
+            continue;
+          types::boundary_id next = 0;
+          for (const auto &side : mesh.sides)
+            next = std::max(next, types::boundary_id(side.second + 1));
+          const auto id = mesh.sides.emplace(pair->name, next).first->second;
+          for (const CoarseMesh::Face &face : faces)
+            mesh.add_boundary(face, id);
+        }
+    }
+  } // namespace
+
   BackgroundMesh::BackgroundMesh(const MPI_Comm comm)
     : ParameterAcceptor("/Mesh")
     , comm(comm)
@@ -129,8 +155,11 @@ namespace geocone
   BackgroundMesh::prepare(const Scene &scene, const Method &method)
   {
     parameters.prepare(scene.geometry, method);
-    const CoarseMesh mesh =
+    CoarseMesh mesh =
       fitted_mesh(parameters, scene, comm, sizes ? &*sizes : nullptr);
+    parted = !scene.contacts.list.empty();
+    if (parted)
+      part_bodies(scene.contacts, mesh);
     symmetry = scene.geometry.symmetry;
     if (is_axisymmetric())
       for (const Point<dim> &x : mesh.points)
@@ -159,7 +188,13 @@ namespace geocone
                        ") than cells (" + std::to_string(mesh.cells.size()) +
                        ")\n  remedy:  call mpirun with fewer ranks");
     if (storage == Storage::automatic)
-      storage = simplicial ? Storage::shared : Storage::distributed;
+      storage = simplicial || parted ? Storage::shared : Storage::distributed;
+    if (storage == Storage::distributed && parted)
+      throw InputError("Mesh/Triangulation",
+                       storage.word(),
+                       "automatic | shared where there are contacts: each rank "
+                       "looks for what touches",
+                       "set Mesh/Triangulation = automatic");
     if (storage == Storage::distributed && simplicial)
       throw InputError("Mesh/Triangulation",
                        storage.word(),
@@ -172,7 +207,7 @@ namespace geocone
       tria = std::make_unique<parallel::shared::Triangulation<dim>>(
         comm,
         Triangulation<dim>::none,
-        true,
+        !parted,
         parallel::shared::Triangulation<dim>::Settings::partition_metis);
     tria->create_triangulation(mesh.points, mesh.cells, mesh.boundary);
 

@@ -51,7 +51,7 @@ namespace geocone
               const CellSizes      *sizes)
   {
     if (scene.geometry.shape == Geometry::Shape::file)
-      return mesh_of_file(scene.geometry, scene.regions, comm);
+      return mesh_of_file(scene.geometry, scene.regions, scene.contacts, comm);
     const dealii::BoundingBox<dim> domain(parameters.outline);
     CoarseMesh                     mesh;
     if (!parameters.is_unstructured())

@@ -264,6 +264,7 @@ namespace geocone
   CoarseMesh
   mesh_of_file(const Geometry &geometry,
                const Regions  &regions,
+               const Contacts &contacts,
                const MPI_Comm  comm)
   {
     const std::string what =
@@ -272,7 +273,8 @@ namespace geocone
     return coarse_mesh(
       from_first_rank(comm, [&]() { return data_of_file(geometry, what); }),
       what,
-      regions);
+      regions,
+      &contacts);
   }
 
   namespace

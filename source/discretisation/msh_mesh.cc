@@ -14,6 +14,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <set>
 
 namespace geocone
 {
@@ -187,9 +188,12 @@ namespace geocone
           }
     }
 
-    /** A vertex in the middle of another cell's edge leaves a gap there. */
+    /** A vertex in the middle of another cell's edge leaves a gap there, unless they
+     *  belong to bodies that touch. */
     void
-    check_hanging_nodes(const CoarseMesh &mesh, const std::string &what)
+    check_hanging_nodes(const CoarseMesh  &mesh,
+                        const std::string &what,
+                        const Contacts    *contacts)
     {
       if (dim == 3)
         return check_double_nodes(mesh, what);
@@ -204,6 +208,20 @@ namespace geocone
       for (const unsigned int v : vertices)
         places.emplace_back(mesh.points[v], v);
       const auto tree = dealii::pack_rtree(places);
+      // Where there are contacts: the materials at a vertex.
+      std::vector<std::set<unsigned int>> materials(
+        contacts == nullptr ? 0 : mesh.points.size());
+      if (!materials.empty())
+        for (const auto &cell : mesh.cells)
+          for (const unsigned int v : cell.vertices)
+            materials[v].insert(cell.material_id);
+      const auto are_apart = [&](const unsigned int v, const unsigned int w) {
+        for (const unsigned int a : materials[v])
+          for (const unsigned int b : materials[w])
+            if (contacts->are_apart(a, b))
+              return true;
+        return false;
+      };
       std::vector<std::pair<Point<dim>, unsigned int>> near;
       for (const auto &edge : edges)
         {
@@ -222,7 +240,8 @@ namespace geocone
                      std::back_inserter(near));
           for (const auto &[x, v] : near)
             if (v != edge[0] && v != edge[1] &&
-                distance_to_segment(x, a, b) < tolerance)
+                distance_to_segment(x, a, b) < tolerance &&
+                (materials.empty() || !are_apart(v, edge[0])))
               throw InputError(
                 what + ": the node at " + place(x) +
                 " hangs on the edge from " + place(a) + " to " + place(b) +
@@ -502,7 +521,8 @@ namespace geocone
   CoarseMesh
   coarse_mesh(const MshData     &data,
               const std::string &what,
-              const Regions     &regions)
+              const Regions     &regions,
+              const Contacts    *contacts)
   {
     check_amount(data, what);
     const Elements                         cells = in_order_of_gmsh(data.cells);
@@ -520,7 +540,7 @@ namespace geocone
     const FaceGroups groups = groups_of_faces(data, vertices);
     set_sides(data, what, mesh);
     set_boundary(groups, data, what, mesh);
-    check_hanging_nodes(mesh, what);
+    check_hanging_nodes(mesh, what, contacts);
     if (!mesh.has_simplices())
       dealii::GridTools::consistently_order_cells(mesh.cells);
     return mesh;

@@ -136,6 +136,14 @@ namespace geocone
         cell_nodes(cell, nodes);
         active.add_indices(nodes.begin(), nodes.end());
       }
+    // Bodies that touch may do so anywhere: each rank knows their boundaries.
+    if (mesh->is_parted())
+      for (const auto &cell : mesh->triangulation().active_cell_iterators())
+        if (cell->at_boundary())
+          {
+            cell_nodes(cell, nodes);
+            active.add_indices(nodes.begin(), nodes.end());
+          }
     active.compress();
     layout = std::make_shared<Utilities::MPI::Partitioner>(
       expand(owned), expand(active), mesh->triangulation().get_communicator());

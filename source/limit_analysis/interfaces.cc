@@ -18,7 +18,7 @@ namespace geocone
     std::vector<Interface::Face>
     faces_of(const Obstacle &obstacle)
     {
-      const double mu = obstacle.friction, c = obstacle.adhesion;
+      const double mu = obstacle.law.friction, c = obstacle.law.adhesion;
       std::vector<Interface::Face> faces;
       if (mu > 0. || c > 0.)
         faces.push_back({mu, c, mu > 0., true});

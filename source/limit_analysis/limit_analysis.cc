@@ -140,6 +140,8 @@ namespace geocone
     scene.absorbing.refuse("'Analysis/Kind' = " + analysis.word(),
                            "nothing moves fast here: leave it out");
     scene.obstacles.prepare();
+    scene.contacts.refuse("'Analysis/Kind' = " + analysis.word(),
+                          "let one of the bodies be an obstacle");
     scene.observation.prepare(
       scene.supports(), scene.materials, scene.gravity, false);
     for (const auto &condition : scene.dirichlet.list)

@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/exceptions.h>
 #include <geocone/base/over_ranks.h>
 #include <geocone/mechanics/contact.h>
 
@@ -82,6 +83,80 @@ namespace geocone
     return x && y ? 2 : x ? 0 : y ? 1 : 3;
   }
 
+  Contact::Force
+  Contact::free_part(const Vector &v, const unsigned int node) const
+  {
+    Force value;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (unknowns.is_free(dim * node + d))
+        value[d] = v.local_element(dim * node + d);
+    return value;
+  }
+
+  Contact::Force
+  Contact::velocity_of_partners(const ContactNode &node, const Vector &v) const
+  {
+    Force velocity;
+    for (const ContactNode::Partner &other : node.partners)
+      for (unsigned int d = 0; d < dim; ++d)
+        velocity[d] += other.part * v.local_element(dim * other.node + d);
+    return velocity;
+  }
+
+  void
+  Contact::load_partners(Vector &residual) const
+  {
+    if (!has_pairs)
+      return;
+    residual.zero_out_ghost_values();
+    for (const ContactNode &node : list)
+      if (is_owned(node))
+        for (unsigned int d = 0; d < dim; ++d)
+          if (const unsigned int dof = dim * node.node + d;
+              unknowns.is_free(dof))
+            for (const ContactNode::Partner &other : node.partners)
+              residual.local_element(dim * other.node + d) +=
+                other.part * residual.local_element(dof);
+    residual.compress(dealii::VectorOperation::add);
+  }
+
+  void
+  Contact::add_rows_to_partners(SparseMatrix &matrix) const
+  {
+    for (const ContactNode &node : list)
+      for (const ContactNode::Partner &other : node.partners)
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const int from = unknowns.free_row[dim * node.node + d],
+                      to   = unknowns.free_row[dim * other.node + d];
+            if (from < 0 || to < 0)
+              continue;
+            // Both have sorted columns, those of the first are among the second's.
+            int k = matrix.row_start[to];
+            for (int j = matrix.row_start[from]; j < matrix.row_start[from + 1];
+                 ++j)
+              {
+                while (matrix.column[k] < matrix.column[j])
+                  ++k;
+                matrix.value[k] += other.part * matrix.value[j];
+              }
+          }
+  }
+
+  std::vector<std::vector<unsigned int>>
+  Contact::links() const
+  {
+    std::vector<std::vector<unsigned int>> all;
+    for (const ContactNode &node : list)
+      if (node.touches_body())
+        {
+          all.push_back({node.node});
+          for (const ContactNode::Partner &other : node.partners)
+            all.back().push_back(other.node);
+        }
+    return all;
+  }
+
   template <typename Function>
   void
   Contact::for_free_motions(const unsigned int obstacle,
@@ -96,7 +171,8 @@ namespace geocone
   void
   Contact::begin_step(ContactStep step)
   {
-    bodies = std::move(step.bodies);
+    bodies    = std::move(step.bodies);
+    has_pairs = step.has_pairs;
     motion.clear();
     first_free.clear();
     n_free = 0;
@@ -112,7 +188,15 @@ namespace geocone
         const unsigned int direction = free_direction(node.node);
         if (direction == 3 ||
             (direction < 2 && std::abs(node.normal[direction]) < along))
-          continue;
+          {
+            if (node.touches_body())
+              throw StepFailure(
+                "a node of a 'Body' of the section 'Contacts' is held by a "
+                "boundary condition against the other body\n"
+                "  remedy:  exchange 'Body' and 'Other body', or hold it "
+                "elsewhere");
+            continue;
+          }
         if (direction < 2)
           {
             const double sign      = node.normal[direction] > 0. ? 1. : -1.;
@@ -168,8 +252,9 @@ namespace geocone
   {
     std::vector<double> sums(n_sums * bodies.size(), 0.);
     for (unsigned int i = 0; i < list.size(); ++i)
-      if (const ContactNode &node = list[i];
-          is_owned(node) && bodies[node.obstacle].n_free() > 0)
+      if (const ContactNode &node = list[i]; is_owned(node) &&
+                                             !node.touches_body() &&
+                                             bodies[node.obstacle].n_free() > 0)
         {
           const Projection at =
             project(node, locals[i], motion[node.obstacle].at(node.arm));
@@ -264,26 +349,26 @@ namespace geocone
         row.reinit(residual);
       else
         row.zero_out_ghost_values();
+    load_partners(residual);
     std::vector<Local> locals(list.size());
     for (unsigned int i = 0; i < list.size(); ++i)
       if (const unsigned int node = list[i].node; is_owned(list[i]))
         {
           const unsigned int direction = free_direction(node);
+          locals[i].r                  = free_part(residual, node);
+          locals[i].v                  = free_part(v, node);
           for (unsigned int d = 0; d < dim; ++d)
             if (direction == 2 || direction == d)
-              {
-                const unsigned int dof = dim * node + d;
-                locals[i].r[d]         = residual.local_element(dof);
-                locals[i].v[d]         = v.local_element(dof);
-                locals[i].rho +=
-                  scale.local_element(dof) / (direction == 2 ? 2. : 1.);
-              }
+              locals[i].rho += scale.local_element(dim * node + d) /
+                               (direction == 2 ? 2. : 1.);
         }
     move_bodies(locals, residual.get_mpi_communicator());
     for (unsigned int i = 0; i < list.size(); ++i)
       {
         ContactNode &node = list[i];
-        node.velocity     = motion[node.obstacle].at(node.arm);
+        node.velocity     = node.touches_body()
+                              ? velocity_of_partners(node, v)
+                              : motion[node.obstacle].at(node.arm);
         if (!is_owned(node))
           continue;
         const unsigned int direction = free_direction(node.node);
@@ -316,6 +401,7 @@ namespace geocone
   LowRank
   Contact::linearise(const JacobianPattern &pattern, SparseMatrix &matrix) const
   {
+    add_rows_to_partners(matrix);
     const LowRank of_obstacles = low_rank(matrix);
     for (unsigned int i = 0; i < list.size(); ++i)
       {
@@ -348,8 +434,18 @@ namespace geocone
         if (is_owned(list[i]))
           for (unsigned int a = 0; a < dim; ++a)
             for (unsigned int b = 0; b < dim; ++b)
-              if (row[a] >= 0 && row[b] >= 0)
-                pattern.add_entry(row[a], row[b], rho_Q[i][a][b], matrix);
+              {
+                if (row[a] < 0)
+                  continue;
+                if (row[b] >= 0)
+                  pattern.add_entry(row[a], row[b], rho_Q[i][a][b], matrix);
+                for (const ContactNode::Partner &other : list[i].partners)
+                  if (const int column =
+                        unknowns.free_row[dim * other.node + b];
+                      column >= 0)
+                    pattern.add_entry(
+                      row[a], column, -other.part * rho_Q[i][a][b], matrix);
+              }
       }
     return of_obstacles;
   }
@@ -370,28 +466,30 @@ namespace geocone
     for (Vector &sum : sums)
       sum.reinit(row_A[0]);
     for (unsigned int i = 0; i < list.size(); ++i)
-      for_free_motions(
-        list[i].obstacle, [&](const unsigned int k, const unsigned int number) {
-          const unsigned int node = list[i].node;
-          const Force        G    = RigidMotion::of_point(k, list[i].arm);
-          Force              GQ   = G; // G' Q, Q = 1 - A
-          for (unsigned int a = 0; a < dim; ++a)
-            for (unsigned int b = 0; b < dim; ++b)
-              GQ[b] -= G[a] * row_A[a].local_element(dim * node + b);
-          for (unsigned int d = 0; d < dim; ++d)
-            if (const int row = unknowns.free_row[dim * node + d]; row >= 0)
-              {
-                for (int j = matrix.row_start[row];
-                     j < matrix.row_start[row + 1];
-                     ++j)
-                  sums[number].local_element(dof_of[matrix.column[j]]) +=
-                    GQ[d] * matrix.value[j];
-                if (!is_owned(list[i]))
-                  continue;
-                sums[number].local_element(dim * node + d) -= rho[i] * GQ[d];
-                update.U(row, number) += rho_Q[i][d] * G;
-              }
-        });
+      if (!list[i].touches_body())
+        for_free_motions(
+          list[i].obstacle,
+          [&](const unsigned int k, const unsigned int number) {
+            const unsigned int node = list[i].node;
+            const Force        G    = RigidMotion::of_point(k, list[i].arm);
+            Force              GQ   = G; // G' Q, Q = 1 - A
+            for (unsigned int a = 0; a < dim; ++a)
+              for (unsigned int b = 0; b < dim; ++b)
+                GQ[b] -= G[a] * row_A[a].local_element(dim * node + b);
+            for (unsigned int d = 0; d < dim; ++d)
+              if (const int row = unknowns.free_row[dim * node + d]; row >= 0)
+                {
+                  for (int j = matrix.row_start[row];
+                       j < matrix.row_start[row + 1];
+                       ++j)
+                    sums[number].local_element(dof_of[matrix.column[j]]) +=
+                      GQ[d] * matrix.value[j];
+                  if (!is_owned(list[i]))
+                    continue;
+                  sums[number].local_element(dim * node + d) -= rho[i] * GQ[d];
+                  update.U(row, number) += rho_Q[i][d] * G;
+                }
+          });
     for (Vector &sum : sums)
       sum.compress(dealii::VectorOperation::add);
     for (unsigned int o = 0; o < bodies.size(); ++o)
@@ -410,23 +508,18 @@ namespace geocone
   void
   Contact::apply_tangent(Vector &dst, const Vector &dv) const
   {
-    const auto at = [&](const Vector &x, const unsigned int node) {
-      Force value;
-      for (unsigned int d = 0; d < dim; ++d)
-        if (unknowns.is_free(dim * node + d))
-          value[d] = x.local_element(dim * node + d);
-      return value;
-    };
+    load_partners(dst);
     // How free obstacles give way.
     std::vector<RigidMotion> change(bodies.size());
     if (n_free > 0)
       {
         std::vector<double> sums(n_motions * bodies.size(), 0.);
         for (unsigned int i = 0; i < list.size(); ++i)
-          if (const ContactNode &node = list[i]; is_owned(node))
+          if (const ContactNode &node = list[i];
+              is_owned(node) && !node.touches_body())
             {
-              const Force p =
-                rho_Q[i] * (at(dst, node.node) / rho[i] - at(dv, node.node));
+              const Force p = rho_Q[i] * (free_part(dst, node.node) / rho[i] -
+                                          free_part(dv, node.node));
               for (unsigned int k = 0; k < n_motions; ++k)
                 sums[n_motions * node.obstacle + k] +=
                   RigidMotion::of_point(k, node.arm) * p;
@@ -442,8 +535,11 @@ namespace geocone
         const ContactNode &node = list[i];
         if (!is_owned(node))
           continue;
-        const Force dr = at(dst, node.node),
-                    du = at(dv, node.node) - change[node.obstacle].at(node.arm);
+        const Force dr = free_part(dst, node.node),
+                    du = free_part(dv, node.node) -
+                         (node.touches_body()
+                            ? velocity_of_partners(node, dv)
+                            : change[node.obstacle].at(node.arm));
         for (unsigned int a = 0; a < dim; ++a)
           if (unknowns.is_free(dim * node.node + a))
             {

@@ -53,6 +53,7 @@ namespace geocone
   {
     if (contact_term)
       contact_term->begin_step(std::move(touching));
+    links_now  = contact_term ? contact_term->links() : Links();
     h          = step;
     velocity_L = v;
     prescribed = prescribed_velocity;
@@ -144,13 +145,23 @@ namespace geocone
   {
     Assert(!one_triangle || is_symmetric(), ExcInternalError());
     SparseMatrix matrix;
+    links   = links_now;
     pattern = JacobianPattern(points,
                               unknowns,
                               layout->get_mpi_communicator(),
                               ghost.node_groups(),
+                              links,
                               one_triangle,
                               matrix);
     return matrix;
+  }
+
+  bool
+  IncrementalProblem::needs_pattern() const
+  {
+    return contact_term &&
+           Utilities::MPI::max(int(links_now != links),
+                               layout->get_mpi_communicator()) > 0;
   }
 
   LowRank

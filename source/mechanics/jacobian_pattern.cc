@@ -12,6 +12,7 @@ namespace geocone
     const Unknowns                                 &unknowns,
     const MPI_Comm                                  comm,
     const std::vector<std::array<unsigned int, 3>> &groups,
+    const std::vector<std::vector<unsigned int>>   &links,
     const bool                                      one_triangle,
     SparseMatrix                                   &matrix)
     : one_triangle(one_triangle)
@@ -42,10 +43,22 @@ namespace geocone
         neighbours[node].insert(
           neighbours[node].end(), group.begin(), group.end());
     for (unsigned int node = 0; node < n_local_nodes; ++node)
+      // Of an owned node all points may be on other ranks.
+      neighbours[node].push_back(node);
+    for (const auto &link : links)
+      for (auto other = link.begin() + 1; other != link.end(); ++other)
+        {
+          const auto &of_node = neighbours[link.front()];
+          auto       &list    = neighbours[*other];
+          list.insert(list.end(), of_node.begin(), of_node.end());
+          list.insert(list.end(), link.begin(), link.end());
+        }
+    for (const auto &link : links)
+      neighbours[link.front()].insert(
+        neighbours[link.front()].end(), link.begin(), link.end());
+    for (unsigned int node = 0; node < n_local_nodes; ++node)
       {
         auto &list = neighbours[node];
-        // Of an owned node all points may be on other ranks.
-        list.push_back(node);
         std::sort(list.begin(), list.end());
         list.erase(std::unique(list.begin(), list.end()), list.end());
         for (unsigned int c = 0; c < dim; ++c)

@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 
 namespace geocone
 {
@@ -64,6 +66,10 @@ namespace geocone
     length.compress(VectorOperation::add);
     length.update_ghost_values();
 
+    if (!scene.contacts.list.empty())
+      bodies.emplace(scene, mesh, space).check_start([this](const auto node) {
+        return place(node);
+      });
     std::vector<double> least(list.size(), 0.);
     for (unsigned int o = 0; o < list.size(); ++o)
       {
@@ -113,7 +119,64 @@ namespace geocone
                 velocity[o][k] + force[k] / body.inertia[k];
             }
       }
-    std::string twice;
+    std::map<unsigned int, double> gap_of;
+    if (bodies)
+      gap_of = add_nodes_of_bodies(velocity_n, h, step);
+    if (!list.empty())
+      add_nodes_of_obstacles(velocity_n, h, gaps, gap_of, step);
+    return step;
+  }
+
+  std::map<unsigned int, double>
+  ObstacleContact::add_nodes_of_bodies(const Vector &velocity_n,
+                                       const double  h,
+                                       ContactStep  &step) const
+  {
+    const auto velocity_of = [&](const unsigned int node) {
+      Tensor<1, dim> v;
+      for (unsigned int d = 0; d < dim; ++d)
+        v[d] = velocity_n.local_element(dim * node + d);
+      return v;
+    };
+    double fastest = 0.;
+    for (const unsigned int node : candidates)
+      fastest = std::max(fastest, velocity_of(node).norm());
+    fastest        = Utilities::MPI::max(fastest, comm);
+    step.has_pairs = true;
+    std::map<unsigned int, double> gap_of;
+    for (auto &[contact, gap] :
+         bodies->find([this](const unsigned int node) { return place(node); },
+                      4. * h * fastest))
+      {
+        Tensor<1, dim> u = velocity_of(contact.node);
+        for (const ContactNode::Partner &other : contact.partners)
+          u -= other.part * velocity_of(other.node);
+        contact.least    = -gap / h;
+        contact.velocity = velocity_of(contact.node) - u;
+        const double u_n = u * contact.normal;
+        if (contact.rebounds && u_n < 0. && u_n < contact.least)
+          contact.least =
+            -scene.contacts
+               .list[contact.obstacle - scene.obstacles.list.size()]
+               ->law.restitution *
+            u_n;
+        gap_of[contact.node] = gap;
+        step.nodes.push_back(contact);
+      }
+    return gap_of;
+  }
+
+  void
+  ObstacleContact::add_nodes_of_obstacles(
+    const Vector                         &velocity_n,
+    const double                          h,
+    const std::vector<Vector>            &gaps,
+    const std::map<unsigned int, double> &gap_of,
+    ContactStep                          &step) const
+  {
+    const auto            &list = scene.obstacles.list;
+    std::set<unsigned int> taken; // from other bodies
+    std::string            twice;
     for (const unsigned int node : candidates)
       {
         const Point<dim> x = place(node);
@@ -146,27 +209,52 @@ namespace geocone
             contact.arm      = arm;
             contact.velocity = V;
             contact.least    = -gap / h;
-            contact.friction = list[o]->friction;
-            contact.adhesion = mesh_is_body ? list[o]->adhesion *
-                                                length.local_element(dim * node)
-                                            : 0.;
+            contact.friction = list[o]->law.friction;
+            contact.length =
+              mesh_is_body ? length.local_element(dim * node) : 0.;
+            contact.adhesion = list[o]->law.adhesion * contact.length;
+            contact.rebounds = list[o]->law.restitution > 0.;
             // Faster than that it would hit the obstacle in this step.
             const double u_n = (v - V) * at.normal;
-            if (list[o]->restitution > 0. && u_n < 0. && u_n < contact.least)
-              contact.least = -list[o]->restitution * u_n;
+            if (contact.rebounds && u_n < 0. && u_n < contact.least)
+              contact.least = -list[o]->law.restitution * u_n;
           }
         if (n_touch > 1)
           twice = format(
             "the node at (%g, %g) touches two obstacles at once", x[0], x[1]);
+        // Where another body is as near, what touches the obstacle does.
+        const auto other = gap_of.find(node);
+        if (other != gap_of.end() && nearest > closed * size &&
+            nearest > other->second)
+          continue;
+        if (other != gap_of.end())
+          taken.insert(node);
         if (std::isfinite(nearest))
           step.nodes.push_back(contact);
       }
+    step.nodes.erase(std::remove_if(step.nodes.begin(),
+                                    step.nodes.end(),
+                                    [&](const ContactNode &contact) {
+                                      return contact.touches_body() &&
+                                             taken.count(contact.node) > 0;
+                                    }),
+                     step.nodes.end());
     twice = text_of_any_rank(comm, twice);
     if (!twice.empty())
       throw StepFailure(twice +
                         "\n  remedy:  hold one of the two sides by a boundary "
                         "condition, or leave the corner out of the body");
-    return step;
+  }
+
+  Tensor<1, dim>
+  ObstacleContact::force(const Contact &contact, const unsigned int i)
+  {
+    Tensor<1, dim>     r = contact.touches()[i].force;
+    const unsigned int direction =
+      contact.free_direction(contact.nodes()[i].node);
+    if (direction < 2)
+      r[1 - direction] = 0.;
+    return r;
   }
 
   ContactReport
@@ -195,19 +283,15 @@ namespace geocone
         most[0]                       = std::max(most[0], touch.error);
         sums[6] += touch.size;
         // g of the end: that of the beginning is -least h, but where it rebounds.
-        if (scene.obstacles.list[nodes[i].obstacle]->restitution == 0.)
+        if (!nodes[i].rebounds)
           most[1] = std::max(
             most[1], -h * (relative * nodes[i].normal - nodes[i].least));
         if (touch.state == Contact::State::open)
           continue;
-        // What supports hold of the node is theirs.
-        Tensor<1, dim>     r         = touch.force;
-        const unsigned int direction = contact.free_direction(node);
-        if (direction < 2)
-          r[1 - direction] = 0.;
+        const Tensor<1, dim> r = force(contact, i);
         if (mesh_is_body)
           {
-            const double l = length.local_element(dim * node);
+            const double l = nodes[i].length;
             sums[5] += l;
             if (touch.state == Contact::State::stick)
               sums[7] += l;
@@ -216,7 +300,8 @@ namespace geocone
             most[3] =
               std::max(most[3], (r / l - pressure * nodes[i].normal).norm());
           }
-        sums[3] += h * (r * u);
+        // A pair of bodies does no work but what friction and impact take.
+        sums[3] += h * (r * (nodes[i].touches_body() ? relative : u));
         sums[4] -= h * (r * relative);
       }
     sum_over_ranks(sums, comm);
@@ -242,7 +327,8 @@ namespace geocone
   ObstacleContact::reactions(const Contact &contact) const
   {
     const auto         &list = scene.obstacles.list;
-    std::vector<double> sums(3 * list.size(), 0.);
+    const unsigned int  n    = list.size() + scene.contacts.list.size();
+    std::vector<double> sums(3 * n, 0.);
     const auto         &nodes = contact.nodes();
     for (unsigned int i = 0; i < nodes.size(); ++i)
       {
@@ -250,21 +336,18 @@ namespace geocone
         if (nodes[i].node >= space.n_owned_nodes() ||
             touch.state == Contact::State::open)
           continue;
-        Tensor<1, dim>     r         = touch.force;
-        const unsigned int direction = contact.free_direction(nodes[i].node);
-        if (direction < 2)
-          r[1 - direction] = 0.;
-        const unsigned int o = nodes[i].obstacle;
-        const Point<dim>   about =
-          scene.observation.moment_centre().value_or(centre(o));
+        const Tensor<1, dim> r     = force(contact, i);
+        const unsigned int   o     = nodes[i].obstacle;
+        const Point<dim>     about = scene.observation.moment_centre().value_or(
+          nodes[i].touches_body() ? Point<dim>() : centre(o));
         const Tensor<1, dim> arm = place(nodes[i].node) - about;
         sums[3 * o] += r[0];
         sums[3 * o + 1] += r[1];
         sums[3 * o + 2] += arm[0] * r[1] - arm[1] * r[0];
       }
     sum_over_ranks(sums, comm);
-    std::vector<Reaction> result(list.size());
-    for (unsigned int o = 0; o < list.size(); ++o)
+    std::vector<Reaction> result(n);
+    for (unsigned int o = 0; o < n; ++o)
       {
         result[o].force[0] = sums[3 * o];
         result[o].force[1] = sums[3 * o + 1];
@@ -279,40 +362,104 @@ namespace geocone
                           const Vector  &mass,
                           Vector        &v_end) const
   {
-    double      lost  = 0.;
     const auto &nodes = contact.nodes();
+    // What touches, and the masses, of other ranks too: all of them settle alike.
+    Vector closed_nodes(space.partitioner()), inertia = mass;
     for (unsigned int i = 0; i < nodes.size(); ++i)
+      if (nodes[i].node < space.n_owned_nodes())
+        closed_nodes.local_element(dim * nodes[i].node) =
+          contact.touches()[i].state == Contact::State::open    ? 0.
+          : contact.touches()[i].state == Contact::State::stick ? 2.
+                                                                : 1.;
+    closed_nodes.update_ghost_values();
+    inertia.update_ghost_values();
+    v.update_ghost_values();
+    v_end.update_ghost_values();
+
+    double lost = 0.;
+    for (const ContactNode &at : nodes)
       {
-        const unsigned int node  = nodes[i].node;
-        const auto         state = contact.touches()[i].state;
-        if (node >= space.n_owned_nodes() || state == Contact::State::open)
+        const double state = closed_nodes.local_element(dim * at.node);
+        if (state == 0.)
           continue;
-        const Tensor<1, dim> &n = nodes[i].normal;
+        const Tensor<1, dim> &n = at.normal;
         const Tensor<1, dim>  t({-n[1], n[0]});
         for (const Tensor<1, dim> &along : {n, t})
           {
-            if (along == t && state != Contact::State::stick)
+            if (along == t && state < 2.)
               continue;
-            double solved = 0., end = 0.; // against the obstacle
+            // Along and against the obstacle or the other body: what was solved for,
+            // what it would be, and how fast a unit impulse makes it.
+            double solved = 0., end = 0., mobility = 0.;
             for (unsigned int d = 0; d < dim; ++d)
               {
-                const double V = nodes[i].velocity[d];
-                solved += (v.local_element(dim * node + d) - V) * along[d];
-                end += (v_end.local_element(dim * node + d) - V) * along[d];
+                const unsigned int dof = dim * at.node + d;
+                solved += (v.local_element(dof) - at.velocity[d]) * along[d];
+                end += v_end.local_element(dof) * along[d];
+                mobility += along[d] * along[d] / inertia.local_element(dof);
+                if (!at.touches_body())
+                  end -= at.velocity[d] * along[d];
+                for (const ContactNode::Partner &other : at.partners)
+                  {
+                    const unsigned int its = dim * other.node + d;
+                    end -= other.part * v_end.local_element(its) * along[d];
+                    mobility += std::pow(other.part * along[d], 2) /
+                                inertia.local_element(its);
+                  }
               }
             if (std::abs(end) <= std::abs(solved))
               continue;
+            const double impulse = (solved - end) / mobility;
             for (unsigned int d = 0; d < dim; ++d)
               {
-                double      &u      = v_end.local_element(dim * node + d);
-                const double before = u;
-                u += (solved - end) * along[d];
-                lost += mass.local_element(dim * node + d) / 2. *
-                        (before * before - u * u);
+                const unsigned int dof = dim * at.node + d;
+                v_end.local_element(dof) +=
+                  impulse * along[d] / inertia.local_element(dof);
+                for (const ContactNode::Partner &other : at.partners)
+                  v_end.local_element(dim * other.node + d) -=
+                    impulse * other.part * along[d] /
+                    inertia.local_element(dim * other.node + d);
               }
+            if (at.node < space.n_owned_nodes())
+              lost -= impulse * (solved + end) / 2.;
           }
       }
+    v_end.zero_out_ghost_values();
     return Utilities::MPI::sum(lost, comm);
+  }
+
+  void
+  ObstacleContact::add_displacements(
+    const Contact               &contact,
+    const Vector                &v,
+    const double                 h,
+    const unsigned int           first,
+    std::vector<Tensor<1, dim>> &supports) const
+  {
+    const unsigned int n_obstacles = displacement.size(),
+                       n_pairs     = scene.contacts.list.size();
+    for (unsigned int o = 0; o < n_obstacles; ++o)
+      supports[first + o] += h * contact.motions()[o].centre;
+    if (n_pairs == 0)
+      return;
+    std::vector<double> sums((dim + 1) * n_pairs, 0.);
+    const auto         &nodes = contact.nodes();
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      if (nodes[i].touches_body() && nodes[i].node < space.n_owned_nodes() &&
+          contact.touches()[i].state != Contact::State::open)
+        {
+          double *own = &sums[(dim + 1) * (nodes[i].obstacle - n_obstacles)];
+          for (unsigned int d = 0; d < dim; ++d)
+            own[d] +=
+              nodes[i].length *
+              (v.local_element(dim * nodes[i].node + d) - nodes[i].velocity[d]);
+          own[dim] += nodes[i].length;
+        }
+    sum_over_ranks(sums, comm);
+    for (unsigned int k = 0; k < n_pairs; ++k)
+      if (const double *own = &sums[(dim + 1) * k]; own[dim] > 0.)
+        for (unsigned int d = 0; d < dim; ++d)
+          supports[first + n_obstacles + k][d] += h * own[d] / own[dim];
   }
 
   void

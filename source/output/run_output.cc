@@ -302,7 +302,7 @@ namespace geocone
   bool
   RunOutput::touches() const
   {
-    return !scene->obstacles.list.empty();
+    return scene->has_contact();
   }
 
   bool

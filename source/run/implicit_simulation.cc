@@ -196,7 +196,7 @@ namespace geocone
         for (const auto &condition : scene.dirichlet.list)
           condition->refuse_normal("free where problems are frozen",
                                    "give Velocity x and y, or " + remedy);
-        scene.obstacles.refuse("frozen problems", remedy);
+        scene.refuse_contact("frozen problems", remedy);
         if (CellPressures::are_those_of(points, scene.materials))
           throw InputError("Discretisation/B-bar",
                            "true",

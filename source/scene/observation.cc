@@ -33,7 +33,8 @@ namespace geocone
   {
     add_parameter("Conditions",
                   names,
-                  "Boundary conditions and obstacles whose reactions are "
+                  "Boundary conditions, obstacles and contacts (their force on "
+                  "'Body') whose reactions are "
                   "reported; the first "
                   "one gives the load-displacement curve.");
     observed.declare(

@@ -83,17 +83,7 @@ namespace geocone
       moment_of_inertia,
       "About the centre, of an obstacle that is free to turn (kg m); "
       "of a rectangle M (a^2 + b^2)/12.");
-    add_parameter(
-      "Friction coefficient", friction, "mu of Coulomb's law; 0: smooth.");
-    add_parameter("Adhesion",
-                  adhesion,
-                  "Shear stress (Pa) that the interface bears besides friction "
-                  "while it is closed.");
-    add_parameter("Restitution",
-                  restitution,
-                  "Part of the normal velocity with which a node rebounds that "
-                  "would hit the obstacle in a step (Newton's law); 0: it "
-                  "stays, and closes exactly.");
+    law.declare(*this);
   }
 
   void
@@ -176,19 +166,7 @@ namespace geocone
                            "turn their order round, leave out those inside its "
                            "sides, or make an obstacle of each convex part");
       }
-    if (!(friction >= 0. && std::isfinite(friction)))
-      throw InputError(parameter("Friction coefficient"),
-                       friction,
-                       ">= 0, finite",
-                       "0 is smooth; tan(phi) lets the soil fail first");
-    if (!(adhesion >= 0. && std::isfinite(adhesion)))
-      throw InputError(
-        parameter("Adhesion"), adhesion, ">= 0 Pa, finite", "0: friction only");
-    if (!(restitution >= 0. && restitution <= 1.))
-      throw InputError(parameter("Restitution"),
-                       restitution,
-                       "0 to 1",
-                       "0: no rebound; 1: elastic impact");
+    law.check(*this);
   }
 
   RigidMotion

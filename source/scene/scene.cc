@@ -45,6 +45,7 @@ namespace geocone
         "(dashpots of Lysmer and Kuhlemeyer), comma-separated; each has a "
         "subsection of that name. FEM with inertia.")
     , obstacles(file)
+    , contacts(file)
     , loading(file)
   {}
 
@@ -82,20 +83,23 @@ namespace geocone
     tractions.prepare();
     absorbing.prepare();
     obstacles.prepare();
-    for (const auto &obstacle : obstacles.list)
-      for (const auto &condition : dirichlet.list)
-        if (condition->name == obstacle->name)
-          throw InputError("Obstacles/Names",
-                           obstacle->name,
-                           "other names than those of 'Boundary "
-                           "conditions/Names'",
-                           "both can be observed by name: rename one of them");
+    contacts.prepare(names);
+    std::vector<std::string> observable = supports();
+    std::sort(observable.begin(), observable.end());
+    const auto twice = std::adjacent_find(observable.begin(), observable.end());
+    if (twice != observable.end())
+      throw InputError((obstacles.list.empty() ? "Contacts" : "Obstacles") +
+                         std::string("/Names"),
+                       *twice,
+                       "other names than those of boundary conditions, "
+                       "obstacles and contacts",
+                       "all can be observed by name: rename one of them");
     if (dim == 3)
       {
         const std::string where = "Geometry/Dimension = 3",
                           remedy =
                             "it is for plane scenes so far: leave it out";
-        obstacles.refuse(where, remedy);
+        refuse_contact(where, remedy);
         absorbing.refuse(where, remedy);
         if (water.acts())
           throw InputError(
@@ -116,6 +120,8 @@ namespace geocone
       names.push_back(condition->name);
     for (const auto &obstacle : obstacles.list)
       names.push_back(obstacle->name);
+    for (const auto &pair : contacts.list)
+      names.push_back(pair->name);
     return names;
   }
 

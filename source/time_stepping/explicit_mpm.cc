@@ -97,9 +97,9 @@ namespace geocone
                                       "or take Tresca with the undrained "
                                       "strength");
     scene->regions.refuse_fixed("explicit MPM");
-    scene->obstacles.refuse("explicit MPM",
-                            "set Discretisation/Method = FEM or MPM, or hold "
-                            "the body by 'Boundary conditions'");
+    scene->refuse_contact("explicit MPM",
+                          "set Discretisation/Method = FEM or MPM, or hold "
+                          "the body by 'Boundary conditions'");
     for (const auto &condition : scene->dirichlet.list)
       {
         condition->refuse_normal("free with explicit MPM",

@@ -55,12 +55,20 @@ namespace geocone
                        "set Time stepping/Inertia = true: without it there is "
                        "nothing to be kept");
     for (const auto &obstacle : scene->obstacles.list)
-      if (integration == Integration::midpoint && obstacle->restitution > 0.)
+      if (integration == Integration::midpoint &&
+          obstacle->law.restitution > 0.)
         throw InputError(obstacle->parameter("Restitution"),
-                         obstacle->restitution,
+                         obstacle->law.restitution,
                          "0 with Integration = midpoint",
                          "by the midpoint rule a node that hits an obstacle "
                          "rebounds elastically as it is");
+    for (const auto &pair : scene->contacts.list)
+      if (integration == Integration::midpoint && pair->law.restitution > 0.)
+        throw InputError("Contacts/" + pair->name + "/Restitution",
+                         pair->law.restitution,
+                         "0 with Integration = midpoint",
+                         "by the midpoint rule what hits rebounds elastically "
+                         "as it is");
     if (!inertia)
       scene->absorbing.refuse(
         "Time stepping/Inertia = false",
@@ -151,7 +159,7 @@ namespace geocone
     const std::string who    = "stages that remove or add material, with FEM",
                       remedy = "leave one of them out, or set "
                                "Discretisation/Method = MPM";
-    scene->obstacles.refuse(who, remedy);
+    scene->refuse_contact(who, remedy);
     scene->absorbing.refuse(who, "leave one of them out");
   }
 
@@ -287,7 +295,9 @@ namespace geocone
   }
 
   RaisedLoads
-  ImplicitFEM::begin_step(const TimeStep &step, const Kinematics &kinematics)
+  ImplicitFEM::begin_step(const TimeStep   &step,
+                          const Kinematics &kinematics,
+                          TimerOutput      &timer)
   {
     Vector prescribed = problem->make_vector();
     constraints->set_values(prescribed, step.solved_at);
@@ -328,6 +338,8 @@ namespace geocone
                         velocity_n,
                         prescribed,
                         std::move(touching));
+    if (problem->needs_pattern())
+      system->set_pattern(*problem, timer);
     return raised;
   }
 
@@ -388,9 +400,12 @@ namespace geocone
     for (unsigned int c = 0; c < scene->dirichlet.list.size(); ++c)
       for (unsigned int d = 0; d < dim; ++d)
         kinematics.supports[c][d] += step.h * constraints->mean(v, c, d);
-    for (unsigned int o = 0; o < scene->obstacles.list.size(); ++o)
-      kinematics.supports[scene->dirichlet.list.size() + o] +=
-        step.h * problem->contact().motions()[o].centre;
+    if (obstacles->exists())
+      obstacles->add_displacements(problem->contact(),
+                                   v,
+                                   step.h,
+                                   scene->dirichlet.list.size(),
+                                   kinematics.supports);
     return settled;
   }
 
@@ -406,7 +421,7 @@ namespace geocone
     if (!begun)
       begin(points, timer);
     const TimeStep    step(integration, t, h);
-    const RaisedLoads raised = begin_step(step, kinematics);
+    const RaisedLoads raised = begin_step(step, kinematics, timer);
 
     StepReport report;
     Vector     residual = problem->make_vector();

@@ -106,6 +106,9 @@ namespace geocone
   void
   ImplicitMPM::check_obstacles(const MaterialPoints &points) const
   {
+    scene->contacts.refuse("Discretisation/Method = MPM",
+                           "set it to FEM, or let one of the bodies be an "
+                           "obstacle: bodies of particles share their nodes");
     if (!obstacles->exists())
       return;
     for (const auto &condition : scene->dirichlet.list)
@@ -122,9 +125,9 @@ namespace geocone
                        "backward Euler where there are obstacles",
                        "the midpoint rule would let the body enter them");
     for (const auto &obstacle : scene->obstacles.list)
-      if (obstacle->adhesion > 0.)
+      if (obstacle->law.adhesion > 0.)
         throw InputError(obstacle->parameter("Adhesion"),
-                         obstacle->adhesion,
+                         obstacle->law.adhesion,
                          "0 with MPM",
                          "the surface of particles has no area; take FEM");
     check_particles_outside(

@@ -376,9 +376,12 @@ namespace geocone
   {
     const Eigen::VectorXd &lambda = problem->multipliers();
     const Multipliers     &rows   = constraints->multipliers;
-    for (unsigned int o = 0; o < scene->obstacles.list.size(); ++o)
-      kinematics.supports[scene->dirichlet.list.size() + o] +=
-        step.h * problem->contact().motions()[o].centre;
+    if (obstacles->exists())
+      obstacles->add_displacements(problem->contact(),
+                                   v,
+                                   step.h,
+                                   scene->dirichlet.list.size(),
+                                   kinematics.supports);
     for (unsigned int c = 0; c < scene->dirichlet.list.size(); ++c)
       {
         const bool moves = scene->dirichlet.list[c]->moves();

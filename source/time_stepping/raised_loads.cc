@@ -10,9 +10,9 @@ namespace geocone
   RaisedLoads::check(const Scene &scene)
   {
     if (scene.loading.raises_loads())
-      scene.obstacles.refuse("stages with 'Raised loads'",
-                             "leave one of them out; bodies that press are "
-                             "held by 'Boundary conditions'");
+      scene.refuse_contact("stages with 'Raised loads'",
+                           "leave one of them out; bodies that press are "
+                           "held by 'Boundary conditions'");
   }
 
   void

@@ -20,8 +20,8 @@ namespace geocone
   {
     if (!scene.geometry.is_axisymmetric())
       return;
-    scene.obstacles.refuse("Geometry/Symmetry = axisymmetric",
-                           "prescribe velocities of sides instead");
+    scene.refuse_contact("Geometry/Symmetry = axisymmetric",
+                         "prescribe velocities of sides instead");
     if (space.has_b_bar())
       throw InputError("Discretisation/B-bar",
                        "true",

@@ -5,10 +5,10 @@
 // and by values that no step has. Each must be read or refused. What is refused by
 // value is refused by its name.
 
-#include <geocone/base/version.h>
-#include <geocone/mechanics/frozen_problem.h>
-#include <geocone/mechanics/reduced_problem.h>
 
+#include <geocone/base/version.h>
+#include <geocone/mechanics/cone_files.h>
+#include <geocone/mechanics/frozen_problem.h>
 #include "../damage.h"
 
 #include <deal.II/base/mpi.h>

@@ -8,6 +8,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/version.h>
+#include <geocone/mechanics/cone_files.h>
 #include <geocone/solvers/gauss_seidel.h>
 #include <geocone/solvers/reduced_newton.h>
 

@@ -137,6 +137,13 @@ namespace geocone
     std::array<unsigned int, dim>
     place_in_grid(const Cell &cell) const;
 
+    /** Whether it is parted between bodies that touch: each rank knows all of it. */
+    bool
+    is_parted() const
+    {
+      return parted;
+    }
+
     /** The lowest coordinates of all vertices. */
     dealii::Point<dim>
     lower_corner() const;
@@ -199,7 +206,7 @@ namespace geocone
     std::unique_ptr<dealii::Mapping<dim>>                     map;
     std::map<std::string, dealii::types::boundary_id>         sides;
     std::array<std::vector<double>, dim>                      lines;
-    bool                      simplicial = false;
+    bool                      simplicial = false, parted = false;
     std::optional<CellSizes>  sizes;
     std::vector<unsigned int> owners;
   };

@@ -11,6 +11,7 @@
 #include <deal.II/grid/tria_description.h>
 
 #include <array>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -52,6 +53,14 @@ namespace geocone
     /** Mean of the vertices of a face. */
     dealii::Point<dim>
     centre(const Face &face) const;
+
+    /**
+     * Parts the mesh along the faces between cells of materials that are apart: each
+     * piece of what meets at a vertex there gets a vertex of its own.
+     * @return these faces, as both sides have them
+     */
+    std::vector<Face>
+    part(const std::function<bool(unsigned int, unsigned int)> &are_apart);
 
     /** Gives a boundary face the number of a side. */
     void

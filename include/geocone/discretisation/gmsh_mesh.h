@@ -6,6 +6,7 @@
 
 #include <geocone/discretisation/coarse_mesh.h>
 #include <geocone/discretisation/mesh_parameters.h>
+#include <geocone/scene/contacts.h>
 
 #include <array>
 #include <vector>
@@ -56,6 +57,7 @@ namespace geocone
   CoarseMesh
   mesh_of_file(const Geometry &geometry,
                const Regions  &regions,
+               const Contacts &contacts,
                const MPI_Comm  comm);
 } // namespace geocone
 

@@ -6,6 +6,7 @@
 
 #include <geocone/discretisation/coarse_mesh.h>
 #include <geocone/discretisation/msh_file.h>
+#include <geocone/scene/contacts.h>
 #include <geocone/scene/geometry.h>
 
 #include <string>
@@ -16,6 +17,8 @@ namespace geocone
    * The mesh of the cells: vertices in the order in which the cells use them,
    * cells in the order of their surfaces, and of each surface first the
    * triangles; the edges of physical curves are the sides.
+   * @param contacts between bodies, which may have nodes of their own where they touch,
+   * or null for none
    * @throws InputError if nodes are missing, not finite, not in the plane z = 0,
    * or too close together for their coordinates; if there are no cells, or some
    * are inverted, overlap, or have hanging nodes
@@ -23,7 +26,8 @@ namespace geocone
   CoarseMesh
   coarse_mesh(const MshData     &data,
               const std::string &what,
-              const Regions     &regions);
+              const Regions     &regions,
+              const Contacts    *contacts = nullptr);
 } // namespace geocone
 
 #endif

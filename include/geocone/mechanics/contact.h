@@ -17,18 +17,38 @@
 
 namespace geocone
 {
-  /** A node that may touch an obstacle in a step. */
+  /** A node that may touch an obstacle, or another body, in a step. */
   struct ContactNode
   {
-    unsigned int           node;     ///< local, also a ghost
-    unsigned int           obstacle; ///< its number
-    dealii::Tensor<1, dim> normal;   ///< out of the obstacle
-    dealii::Tensor<1, dim> arm;      ///< from the obstacle's centre (m)
-    dealii::Tensor<1, dim> velocity; ///< of the obstacle here (m/s)
+    unsigned int node; ///< local, also a ghost
+
+    /** Number of the obstacle; of a pair of bodies, which come after them. */
+    unsigned int           obstacle;
+    dealii::Tensor<1, dim> normal; ///< out of the obstacle, or the other body
+    dealii::Tensor<1, dim> arm;    ///< from the obstacle's centre (m)
+    dealii::Tensor<1, dim>
+      velocity; ///< of the obstacle, or other body, here (m/s)
+
+    /** A node of the other body, and its part of the velocity here. */
+    struct Partner
+    {
+      unsigned int node; ///< local, also a ghost
+      double       part;
+    };
+    std::vector<Partner> partners; ///< of an obstacle none
+
+    double length = 0.; ///< of the boundary that the node stands for (m), or 0
 
     /** Least relative normal velocity: -g/h for a gap g, or -e u_N of the beginning
      *  where the node rebounds (m/s). */
-    double least = 0.;
+    double least    = 0.;
+    bool   rebounds = false; ///< whether e > 0
+
+    bool
+    touches_body() const
+    {
+      return !partners.empty();
+    }
 
     double friction = 0.; ///< mu
     double adhesion = 0.; ///< borne besides friction, while closed (N/m)
@@ -57,11 +77,12 @@ namespace geocone
     std::vector<ContactNode>
       nodes; ///< all of this rank, with ghosts, each once
     std::vector<ObstacleBody> bodies; ///< the obstacles
+    bool has_pairs = false;           ///< whether bodies may touch, on any rank
   };
 
   /**
-   * Unilateral contact with friction of nodes and rigid obstacles, without an
-   * unknown of its own. In the rows of a node that may touch, the residual R(v) of
+   * Unilateral contact with friction of nodes and rigid obstacles, or other bodies,
+   * without an unknown of its own. In the rows of a node that may touch, the residual R(v) of
    * the momentum balance is the force r that the obstacle exerts. Signorini's and
    * Coulomb's laws for it and the relative velocity u,
    *   0 <= r_N  _|_  w_N = u_N - least >= 0,
@@ -86,6 +107,11 @@ namespace geocone
    * a part U W' of rank three per obstacle in the Jacobian, U = rho Q G, W' = E^-1 sum
    * G' Q (K - rho), K the rows of the Jacobian before they are combined.
    *
+   * Another body moves at node i by sum_j P_ij v_j, and bears -P_ij r_i at its node j.
+   * So P_ij r_i comes to the residual there before r_i gives way to F_i, and P_ij times
+   * the rows of i to the rows of j: the multipliers of the contact, which are the r_i by
+   * the dual functions of BodyContact, are condensed out.
+   *
    * A node that a support holds in one direction is in contact only in the other
    * one, without friction.
    */
@@ -96,8 +122,14 @@ namespace geocone
       : unknowns(unknowns)
     {}
 
+    /** @throws StepFailure if a node that touches another body is held */
     void
     begin_step(ContactStep step);
+
+    /** The nodes that meet those of other bodies in the Jacobian: of each first the
+     *  node, then its partners. */
+    std::vector<std::vector<unsigned int>>
+    links() const;
 
     /**
      * Replaces the forces r in the rows of contact by F, and keeps both.
@@ -117,7 +149,8 @@ namespace geocone
     LowRank
     linearise(const JacobianPattern &pattern, SparseMatrix &matrix) const;
 
-    /** The same for a product: dst = A dst + B dv, in owned rows. */
+    /** The same for a product: dst = A dst + B dv, in owned rows.
+     *  @param dv with its ghosts. Collective. */
     void
     apply_tangent(Vector &dst, const Vector &dv) const;
 
@@ -188,6 +221,22 @@ namespace geocone
       double rho = 0.;
     };
 
+    /** v at the free dofs of a node. */
+    Force
+    free_part(const Vector &v, const unsigned int node) const;
+
+    /** Of the other body at a node, in its free directions. @param v with ghosts */
+    Force
+    velocity_of_partners(const ContactNode &node, const Vector &v) const;
+
+    /** Adds P' r to the rows of other bodies. Collective. */
+    void
+    load_partners(Vector &residual) const;
+
+    /** The same for rows of the Jacobian. */
+    void
+    add_rows_to_partners(SparseMatrix &matrix) const;
+
     /** q of a node, F, and Q. */
     struct Projection
     {
@@ -235,7 +284,8 @@ namespace geocone
     std::vector<RigidMotion>     motion;
     std::vector<Eigen::Matrix3d> mobility; ///< E^-1, zero for what is driven
     std::vector<unsigned int> first_free; ///< number of an obstacle's first one
-    unsigned int              n_free     = 0;    ///< motions of all obstacles
+    unsigned int              n_free     = 0;     ///< motions of all obstacles
+    bool                      has_pairs  = false; ///< of bodies, on any rank
     double                    body_error = 0.;   ///< of their equilibrium (N/m)
     bool                      rubs       = true; ///< in the last replace()
   };

@@ -173,6 +173,11 @@ namespace geocone
     SparseMatrix
     make_pattern(const bool one_triangle);
 
+    /** Whether other nodes meet in the step's Jacobian than in the last pattern.
+     *  Collective where there is contact. */
+    bool
+    needs_pattern() const;
+
     /**
      * Generalised Jacobian dR/dv = M/h + h sum V B' C B at the last residual(),
      * with C replaced by (1 - w) C + w D, w the elastic blend.
@@ -321,6 +326,10 @@ namespace geocone
     Vector          elastic_diagonal; ///< of the present h, or empty
     Eigen::VectorXd lambda;
     JacobianPattern pattern;
+
+    using Links = std::vector<std::vector<unsigned int>>;
+    Links links_now; ///< of the step, Contact::links()
+    Links links;     ///< of the pattern
 
     /** Of H in the metric of scale(), for the present step, or empty. */
     Multipliers::Factors row_factors;

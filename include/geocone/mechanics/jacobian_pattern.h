@@ -25,6 +25,7 @@ namespace geocone
 
     /**
      * @param groups more nodes that meet
+     * @param links a node, and others whose rows take up its own (Contact::links())
      * @param one_triangle whether the lower triangle of a symmetric matrix is
      * enough
      * @param[out] matrix with the pattern, and zero values
@@ -33,6 +34,7 @@ namespace geocone
                     const Unknowns                                 &unknowns,
                     const MPI_Comm                                  comm,
                     const std::vector<std::array<unsigned int, 3>> &groups,
+                    const std::vector<std::vector<unsigned int>>   &links,
                     const bool    one_triangle,
                     SparseMatrix &matrix);
 

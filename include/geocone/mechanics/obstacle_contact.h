@@ -6,10 +6,12 @@
 
 #include <geocone/base/state_row.h>
 #include <geocone/discretisation/space.h>
+#include <geocone/mechanics/body_contact.h>
 #include <geocone/mechanics/constraints.h>
 #include <geocone/mechanics/contact.h>
 #include <geocone/scene/scene.h>
 
+#include <optional>
 #include <vector>
 
 namespace geocone
@@ -23,7 +25,7 @@ namespace geocone
     /** Where the mesh is the body: width of what is closed, and of what of it sticks
      *  (m), greatest pressure and shear traction (Pa). */
     double width = 0., stick_width = 0., pressure = 0., shear = 0.;
-    double       work  = 0.; ///< of the step, of the forces on the body (J/m)
+    double work        = 0.; ///< of the step, of the forces on the body (J/m)
     double dissipation = 0.; ///< of the step, of friction and impact (J/m)
 
     void
@@ -51,8 +53,8 @@ namespace geocone
   };
 
   /**
-   * The obstacles of a scene as they move, and the nodes that may touch them: of a
-   * mesh that is the body those of its boundary, which carry the gap with them; of
+   * The obstacles of a scene as they move, and the nodes that may touch them or other
+   * bodies: of a mesh that is the body those of its boundary, which carry the gap with them; of
    * a background mesh those in or on the obstacle, with the gap of the nearest
    * particle that they move.
    */
@@ -65,11 +67,11 @@ namespace geocone
                     const Space          &space,
                     const bool            mesh_is_body);
 
-    /** Whether there are obstacles. */
+    /** Whether there are obstacles, or bodies that may touch each other. */
     bool
     exists() const
     {
-      return !scene.obstacles.list.empty();
+      return scene.has_contact();
     }
 
     /**
@@ -78,7 +80,8 @@ namespace geocone
      * @param solved_h what is solved for: h, or h/2 by the midpoint rule
      * @param gaps of a background mesh: per obstacle the gap to it of the nearest
      * particle that a node moves, by its first dof, with ghosts
-     * @throws StepFailure if a node touches two obstacles at once
+     * @throws StepFailure if a node touches two obstacles at once, or see
+     * BodyContact::find()
      */
     ContactStep
     begin(const Vector              &velocity_n,
@@ -91,9 +94,21 @@ namespace geocone
     ContactReport
     report(const Contact &contact, const Vector &v, const double h) const;
 
-    /** The force of each obstacle on the body, and its moment. Collective. */
+    /** The force of each obstacle on the body, then of each other body on the first one
+     *  of a contact, and their moments, about the given centre or that of the obstacle,
+     *  or the origin. Collective. */
     std::vector<Reaction>
     reactions(const Contact &contact) const;
+
+    /** Adds to the displacements of supports those of a step: of the obstacles, then of
+     *  the first body of each contact against the other one, the mean of what touches.
+     *  @param first number of the first of these supports. Collective. */
+    void
+    add_displacements(const Contact                       &contact,
+                      const Vector                        &v,
+                      const double                         h,
+                      const unsigned int                   first,
+                      std::vector<dealii::Tensor<1, dim>> &supports) const;
 
     /**
      * For the midpoint rule: nodes that touch keep the velocity against the obstacle
@@ -158,11 +173,32 @@ namespace geocone
              displacement[obstacle].centre;
     }
 
+    /** The nodes that may touch obstacles. @param[in,out] step in: those of bodies
+     *  @param gap_of the gaps of these by node */
+    void
+    add_nodes_of_obstacles(const Vector                         &velocity_n,
+                           const double                          h,
+                           const std::vector<Vector>            &gaps,
+                           const std::map<unsigned int, double> &gap_of,
+                           ContactStep                          &step) const;
+
+    /** The nodes that may touch other bodies, and their gaps. Collective. */
+    std::map<unsigned int, double>
+    add_nodes_of_bodies(const Vector &velocity_n,
+                        const double  h,
+                        ContactStep  &step) const;
+
+    /** The force on a node: what supports hold of it is theirs. */
+    static dealii::Tensor<1, dim>
+    force(const Contact &contact, const unsigned int i);
+
     std::vector<unsigned int> candidates; ///< local nodes, with ghosts
     Vector                    length;     ///< int N_i dA (m)
     double                    size = 0.;  ///< of a cell (m)
     std::vector<RigidMotion>  displacement, velocity;
     Vector                    path; ///< of the nodes of the body (m)
+
+    std::optional<BodyContact> bodies; ///< where there are contacts
   };
 } // namespace geocone
 

@@ -96,21 +96,6 @@ namespace geocone
   {
     return natural_map(cone, s, Mandel(cone.psi(z)), rho).norm();
   }
-
-  /**
-   * Reads a problem in the text format of the plasticity problems of Siconos:
-   * dimension (3), n, type of the model (1; absent in older files), storage of
-   * the matrix, 3n, 3n, the matrix W, q, and for each cone an aperture eta = a
-   * and a coefficient theta. The matrix is dense (storage 0: 3n, 3n, its rows) or
-   * sparse (storage 2: 1, 2 or 3 for triplets, columns or rows, and what CSparse
-   * prints of such a matrix). The change of variable of the file is
-   * z + theta |z_t| n, so that theta = a - b. There is no cohesion: stresses are
-   * measured from the apex. Siconos' type 2, von Mises in plane stress, is no cone.
-   * @throws InputError naming the file if it is missing, cut, has something that
-   * is not a number, or describes anything else than the above
-   */
-  ReducedProblem
-  read_siconos(const std::string &file_name);
 } // namespace geocone
 
 #endif

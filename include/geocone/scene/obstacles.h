@@ -8,6 +8,7 @@
 #include <geocone/base/parameter_file.h>
 #include <geocone/base/types.h>
 #include <geocone/scene/expression.h>
+#include <geocone/scene/interface_law.h>
 #include <geocone/scene/rigid_motion.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -102,9 +103,7 @@ namespace geocone
     refuse_overlap(const std::string &how) const;
 
     const std::string name;
-    double            friction    = 0.; ///< mu
-    double            adhesion    = 0.; ///< shear stress borne besides (Pa)
-    double            restitution = 0.; ///< e of Newton's law of impact
+    InterfaceLaw      law;
 
   private:
     enum class Shape

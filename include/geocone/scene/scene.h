@@ -5,6 +5,7 @@
 #define geocone_scene_scene_h
 
 #include <geocone/scene/boundary_conditions.h>
+#include <geocone/scene/contacts.h>
 #include <geocone/scene/geometry.h>
 #include <geocone/scene/initial_state.h>
 #include <geocone/scene/loading.h>
@@ -28,9 +29,24 @@ namespace geocone
     prepare();
 
     /** Names of what holds the body and can be observed: the conditions with
-     *  prescribed velocities, then the obstacles. */
+     *  prescribed velocities, then the obstacles and the contacts. */
     std::vector<std::string>
     supports() const;
+
+    /** Whether something may touch. */
+    bool
+    has_contact() const
+    {
+      return !obstacles.list.empty() || !contacts.list.empty();
+    }
+
+    /** @throws InputError if something may touch, with what can have none of it */
+    void
+    refuse_contact(const std::string &what, const std::string &remedy) const
+    {
+      obstacles.refuse(what, remedy);
+      contacts.refuse(what, remedy);
+    }
 
     /**
      * The time in which a part of the boundary that is pushed moves by a thousandth
@@ -53,6 +69,7 @@ namespace geocone
     BoundaryConditions tractions;
     BoundaryConditions absorbing; ///< with velocities of waves that come in
     Obstacles          obstacles;
+    Contacts           contacts;
     LoadingProgramme   loading;
     Observation        observation;
   };

@@ -100,7 +100,9 @@ namespace geocone
     /** Gives the problem the step: loads, prescribed velocities, what touches.
      *  @return the loads that it raises. Collective. */
     RaisedLoads
-    begin_step(const TimeStep &step, const Kinematics &kinematics);
+    begin_step(const TimeStep      &step,
+               const Kinematics    &kinematics,
+               dealii::TimerOutput &timer);
 
     /** What loads, supports and absorbing sides have done in the step (J/m). */
     double

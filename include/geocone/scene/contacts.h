@@ -1,0 +1,66 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_scene_contacts_h
+#define geocone_scene_contacts_h
+
+#include <geocone/base/parameter_file.h>
+#include <geocone/scene/interface_law.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * Two bodies, each of some materials, that touch, rub and part: their meshes are
+   * not joined. Where they touch, the force of the other body on the nodes of the
+   * first and the relative velocity obey Signorini's and Coulomb's laws.
+   */
+  class BodyPair : public dealii::ParameterAcceptor
+  {
+  public:
+    explicit BodyPair(const std::string &name);
+
+    /** @param materials names of all. @throws InputError */
+    void
+    prepare(const std::vector<std::string> &materials);
+
+    const std::string name;
+    InterfaceLaw      law;
+
+    /** Which materials, by number, are the first body, and the other one. */
+    std::vector<bool> is_first, is_other;
+
+  private:
+    std::vector<std::string> first, other;
+  };
+
+  /** The contacts of a scene, named in the list "Contacts/Names". */
+  class Contacts : public dealii::ParameterAcceptor
+  {
+  public:
+    explicit Contacts(const ParameterFile &file);
+
+    void
+    prepare(const std::vector<std::string> &materials);
+
+    /** @throws InputError if there are any, with what can have none */
+    void
+    refuse(const std::string &what, const std::string &remedy) const;
+
+    /** Whether two materials belong to bodies that only touch. */
+    bool
+    are_apart(const unsigned int a, const unsigned int b) const;
+
+    std::vector<std::unique_ptr<BodyPair>> list;
+
+  private:
+    std::vector<std::string> names;
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,103 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/scene/contacts.h>
+
+#include <algorithm>
+
+namespace geocone
+{
+  BodyPair::BodyPair(const std::string &name)
+    : dealii::ParameterAcceptor("/Contacts/" + name)
+    , name(name)
+  {
+    add_parameter("Body",
+                  first,
+                  "Materials, comma-separated, that are the first body: the "
+                  "laws of contact hold at its nodes. Take the one with the "
+                  "finer cells, or else the softer or the smaller one.");
+    add_parameter(
+      "Other body",
+      other,
+      "Materials, comma-separated, of the body that it touches. "
+      "Their common edges part the mesh, which need not fit there.");
+    law.declare(*this);
+  }
+
+  void
+  BodyPair::prepare(const std::vector<std::string> &materials)
+  {
+    const std::string section = get_section_name().substr(1) + "/";
+    const auto        read    = [&](const std::string              &entry,
+                          const std::vector<std::string> &names,
+                          std::vector<bool>              &is_in) {
+      std::string known;
+      for (const std::string &material : materials)
+        known += (known.empty() ? "" : ", ") + material;
+      is_in.assign(materials.size(), false);
+      if (names.empty())
+        throw InputError(section + entry,
+                         "",
+                         "one or more of the materials " + known,
+                         "say which material is this body; what is one mesh "
+                                   "of one material is one body");
+      for (const std::string &name : names)
+        {
+          const auto at = std::find(materials.begin(), materials.end(), name);
+          if (at == materials.end())
+            throw InputError(section + entry, name, known, "choose some");
+          is_in[at - materials.begin()] = true;
+        }
+    };
+    read("Body", first, is_first);
+    read("Other body", other, is_other);
+    for (unsigned int m = 0; m < materials.size(); ++m)
+      if (is_first[m] && is_other[m])
+        throw InputError(section + "Other body",
+                         materials[m],
+                         "materials that are not in 'Body'",
+                         "a body does not touch itself: give each body a "
+                         "material of its own, with the same values if need "
+                         "be");
+    law.check(*this);
+  }
+
+  Contacts::Contacts(const ParameterFile &file)
+    : dealii::ParameterAcceptor("/Contacts")
+    , names(file.named_sections("Contacts", "Names", ""))
+  {
+    add_parameter("Names",
+                  names,
+                  "Names of pairs of bodies that touch, rub and part, "
+                  "comma-separated; each has a subsection of that name. FEM.");
+    for (const std::string &pair : names)
+      list.push_back(std::make_unique<BodyPair>(pair));
+  }
+
+  void
+  Contacts::prepare(const std::vector<std::string> &materials)
+  {
+    for (const auto &pair : list)
+      pair->prepare(materials);
+  }
+
+  void
+  Contacts::refuse(const std::string &what, const std::string &remedy) const
+  {
+    if (!list.empty())
+      throw InputError("Contacts/Names",
+                       dealii::Patterns::Tools::to_string(names),
+                       "none with " + what,
+                       remedy);
+  }
+
+  bool
+  Contacts::are_apart(const unsigned int a, const unsigned int b) const
+  {
+    return std::any_of(list.begin(), list.end(), [&](const auto &pair) {
+      return (pair->is_first[a] && pair->is_other[b]) ||
+             (pair->is_first[b] && pair->is_other[a]);
+    });
+  }
+} // namespace geocone
