@@ -23,6 +23,10 @@ namespace geocone
     /** What faces an edge by less than this part of it is left out. */
     constexpr double least_part = 1e-9;
 
+    /** A node touches if the other body faces this part of what the node stands for:
+     *  half at a corner, where edges fit. */
+    constexpr double least_cover = 0.4;
+
     /** Edges face each other up to this cosine between their normals. */
     constexpr double facing = -0.1;
 
@@ -276,6 +280,34 @@ namespace geocone
       }
   }
 
+  void
+  BodyContact::add_whole_edges(const std::vector<Edge>      &edges,
+                               const Place                  &place,
+                               std::map<unsigned int, Sums> &sums) const
+  {
+    const QGauss<1> rule(space.degree() + 1);
+    Eigen::VectorXd N;
+    for (const Edge &edge : edges)
+      for (unsigned int i = 0; i < edge.nodes.size(); ++i)
+        if (const auto own = sums.find(edge.nodes[i]); own != sums.end())
+          {
+            const auto    &start  = space.node_positions();
+            const double   length = start[edge.start].distance(start[edge.end]);
+            Tensor<1, dim> n = right_of(place(edge.start), place(edge.end));
+            n /= n.norm();
+            // The sides of a corner have nothing to do with what its base stands on.
+            if (n * own->second.normal <
+                std::cos(pi / 4.) * own->second.normal.norm())
+              continue;
+            N.resize(edge.nodes.size());
+            for (unsigned int q = 0; q < rule.size(); ++q)
+              {
+                evaluate(edge, rule.point(q)[0], N.data());
+                own->second.whole += rule.weight(q) * length * N[i];
+              }
+          }
+  }
+
   std::vector<BodyContact::Facing>
   BodyContact::find(const Place &place, const double reach) const
   {
@@ -288,11 +320,12 @@ namespace geocone
         for (const Edge &edge : pairs[k].first)
           integrate(
             edge, pieces(edge, pairs[k].other, place, reach), place, sums);
+        add_whole_edges(pairs[k].first, place, sums);
         const InterfaceLaw    &law = scene.contacts.list[k]->law;
         std::set<unsigned int> own;
         for (const auto &[node, sum] : sums)
           {
-            if (!(sum.D > 0.) || taken.count(node) > 0)
+            if (!(sum.D > least_cover * sum.whole) || taken.count(node) > 0)
               continue;
             Facing at;
             at.node.node     = node;

@@ -112,13 +112,14 @@ namespace geocone
                shown(value));
       }
 
-      /** How many words are left. */
+      /** How many words are left. @param[out] last the last one */
       std::size_t
-      left() const
+      left(std::string &last) const
       {
         std::size_t n = 0;
         for (const char *at = place; *at != 0; ++n)
           {
+            last.assign(at, std::strcspn(at, " \t\r\n"));
             at += std::strcspn(at, " \t\r\n");
             at += std::strspn(at, " \t\r\n");
           }
@@ -277,8 +278,6 @@ namespace geocone
     Triplets
     read_blocks(Numbers &in, const unsigned int size, const unsigned int n)
     {
-      for (const char *what : {"rows", "columns"})
-        in.expect(size, std::string("the number of ") + what);
       const std::size_t n_blocks =
         in.count(double(n) * n, "the number of blocks");
       for (const char *what : {"rows of blocks", "columns of blocks"})
@@ -361,12 +360,13 @@ namespace geocone
   ReducedProblem
   read_siconos(const std::string &file_name)
   {
-    Numbers           in(file_name);
-    const std::size_t d = in.count(3., "the dimension");
-    if (d < 2)
-      in.fail("has the dimension " + std::to_string(d) +
+    Numbers      in(file_name);
+    const double d_read = in.next("the dimension");
+    if (d_read != 2. && d_read != 3.)
+      in.fail("has the dimension " + Numbers::shown(d_read) +
               ", which must be 2 or 3");
-    const double n = in.next("the number of cones");
+    const unsigned int d = d_read;
+    const double       n = in.next("the number of cones");
     if (!(n >= 1. && n <= most_cones && n == std::floor(n)))
       in.fail("has " + Numbers::shown(n) + " cones");
     const unsigned int size = d * static_cast<unsigned int>(n);
@@ -374,13 +374,15 @@ namespace geocone
     // Old files, and those of contact, begin with the storage, new ones with the
     // model; the number of rows, which comes next in the former, is more than any
     // storage, or 2 and comes once more.
+    bool   has_model = false;
     double model = 1., storage = in.next("the type of the model");
     double n_rows = in.next("the storage of the matrix");
     if (n_rows < 3. && size > 2)
       {
-        model   = storage;
-        storage = n_rows;
-        n_rows  = in.next("the number of rows");
+        has_model = true;
+        model     = storage;
+        storage   = n_rows;
+        n_rows    = in.next("the number of rows");
       }
     if (model == 2.)
       in.fail("has the type of the model 2 (von Mises), which must be 1 (a "
@@ -405,9 +407,13 @@ namespace geocone
                                  : storage == 1. ? read_blocks(in, size, n_cones)
                                                  : read_sparse(in, size);
     const VectorXd     q       = in.vector(size, "the vector q");
-    // One number more for each cone, but for a flag: contact.
-    const std::size_t left = in.left();
-    if (left == n_cones || (left == n_cones + 1 && n_cones > 1) || d == 2)
+    // One number more for each cone, but for a flag, and no model: contact.
+    std::string        last;
+    const std::size_t  left = in.left(last);
+    const unsigned int flag = last == "0" || last == "1";
+    if (!has_model &&
+        (left == n_cones || (left == n_cones + 1 && (n_cones > 1 || flag)) ||
+         d == 2))
       {
         const VectorXd mu = in.vector(n_cones, "the coefficients of friction");
         if (!in.at_end())

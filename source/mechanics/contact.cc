@@ -157,17 +157,6 @@ namespace geocone
     return all;
   }
 
-  template <typename Function>
-  void
-  Contact::for_free_motions(const unsigned int obstacle,
-                            const Function    &f) const
-  {
-    unsigned int number = first_free[obstacle];
-    for (unsigned int k = 0; k < n_motions; ++k)
-      if (bodies[obstacle].is_free[k])
-        f(k, number++);
-  }
-
   void
   Contact::begin_step(ContactStep step)
   {
@@ -324,6 +313,68 @@ namespace geocone
     body_error /= dealii::Utilities::MPI::n_mpi_processes(comm);
   }
 
+  std::vector<unsigned int>
+  Contact::choose(const MPI_Comm comm) const
+  {
+    double largest = 0.;
+    for (unsigned int i = 0; i < list.size(); ++i)
+      if (touch[i].state != State::open)
+        largest = std::max(largest, touch[i].size);
+    largest = dealii::Utilities::MPI::max(largest, comm);
+    std::vector<unsigned int> chosen;
+    for (unsigned int i = 0; i < list.size(); ++i)
+      if (is_owned(list[i]) &&
+          (touch[i].state != State::open ||
+           touch[i].rho *
+               (touch[i].relative * list[i].normal - list[i].least) <=
+             largest))
+        chosen.push_back(i);
+    return chosen;
+  }
+
+  void
+  Contact::relax(const std::vector<unsigned int> &chosen)
+  {
+    relaxed = true;
+    for (Vector &row : row_A)
+      row.zero_out_ghost_values();
+    for (const unsigned int i : chosen)
+      {
+        rho_Q[i] = Matrix();
+        for (unsigned int a = 0; a < dim; ++a)
+          {
+            rho_Q[i][a][a] = rho[i];
+            for (unsigned int b = 0; b < dim; ++b)
+              row_A[a].local_element(dim * list[i].node + b) = a == b ? 1. : 0.;
+          }
+      }
+    for (Vector &row : row_A)
+      row.update_ghost_values();
+  }
+
+  void
+  Contact::balance_of_motions(Eigen::VectorXd &inertia,
+                              Eigen::VectorXd &lack) const
+  {
+    inertia.resize(n_free);
+    lack.resize(n_free);
+    for (unsigned int o = 0; o < bodies.size(); ++o)
+      for_free_motions(o, [&](const unsigned int k, const unsigned int number) {
+        inertia[number] = bodies[o].inertia[k];
+        lack[number] =
+          bodies[o].inertia[k] * (motion[o][k] - bodies[o].without_contact[k]);
+      });
+  }
+
+  void
+  Contact::change_motions(const Eigen::VectorXd &change)
+  {
+    for (unsigned int o = 0; o < bodies.size(); ++o)
+      for_free_motions(o, [&](const unsigned int k, const unsigned int number) {
+        motion[o][k] += change[number];
+      });
+  }
+
   bool
   Contact::has_friction(const MPI_Comm comm) const
   {
@@ -340,7 +391,8 @@ namespace geocone
                    const Vector &scale,
                    const bool    rubs_now)
   {
-    rubs = rubs_now;
+    rubs    = rubs_now;
+    relaxed = false;
     touch.assign(list.size(), Touch());
     rho_Q.assign(list.size(), Matrix());
     rho.assign(list.size(), 0.);
@@ -381,8 +433,10 @@ namespace geocone
         touch[i].state      = at.state;
         touch[i].size =
           locals[i].r.norm() + locals[i].rho * (locals[i].v - velocity).norm();
-        rho[i]   = locals[i].rho;
-        rho_Q[i] = locals[i].rho * at.Q;
+        touch[i].relative = locals[i].v - velocity;
+        touch[i].rho      = locals[i].rho;
+        rho[i]            = locals[i].rho;
+        rho_Q[i]          = locals[i].rho * at.Q;
         for (unsigned int a = 0; a < dim; ++a)
           for (unsigned int b = 0; b < dim; ++b)
             row_A[a].local_element(dim * node.node + b) =
@@ -454,8 +508,9 @@ namespace geocone
   Contact::low_rank(const SparseMatrix &matrix) const
   {
     LowRank update;
-    update.U = update.W = Eigen::MatrixXd::Zero(matrix.n_owned, n_free);
-    if (n_free == 0)
+    update.U = update.W =
+      Eigen::MatrixXd::Zero(matrix.n_owned, relaxed ? 0 : n_free);
+    if (update.rank() == 0)
       return update;
     // Rows of the matrix are sums over ranks, each of which has those of its cells.
     std::vector<unsigned int> dof_of(matrix.global_index.size());
@@ -511,7 +566,7 @@ namespace geocone
     load_partners(dst);
     // How free obstacles give way.
     std::vector<RigidMotion> change(bodies.size());
-    if (n_free > 0)
+    if (n_free > 0 && !relaxed)
       {
         std::vector<double> sums(n_motions * bodies.size(), 0.);
         for (unsigned int i = 0; i < list.size(); ++i)

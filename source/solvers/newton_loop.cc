@@ -89,6 +89,9 @@ namespace geocone
             return;
           }
 
+        std::optional<ContactDirection> contact;
+        if (exact_contact)
+          contact.emplace(work);
         const auto blend =
           factorise(!first          ? globalisation.blend(report.residual)
                     : elastic_first ? 1.
@@ -103,9 +106,13 @@ namespace geocone
               "smaller steps; check whether the body can carry its loads";
             return;
           }
-        work.solve(first && jumps ? &jump.prescribed : nullptr,
-                   jump.defect,
-                   line.direction);
+        const Vector *const prescribed =
+          first && jumps ? &jump.prescribed : nullptr;
+        line.contact = contact && contact->is_used() ? &*contact : nullptr;
+        if (line.contact != nullptr)
+          contact->solve(prescribed, jump.defect, line.direction);
+        else
+          work.solve(prescribed, jump.defect, line.direction);
         line.begin();
         const double length = first && jumps ? Globalisation().move(line)
                                              : globalisation.move(line);

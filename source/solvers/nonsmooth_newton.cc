@@ -216,11 +216,21 @@ namespace geocone
         return;
       }
     // Where many nodes come down in a step, those that would stick hinder each other:
-    // then the step without friction is the better start.
+    // then the laws of contact are solved exactly in each iteration; or else the step
+    // without friction may be a better start.
     const Vector start = work.v;
-    run(std::min(automatic, 30U), true);
+    run(std::min(automatic, 12U), true);
     if (work.report.converged)
       return;
+    if (work.problem.free_dofs().multipliers.n_rows() == 0)
+      {
+        work.v               = start;
+        newton.exact_contact = true;
+        run(automatic, true);
+        newton.exact_contact = false;
+        if (work.report.converged)
+          return;
+      }
     work.v = start;
     run(30, false);
     newton.elastic_first = false;

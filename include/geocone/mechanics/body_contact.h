@@ -95,8 +95,9 @@ namespace geocone
     /** Sums over the edges of a node. */
     struct Sums
     {
-      double                         D = 0.;
-      dealii::Tensor<1, dim>         normal; ///< outward, times lengths
+      double                 D     = 0.;
+      double                 whole = 0.; ///< D if all of the edges are faced
+      dealii::Tensor<1, dim> normal;     ///< outward, times lengths
       std::map<unsigned int, double> M;
     };
 
@@ -106,6 +107,12 @@ namespace geocone
               const std::vector<Piece>     &facing,
               const Place                  &place,
               std::map<unsigned int, Sums> &sums) const;
+
+    /** Adds what D would be on whole edges, of those nodes that have one. */
+    void
+    add_whole_edges(const std::vector<Edge>      &edges,
+                    const Place                  &place,
+                    std::map<unsigned int, Sums> &sums) const;
 
     const Scene          &scene;
     const BackgroundMesh &mesh;

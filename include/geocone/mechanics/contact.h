@@ -179,7 +179,57 @@ namespace geocone
       State                  state = State::open;
       double                 error = 0.; ///< |F| (N/m)
       double size = 0.; ///< |r| + rho |u|, of what F is made of (N/m)
+      dealii::Tensor<1, dim> relative; ///< u, in free directions (m/s)
+      double                 rho = 0.; ///< (kg/(m s))
     };
+
+    /** @name For ContactDirection */
+    /** @{ */
+    /** The owned nodes that touch at the last replace(), or are no farther away than
+     *  the forces there could move them. Collective. */
+    std::vector<unsigned int>
+    choose(const MPI_Comm comm) const;
+
+    /** Takes the laws of these nodes out of linearise(), and the motions of obstacles:
+     *  there r + rho du stands in place of dF. Collective. */
+    void
+    relax(const std::vector<unsigned int> &chosen);
+
+    bool
+    is_owned(const ContactNode &node) const
+    {
+      return dim * node.node < row_A[0].locally_owned_size();
+    }
+
+    unsigned int
+    n_free_motions() const
+    {
+      return n_free;
+    }
+
+    /** M/h of the free motions, and what the equilibrium of each lacks at the last
+     *  replace() without the forces of nodes: M/h (y - y_0). */
+    void
+    balance_of_motions(Eigen::VectorXd &inertia, Eigen::VectorXd &lack) const;
+
+    /** Changes the velocities of free obstacles from which the next replace() begins to
+     *  look for them. */
+    void
+    change_motions(const Eigen::VectorXd &change);
+
+    /** Calls f(number, G) for each free motion of a node's obstacle, of which the node
+     *  has the velocity G. */
+    template <typename Function>
+    void
+    for_motions_of(const ContactNode &node, const Function &f) const
+    {
+      if (!node.touches_body())
+        for_free_motions(node.obstacle,
+                         [&](const unsigned int k, const unsigned int number) {
+                           f(number, RigidMotion::of_point(k, node.arm));
+                         });
+    }
+    /** @} */
 
     const std::vector<ContactNode> &
     nodes() const
@@ -261,17 +311,17 @@ namespace geocone
     /** Calls f(motion, number) for each free motion of a node's obstacle. */
     template <typename Function>
     void
-    for_free_motions(const unsigned int obstacle, const Function &f) const;
+    for_free_motions(const unsigned int obstacle, const Function &f) const
+    {
+      unsigned int number = first_free[obstacle];
+      for (unsigned int k = 0; k < RigidMotion::n_components; ++k)
+        if (bodies[obstacle].is_free[k])
+          f(k, number++);
+    }
 
     /** What free obstacles add to the Jacobian. @param matrix before linearise() */
     LowRank
     low_rank(const SparseMatrix &matrix) const;
-
-    bool
-    is_owned(const ContactNode &node) const
-    {
-      return dim * node.node < row_A[0].locally_owned_size();
-    }
 
     const Unknowns          &unknowns;
     std::vector<ContactNode> list;
@@ -288,6 +338,7 @@ namespace geocone
     bool                      has_pairs  = false; ///< of bodies, on any rank
     double                    body_error = 0.;   ///< of their equilibrium (N/m)
     bool                      rubs       = true; ///< in the last replace()
+    bool                      relaxed    = false; ///< since the last replace()
   };
 } // namespace geocone
 

@@ -235,6 +235,23 @@ namespace geocone
       return *contact_term;
     }
 
+    /** See Contact. Collective. */
+    std::vector<unsigned int>
+    choose_contact() const
+    {
+      return contact_term->choose(layout->get_mpi_communicator());
+    }
+    void
+    relax_contact(const std::vector<unsigned int> &chosen)
+    {
+      contact_term->relax(chosen);
+    }
+    void
+    change_motions(const Eigen::VectorXd &change)
+    {
+      contact_term->change_motions(change);
+    }
+
     const GhostStiffness &
     ghost_stiffness() const
     {

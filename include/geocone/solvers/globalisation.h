@@ -4,6 +4,7 @@
 #ifndef geocone_solvers_globalisation_h
 #define geocone_solvers_globalisation_h
 
+#include <geocone/solvers/contact_direction.h>
 #include <geocone/solvers/step_workspace.h>
 
 namespace geocone
@@ -25,11 +26,14 @@ namespace geocone
     void
     move(const double x);
 
-    /** R.d at the iterate: for associated flow the slope of a convex function. */
+    /** R.d at the iterate: for associated flow the slope of a convex function. Of a
+     *  ContactDirection its own. */
     double
     slope() const
     {
-      return work.problem.free_dot(work.residual, direction);
+      return contact != nullptr
+               ? contact->slope(direction)
+               : work.problem.free_dot(work.residual, direction);
     }
 
     /** sum R_i^2 / D_i at the iterate, D the diagonal of the elastic Jacobian. */
@@ -39,8 +43,9 @@ namespace geocone
       return work.problem.merit(work.residual);
     }
 
-    Vector         direction; ///< d
-    ResidualReport state;     ///< at the iterate
+    Vector                  direction;         ///< d
+    const ContactDirection *contact = nullptr; ///< that made it, if one did
+    ResidualReport          state;             ///< at the iterate
 
   private:
     const StepWorkspace &work;

@@ -55,6 +55,11 @@ namespace geocone
           const Eigen::VectorXd &defect,
           std::vector<double>   &x);
 
+    /** Solves with K, the part of low rank too, and without H. @param columns of
+     *  n_owned_rows(), one after another */
+    void
+    solve_columns(std::vector<double> &columns, const unsigned int n_columns);
+
     int
     n_owned_rows() const
     {
@@ -82,9 +87,6 @@ namespace geocone
     Eigen::MatrixXd               solved_U;  ///< K^-1 U, without its own part
     Eigen::MatrixXd               to_change; ///< (1 + W' K^-1 U)^-1
 
-    /** Solves with K, the part of low rank too. @param columns of n_owned_rows() */
-    void
-    solve_columns(std::vector<double> &columns, const unsigned int n_columns);
     bool has_pattern = false;
   };
 } // namespace geocone

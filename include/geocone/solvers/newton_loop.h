@@ -29,6 +29,7 @@ namespace geocone
     unsigned int allowed            = 60;    ///< iterations; twice if near
     bool         elastic_first      = false; ///< takes D as the first tangent
     bool         moves              = false; ///< solves once at least
+    bool exact_contact = false; ///< takes directions of ContactDirection
 
     /** Runs from the iterate; what it spends is added to the report. */
     void

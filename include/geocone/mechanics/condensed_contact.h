@@ -1,0 +1,80 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mechanics_condensed_contact_h
+#define geocone_mechanics_condensed_contact_h
+
+#include <Eigen/Dense>
+
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * The laws of contact with friction of n nodes on what is left of a linear body when
+   * all other unknowns are eliminated: find u, r = K u + c with
+   *   0 <= r_N _|_ u_N - least >= 0,   |r_T| <= mu r_N + adhesion, u_T against r_T where
+   * it slides, in the axes n and t of each node, or in n alone. K (kg/(m s)) is dense
+   * and small.
+   *
+   * An active set, by linear systems, ends at the solution in a few steps where it does
+   * not go round in circles; then sweeps of Gauss and Seidel, which solve node after node
+   * exactly, bring it elsewhere.
+   */
+  struct CondensedContact
+  {
+    struct Node
+    {
+      unsigned int first = 0; ///< of its components in u and r: u_N, u_T
+      bool         rubs  = false;
+
+      double least    = 0.; ///< (m/s)
+      double friction = 0.; ///< mu
+      double adhesion = 0.; ///< borne besides while closed (N/m)
+    };
+
+    Eigen::MatrixXd   K;
+    Eigen::VectorXd   c; ///< (N/m)
+    std::vector<Node> nodes;
+
+    /**
+     * @param[in,out] u in: a start; out: the solution, or the last iterate (m/s)
+     * @return whether it is solved to rounding
+     */
+    bool
+    solve(Eigen::VectorXd &u) const;
+
+    /** The largest of what the laws lack at a node, over the largest force: of the root
+     *  functions of Contact. */
+    double
+    error(const Eigen::VectorXd &u) const;
+
+  private:
+    enum class State
+    {
+      open,
+      stick,
+      slip_forth, ///< r_T > 0
+      slip_back
+    };
+
+    /** The states that u and r show. */
+    std::vector<State>
+    states(const Eigen::VectorXd &u) const;
+
+    /** u where the states hold, all of them by equations. */
+    Eigen::VectorXd
+    solve_for(const std::vector<State> &state) const;
+
+    /** A sweep over the nodes. @return the largest change of a force over the largest
+     *  force */
+    double
+    sweep(Eigen::VectorXd &u) const;
+
+    /** u of a node for which the others are as they are. @param b r at u = 0 of it */
+    Eigen::Vector2d
+    solve_node(const Node &node, const Eigen::Vector2d &b) const;
+  };
+} // namespace geocone
+
+#endif
