@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Writes the meshes of two bodies whose cells do not fit where they touch:
 
-    python3 prm/contact/meshes.py    # two_blocks.msh, hertz_bodies.msh
+    python3 prm/contact/meshes.py    # two_blocks.msh, hertz_bodies.msh, discs.msh
 """
+import math
 import os
 
 
@@ -32,6 +33,19 @@ class Mesh:
                  'right': [(n(nx, j), n(nx, j + 1)) for j in range(ny)]}
         for side, curve in sides.items():
             self.elements += [(1, curve, list(edge)) for edge in edges[side]]
+
+    def merge(self):
+        """Nodes at one place become one."""
+        number, kept = {}, []
+        for x, y in self.nodes:
+            key = (round(x, 9), round(y, 9))
+            if key not in number:
+                number[key] = len(kept) + 1
+                kept.append((x, y))
+        new = [number[(round(x, 9), round(y, 9))] for x, y in self.nodes]
+        self.elements = [(kind, group, [new[v - 1] for v in nodes])
+                         for kind, group, nodes in self.elements]
+        self.nodes = kept
 
     def write(self, name, groups):
         path = os.path.join(os.path.dirname(os.path.abspath(__file__)), name)
@@ -110,6 +124,42 @@ def hertz_bodies():
     mesh.write('hertz_bodies.msh', GROUPS)
 
 
+def discs():
+    """Two discs of 0.1 m, 2 mm apart: a square of cells in a ring, one of them turned and
+    with other cells."""
+    mesh = Mesh()
+    for surface, (x0, n, turn) in enumerate(((-0.101, 10, 0.), (0.101, 8, 0.3)), 1):
+        inner, outer = 0.05, 0.1
+
+        def placed(x, y, x0=x0, turn=turn):
+            return (x0 + x * math.cos(turn) - y * math.sin(turn),
+                    x * math.sin(turn) + y * math.cos(turn))
+
+        def in_square(u, v):
+            # Its sides are bent outwards.
+            bend = 0.15 * inner
+            return (inner * u + bend * u * (1. - v * v),
+                    inner * v + bend * v * (1. - u * u))
+
+        mesh.add(even(-1., 1., n), even(-1., 1., n),
+                 lambda u, v: placed(*in_square(u, v)), surface, {})
+        for quarter in range(4):
+            side = quarter * math.pi / 2.
+
+            def in_ring(s, u, side=side):
+                angle = side + math.pi / 4. * u
+                a = in_square(1., u)
+                a = (a[0] * math.cos(side) - a[1] * math.sin(side),
+                     a[0] * math.sin(side) + a[1] * math.cos(side))
+                b = (outer * math.cos(angle), outer * math.sin(angle))
+                return placed(*((1. - s) * p + s * q for p, q in zip(a, b)))
+
+            mesh.add(even(0., 1., n // 2), even(-1., 1., n), in_ring, surface, {})
+    mesh.merge()
+    mesh.write('discs.msh', [(2, 1, 'left'), (2, 2, 'right')])
+
+
 if __name__ == '__main__':
     two_blocks()
     hertz_bodies()
+    discs()

@@ -156,8 +156,8 @@ namespace geocone
   bool
   CondensedContact::solve(VectorXd &u) const
   {
-    constexpr double tolerance = 1e-11;
-    constexpr int    rounds = 8, most_steps = 25;
+    constexpr double tolerance  = 1e-11;
+    constexpr int    most_steps = 25, rounds = 7;
     VectorXd         best       = u;
     double           best_error = error(u);
     const auto       keep       = [&](const VectorXd &at) {
@@ -169,36 +169,30 @@ namespace geocone
         }
       return best_error <= tolerance;
     };
-    if (best_error <= tolerance)
-      return true;
-    for (int round = 0; round < rounds; ++round)
-      {
-        std::vector<State> state = states(u);
-        for (int step = 0; step < most_steps; ++step)
-          {
-            const VectorXd at = solve_for(state);
-            if (keep(at))
-              {
-                u = best;
-                return true;
-              }
-            if (!at.allFinite())
-              break;
-            std::vector<State> next = states(at);
-            if (next == state)
-              break;
-            state = std::move(next);
-          }
-        u = best;
-        for (int k = 0; k < (25 << round) && sweep(u) > tolerance; ++k)
-          {}
-        if (keep(u))
-          {
-            u = best;
+    const auto active_set = [&](std::vector<State> state) {
+      for (int step = 0; step < most_steps; ++step)
+        {
+          const VectorXd at = solve_for(state);
+          if (keep(at))
             return true;
-          }
+          std::vector<State> next = at.allFinite() ? states(at) : state;
+          if (next == state)
+            return false;
+          state = std::move(next);
+        }
+      return false;
+    };
+    // From the start, from where all of them stick, and from where sweeps lead.
+    VectorXd swept = u;
+    bool     done  = best_error <= tolerance || active_set(states(u)) ||
+                active_set(std::vector<State>(nodes.size(), State::stick));
+    for (int round = 0; !done && round < rounds; ++round)
+      {
+        for (int k = 0; k < (25 << round) && sweep(swept) > tolerance; ++k)
+          {}
+        done = keep(swept) || active_set(states(swept));
       }
     u = best;
-    return false;
+    return done;
   }
 } // namespace geocone

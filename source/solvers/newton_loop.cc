@@ -57,7 +57,8 @@ namespace geocone
   NewtonLoop::run(Globalisation &globalisation, const StepWorkspace &work) const
   {
     SolverReport      &report = work.report;
-    const unsigned int limit  = report.iterations + allowed;
+    const unsigned int start  = report.iterations,
+                       limit  = report.iterations + allowed;
     report.converged          = false;
     report.friction_lag       = law.friction_lag;
 
@@ -83,7 +84,10 @@ namespace geocone
             report.remedy.clear();
             return;
           }
-        if (report.iterations >= limit + (report.residual < near ? allowed : 0))
+        const bool flows = line.state.n_cone + line.state.n_apex > 0;
+        if (report.iterations >=
+              limit + (report.residual < near ? allowed : 0) ||
+            (!flows && report.iterations - start >= allowed_without_flow))
           {
             give_up(line.state, work);
             return;

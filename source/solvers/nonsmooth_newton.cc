@@ -218,13 +218,14 @@ namespace geocone
     // Where many nodes come down in a step, those that would stick hinder each other:
     // then the laws of contact are solved exactly in each iteration; or else the step
     // without friction may be a better start.
-    const Vector start = work.v;
-    run(std::min(automatic, 12U), true);
+    const Vector start          = work.v;
+    newton.allowed_without_flow = 6;
+    run(std::min(automatic, 30U), true);
+    newton.allowed_without_flow = NewtonLoop().allowed_without_flow;
     if (work.report.converged)
       return;
     if (work.problem.free_dofs().multipliers.n_rows() == 0)
       {
-        work.v               = start;
         newton.exact_contact = true;
         run(automatic, true);
         newton.exact_contact = false;

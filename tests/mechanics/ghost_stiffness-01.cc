@@ -138,7 +138,7 @@ check(const std::string &element, const double height)
     {
       SparseMatrix          matrix;
       const JacobianPattern pattern(
-        none, unknowns, comm, ghost.node_groups(), one_triangle, matrix);
+        none, unknowns, comm, ghost.node_groups(), {}, one_triangle, matrix);
       ghost.linearise(pattern, 0., matrix);
       std::vector<double> row_v(matrix.n_rows()), product(matrix.n_rows(), 0.);
       for (unsigned int i = 0; i < v.locally_owned_size(); ++i)

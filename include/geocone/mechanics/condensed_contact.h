@@ -18,8 +18,8 @@ namespace geocone
    * and small.
    *
    * An active set, by linear systems, ends at the solution in a few steps where it does
-   * not go round in circles; then sweeps of Gauss and Seidel, which solve node after node
-   * exactly, bring it elsewhere.
+   * not go round in circles: from the start, from nodes that all stick, and from where
+   * sweeps of Gauss and Seidel lead, which solve node after node exactly.
    */
   struct CondensedContact
   {

@@ -6,6 +6,8 @@
 
 #include <geocone/solvers/globalisation.h>
 
+#include <limits>
+
 namespace geocone
 {
   /**
@@ -27,8 +29,11 @@ namespace geocone
     double       tolerance          = 1e-10; ///< relative
     double       absolute_tolerance = 1e-12; ///< (N/m)
     unsigned int allowed            = 60;    ///< iterations; twice if near
-    bool         elastic_first      = false; ///< takes D as the first tangent
-    bool         moves              = false; ///< solves once at least
+    /** Iterations while no point flows, so that only contact is not linear. */
+    unsigned int allowed_without_flow =
+      std::numeric_limits<unsigned int>::max();
+    bool elastic_first = false; ///< takes D as the first tangent
+    bool moves         = false; ///< solves once at least
     bool exact_contact = false; ///< takes directions of ContactDirection
 
     /** Runs from the iterate; what it spends is added to the report. */
