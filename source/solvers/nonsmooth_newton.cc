@@ -226,6 +226,10 @@ namespace geocone
       return;
     if (work.problem.free_dofs().multipliers.n_rows() == 0)
       {
+        // Where points flow much is won already.
+        const NewtonIteration &last = work.report.table.back();
+        if (last.n_cone + last.n_apex == 0)
+          work.v = start;
         newton.exact_contact = true;
         run(automatic, true);
         newton.exact_contact = false;
