@@ -68,6 +68,8 @@ METHODS = {
     # Obstacles: a free body on soil, and particles that slide.
     "free": ("contact/free_footing-01.prm", {"Loading/push/Output every": "3"}),
     "slide": ("contact/incline-MPM-01.prm", {"Loading/slide/Output every": "20"}),
+    # A body that slides over another one.
+    "bodies": ("contact/incline_bodies-01.prm", {"Loading/slide/Output every": "20"}),
     # A bar that hits a wall, by the midpoint rule.
     "impact": ("contact/bar_impact-01.prm", {"Loading/fly/Output every": "20"}),
     # One point of a law with history.
@@ -89,7 +91,7 @@ NOT_COMPARED = {"run", "cost", "warnings"}  # of the summary
 TIMES = {"CPU time of rank 0 (s)"}
 # Counts, and errors that are rounding themselves.
 NOISE = ("(-)", "newton", "quality", "residual", "identity", "least_step", "cone excess",
-         "relative_error", "penetration", "natural_map", "nonzeros", "ranks")
+         "relative_error", "penetration", "drift", "natural_map", "nonzeros", "ranks")
 PATIENCE = 300.  # s
 
 
