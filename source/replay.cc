@@ -48,21 +48,21 @@ namespace geocone
       Choice<IfExists> if_exists = if_exists_choice();
     };
 
-    /** Also what the file lacks is said with a remedy. */
-    FrozenProblem
-    read_frozen(const std::string &file_name)
+    /** What read() makes of a file; also what this lacks is said with a remedy. */
+    template <typename Read>
+    auto
+    read_with_remedy(const Read &read, const std::string &remedy)
     {
       try
         {
-          return FrozenProblem::read(file_name);
+          return read();
         }
       catch (const RunError &error)
         {
           const std::string text = error.what();
           if (text.find("\n  remedy:") != std::string::npos)
             throw;
-          throw RunError(text + "\n  remedy:  name a file that 'Output/Freeze "
-                                "steps' has written, or freeze the step again");
+          throw RunError(text + "\n  remedy:  " + remedy);
         }
     }
 
@@ -78,7 +78,10 @@ namespace geocone
                        const std::vector<std::string> &overrides,
                        ResultFolder                   &folder)
     {
-      const FrozenProblem frozen = read_frozen(file_name);
+      const FrozenProblem frozen =
+        read_with_remedy([&]() { return FrozenProblem::read(file_name); },
+                         "name a file that 'Output/Freeze steps' has written, "
+                         "or freeze the step again");
       const ParameterFile file =
         ParameterFile::from_text(frozen.materials, file_name, overrides);
       Materials       materials(file);
@@ -136,8 +139,12 @@ namespace geocone
                    const std::vector<std::string> &overrides,
                    ResultFolder                   &folder)
     {
-      const ReducedProblem problem =
-        is_text(file_name) ? read_siconos(file_name) : read_fclib(file_name);
+      const ReducedProblem problem = read_with_remedy(
+        [&]() {
+          return is_text(file_name) ? read_siconos(file_name)
+                                    : read_fclib(file_name);
+        },
+        "copy it again, or write it anew");
       const ParameterFile file =
         ParameterFile::from_text("", file_name, overrides);
       NonsmoothNewton newton;

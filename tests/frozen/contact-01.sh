@@ -52,6 +52,9 @@ with h5py.File("cut.hdf5", "a") as file:
 shutil.copy(sys.argv[1] + "/tests/frozen/arch_30.hdf5", "outside.hdf5")
 with h5py.File("outside.hdf5", "a") as file:
     file["fclib_global/H/i"][3] = 90
+shutil.copy(sys.argv[1] + "/tests/frozen/arch_30.hdf5", "lacks.hdf5")
+with h5py.File("lacks.hdf5", "a") as file:
+    del file["fclib_global/spacedim"]
 PYTHON
 /usr/bin/python3 check.py "$root"
 head -c 20000 "$root/tests/frozen/arch_30.dat" >cut.dat
@@ -67,5 +70,6 @@ refused() {
 refused rolls.hdf5 "rolling friction"
 refused cut.hdf5 "does not fit"
 refused outside.hdf5 "outside of it"
+refused lacks.hdf5 "lacks the array"
 refused cut.dat "ends within the matrix"
 refused negative.dat "coefficient of friction"
