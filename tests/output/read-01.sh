@@ -34,6 +34,6 @@ printf 'include self.prm\ninclude self.prm\n' >self.prm
 refuse self.prm 'includes itself'
 printf 'end\nend\n' >ends.prm
 refuse ends.prm "'end' without a subsection"
-printf 'subsection Contact\nend\n' >contact.prm
-refuse contact.prm "unknown section 'Contact'"
+printf 'subsection Rainfall\nend\n' >rainfall.prm
+refuse rainfall.prm "unknown section 'Rainfall'"
 fails grep -q 'did you mean' err
