@@ -68,7 +68,7 @@ refused() {
   grep -q "remedy" err
 }
 refused rolls.hdf5 "rolling friction"
-refused cut.hdf5 "does not fit"
+refused cut.hdf5 "entries, which must be 120"
 refused outside.hdf5 "outside of it"
 refused lacks.hdf5 "lacks the array"
 refused cut.dat "ends within the matrix"
