@@ -21,14 +21,15 @@ using Eigen::VectorXd;
 double
 lack(const CondensedContact &problem, const VectorXd &u)
 {
-  const VectorXd r    = problem.K * u + problem.c;
-  const double   size = r.cwiseAbs().maxCoeff() + u.cwiseAbs().maxCoeff();
+  const VectorXd r     = problem.K * u + problem.c;
+  const double   size  = r.cwiseAbs().maxCoeff() + u.cwiseAbs().maxCoeff();
   double         worst = 0.;
   for (const CondensedContact::Node &node : problem.nodes)
     {
       const unsigned int i = node.first;
       const double       w = u[i] - node.least;
-      worst = std::max({worst, -r[i], -w, std::min(std::abs(r[i]), std::abs(w))});
+      worst =
+        std::max({worst, -r[i], -w, std::min(std::abs(r[i]), std::abs(w))});
       if (!node.rubs)
         continue;
       const double bound =
@@ -63,12 +64,12 @@ main()
       for (unsigned int k = 0; k < n; ++k)
         {
           const bool rubs = uniform(random) > 0.1;
-          problem.nodes.push_back({m,
-                                   rubs,
-                                   in(-1., 0.1),
-                                   rubs && uniform(random) > 0.1 ? in(0., 1.) : 0.,
-                                   rubs && uniform(random) > 0.98 ? in(0., 0.3) :
-                                                                   0.});
+          problem.nodes.push_back(
+            {m,
+             rubs,
+             in(-1., 0.1),
+             rubs && uniform(random) > 0.1 ? in(0., 1.) : 0.,
+             rubs && uniform(random) > 0.98 ? in(0., 0.3) : 0.});
           m += rubs ? 2 : 1;
         }
       // Springs between neighbours, and weak ones to the ground; normal and tangential
@@ -88,7 +89,7 @@ main()
       if (!problem.solve(u))
         continue;
       ++n_solved;
-      worst = std::max(worst, lack(problem, u));
+      worst            = std::max(worst, lack(problem, u));
       const VectorXd r = problem.K * u + problem.c;
       for (const CondensedContact::Node &node : problem.nodes)
         {
@@ -103,8 +104,8 @@ main()
   std::cout << "solved, of 300: " << (n_solved >= 290 ? "at least 290" : "")
             << (n_solved >= 290 ? "" : std::to_string(n_solved)) << std::endl;
   std::cout << "open, sticking and slipping nodes: "
-            << (std::min({n_open, n_stick, n_slip}) > 500 ? "more than 500 each" :
-                                                            "too few")
+            << (std::min({n_open, n_stick, n_slip}) > 500 ? "more than 500 each"
+                                                          : "too few")
             << std::endl;
   std::cout << "the laws hold to 1e-8: " << (worst < 1e-8 ? "yes" : "no")
             << std::endl;

@@ -5,7 +5,6 @@
 // and by values that no step has. Each must be read or refused. What is refused by
 // value is refused by its name.
 
-
 #include <geocone/base/version.h>
 #include <geocone/mechanics/cone_files.h>
 #include <geocone/mechanics/frozen_problem.h>
