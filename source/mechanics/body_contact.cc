@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/mechanics/body_contact.h>
+#include <geocone/scene/edge_normal.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -29,16 +30,6 @@ namespace geocone
 
     /** Edges face each other up to this cosine between their normals. */
     constexpr double facing = -0.1;
-
-    /** The normal on the right of the way from a to b, of its length. */
-    Tensor<1, dim>
-    right_of(const Point<dim> &a, const Point<dim> &b)
-    {
-      Tensor<1, dim> n;
-      n[0] = b[1] - a[1];
-      n[1] = a[0] - b[0];
-      return n;
-    }
   } // namespace
 
   BodyContact::BodyContact(const Scene          &scene,
@@ -79,7 +70,7 @@ namespace geocone
               std::array<unsigned int, 2> ends;
               for (unsigned int v = 0; v < 2; ++v)
                 ends[v] = reference.face_to_cell_vertices(f, v, true);
-              if (right_of(cell->vertex(ends[0]), cell->vertex(ends[1])) *
+              if (edge_normal(cell->vertex(ends[0]), cell->vertex(ends[1])) *
                     (cell->center() - cell->vertex(ends[0])) >
                   0.)
                 std::swap(ends[0], ends[1]);
@@ -109,6 +100,16 @@ namespace geocone
                   edge.of_cell.push_back(i);
                   edge.nodes.push_back(space.local_node(nodes[i]));
                 }
+              const auto &x = space.node_positions();
+              edge.length   = x[edge.start].distance(x[edge.end]);
+              const QGauss<1> rule(space.degree() + 1);
+              Eigen::VectorXd value(edge.nodes.size());
+              edge.integrals = Eigen::VectorXd::Zero(value.size());
+              for (unsigned int q = 0; q < rule.size(); ++q)
+                {
+                  evaluate(edge, rule.point(q)[0], value.data());
+                  edge.integrals += rule.weight(q) * edge.length * value;
+                }
               edges.push_back(edge);
             }
     return edges;
@@ -135,7 +136,8 @@ namespace geocone
   {
     const Point<dim>     a = place(edge.start), b = place(edge.end);
     const double         length = a.distance(b);
-    const Tensor<1, dim> along = (b - a) / length, n = right_of(a, b) / length;
+    const Tensor<1, dim> along  = (b - a) / length,
+                         n      = edge_normal(a, b) / length;
 
     // Of each other edge the interval that faces it.
     struct Candidate
@@ -166,7 +168,7 @@ namespace geocone
         const Point<dim> d = place(other.end);
         at.cd              = d - at.c;
         const double size  = at.cd.norm();
-        if (right_of(at.c, d) * n > facing * size)
+        if (edge_normal(at.c, d) * n > facing * size)
           continue;
         const double s = (at.c - a) * along / length,
                      t = (d - a) * along / length;
@@ -223,11 +225,8 @@ namespace geocone
                          const Place                  &place,
                          std::map<unsigned int, Sums> &sums) const
   {
-    const Point<dim> a = place(edge.start), b = place(edge.end);
-    // Strains are small: lengths are those of the start.
-    const auto        &start  = space.node_positions();
-    const double       length = start[edge.start].distance(start[edge.end]);
-    const unsigned int m      = edge.nodes.size();
+    const Point<dim>   a = place(edge.start), b = place(edge.end);
+    const unsigned int m = edge.nodes.size();
     const QGauss<1>    rule(space.degree() + 1);
     Eigen::MatrixXd    mass = Eigen::MatrixXd::Zero(m, m);
     Eigen::VectorXd    D    = Eigen::VectorXd::Zero(m), N(m);
@@ -241,7 +240,7 @@ namespace geocone
               piece.begin + rule.point(q)[0] * (piece.end - piece.begin);
             evaluate(edge, s, N.data());
             const double w =
-              rule.weight(q) * (piece.end - piece.begin) * length;
+              rule.weight(q) * (piece.end - piece.begin) * edge.length;
             mass += w * N * N.transpose();
             D += w * N;
           }
@@ -254,7 +253,7 @@ namespace geocone
       {
         Sums &own = sums[edge.nodes[i]];
         own.D += D[i];
-        own.normal += part * right_of(a, b);
+        own.normal += part * edge_normal(a, b);
       }
     std::vector<double> N_other;
     for (const Piece &piece : facing)
@@ -262,9 +261,9 @@ namespace geocone
         N_other.resize(piece.other->nodes.size());
         for (unsigned int q = 0; q < rule.size(); ++q)
           {
-            const double x = rule.point(q)[0],
-                         w =
-                           rule.weight(q) * (piece.end - piece.begin) * length;
+            const double x = rule.point(q)[0], w = rule.weight(q) *
+                                                   (piece.end - piece.begin) *
+                                                   edge.length;
             evaluate(
               edge, piece.begin + x * (piece.end - piece.begin), N.data());
             evaluate(*piece.other,
@@ -285,27 +284,18 @@ namespace geocone
                                const Place                  &place,
                                std::map<unsigned int, Sums> &sums) const
   {
-    const QGauss<1> rule(space.degree() + 1);
-    Eigen::VectorXd N;
     for (const Edge &edge : edges)
-      for (unsigned int i = 0; i < edge.nodes.size(); ++i)
-        if (const auto own = sums.find(edge.nodes[i]); own != sums.end())
-          {
-            const auto    &start  = space.node_positions();
-            const double   length = start[edge.start].distance(start[edge.end]);
-            Tensor<1, dim> n = right_of(place(edge.start), place(edge.end));
-            n /= n.norm();
-            // The sides of a corner have nothing to do with what its base stands on.
-            if (n * own->second.normal <
-                std::cos(pi / 4.) * own->second.normal.norm())
-              continue;
-            N.resize(edge.nodes.size());
-            for (unsigned int q = 0; q < rule.size(); ++q)
-              {
-                evaluate(edge, rule.point(q)[0], N.data());
-                own->second.whole += rule.weight(q) * length * N[i];
-              }
-          }
+      {
+        const Tensor<1, dim> n =
+          edge_normal(place(edge.start), place(edge.end));
+        for (unsigned int i = 0; i < edge.nodes.size(); ++i)
+          // The sides of a corner have nothing to do with what its base stands on.
+          if (const auto own = sums.find(edge.nodes[i]);
+              own != sums.end() &&
+              n * own->second.normal >=
+                std::cos(pi / 4.) * n.norm() * own->second.normal.norm())
+            own->second.whole += edge.integrals[i];
+      }
   }
 
   std::vector<BodyContact::Facing>

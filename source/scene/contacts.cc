@@ -32,9 +32,7 @@ namespace geocone
     const auto        read    = [&](const std::string              &entry,
                           const std::vector<std::string> &names,
                           std::vector<bool>              &is_in) {
-      std::string known;
-      for (const std::string &material : materials)
-        known += (known.empty() ? "" : ", ") + material;
+      const std::string known = dealii::Patterns::Tools::to_string(materials);
       is_in.assign(materials.size(), false);
       if (names.empty())
         throw InputError(section + entry,

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/scene/edge_normal.h>
 #include <geocone/scene/obstacles.h>
 
 #include <algorithm>
@@ -16,14 +17,6 @@ namespace geocone
 
   namespace
   {
-    /** The outward normal of an edge of a polygon, counterclockwise, times its
-     *  length. */
-    Tensor<1, dim>
-    outward(const Point<dim> &a, const Point<dim> &b)
-    {
-      return Point<dim>(b[1] - a[1], a[0] - b[0]);
-    }
-
     Tensor<1, dim>
     turned(const Tensor<1, dim> &x, const double angle)
     {
@@ -248,7 +241,7 @@ namespace geocone
       {
         const Point<dim>    &a = vertices[i], &b = vertices[(i + 1) % n];
         const Tensor<1, dim> edge     = b - a;
-        const Tensor<1, dim> N        = outward(a, b) / edge.norm();
+        const Tensor<1, dim> N        = edge_normal(a, b) / edge.norm();
         const double         distance = (at - a) * N;
         if (distance > best.distance + tolerance ||
             (distance > best.distance - tolerance &&

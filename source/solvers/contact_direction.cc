@@ -238,10 +238,12 @@ namespace geocone
                           Vector                &direction)
   {
     const MPI_Comm comm = work.v.get_mpi_communicator();
+    // Nodes that come in later are free here, too.
+    solve_with(VectorXd::Zero(n_components), prescribed, defect, direction);
+    Vector unforced = direction;
     for (unsigned int round = 0; round < 10; ++round)
       {
-        solve_with(VectorXd::Zero(n_components), prescribed, defect, direction);
-        VectorXd without = relative_change(direction);
+        VectorXd without = relative_change(unforced);
         sum_over_ranks(without, comm);
         const auto [force, motion] = end(without);
         solve_with(force, prescribed, defect, direction);

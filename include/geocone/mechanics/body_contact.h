@@ -8,6 +8,8 @@
 #include <geocone/mechanics/contact.h>
 #include <geocone/scene/scene.h>
 
+#include <Eigen/Dense>
+
 #include <functional>
 #include <map>
 #include <vector>
@@ -69,6 +71,10 @@ namespace geocone
       unsigned int              start, end;           ///< nodes at the ends
       std::vector<unsigned int> nodes;                ///< on the edge
       std::vector<unsigned int> of_cell; ///< their numbers in the cell
+
+      /** At the start, as strains are small: of the edge (m), and int N of its nodes. */
+      double          length;
+      Eigen::VectorXd integrals;
     };
 
     /** The edges of the materials. */
