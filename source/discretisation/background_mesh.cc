@@ -36,8 +36,7 @@ namespace geocone
         {
           const auto faces =
             mesh.part([&](const unsigned int a, const unsigned int b) {
-              return (pair->is_first[a] && pair->is_other[b]) ||
-                     (pair->is_first[b] && pair->is_other[a]);
+              return pair->separates(a, b);
             });
           if (faces.empty())
             continue;
@@ -157,9 +156,17 @@ namespace geocone
     parameters.prepare(scene.geometry, method);
     CoarseMesh mesh =
       fitted_mesh(parameters, scene, comm, sizes ? &*sizes : nullptr);
-    parted = !scene.contacts.list.empty();
-    if (parted)
-      part_bodies(scene.contacts, mesh);
+    if (method.is_mpm())
+      {
+        scene.contacts.check_all_pairs();
+        layers = scene.contacts.n_bodies;
+        mesh.repeat(layers);
+      }
+    else if (!scene.contacts.list.empty())
+      {
+        parted = true;
+        part_bodies(scene.contacts, mesh);
+      }
     symmetry = scene.geometry.symmetry;
     if (is_axisymmetric())
       for (const Point<dim> &x : mesh.points)
@@ -187,9 +194,11 @@ namespace geocone
       throw InputError("there are more ranks (" + std::to_string(n_ranks) +
                        ") than cells (" + std::to_string(mesh.cells.size()) +
                        ")\n  remedy:  call mpirun with fewer ranks");
+    const bool has_contacts = parted || layers > 1;
     if (storage == Storage::automatic)
-      storage = simplicial || parted ? Storage::shared : Storage::distributed;
-    if (storage == Storage::distributed && parted)
+      storage =
+        simplicial || has_contacts ? Storage::shared : Storage::distributed;
+    if (storage == Storage::distributed && has_contacts)
       throw InputError("Mesh/Triangulation",
                        storage.word(),
                        "automatic | shared where there are contacts: each rank "
@@ -207,7 +216,7 @@ namespace geocone
       tria = std::make_unique<parallel::shared::Triangulation<dim>>(
         comm,
         Triangulation<dim>::none,
-        !parted,
+        !has_contacts,
         parallel::shared::Triangulation<dim>::Settings::partition_metis);
     tria->create_triangulation(mesh.points, mesh.cells, mesh.boundary);
 

@@ -44,7 +44,9 @@ namespace geocone
   }
 
   std::optional<CellSearch::Place>
-  CellSearch::find(const Point<dim> &x, const Cell &hint) const
+  CellSearch::find(const Point<dim>  &x,
+                   const Cell        &hint,
+                   const unsigned int layer) const
   {
     // Also keeps what is not a number from the search by boxes.
     if (!(x.norm_square() < std::numeric_limits<double>::max()))
@@ -74,7 +76,8 @@ namespace geocone
     for (const auto &[box, cell] : cache.get_cell_bounding_boxes_rtree() |
                                      bgi::adaptors::queried(bgi::intersects(
                                        BoundingBox<dim>({lower, upper}))))
-      if (!found || rank(cell) < rank(found->cell))
+      if (mesh.layer_of(cell) == layer &&
+          (!found || rank(cell) < rank(found->cell)))
         if (const auto unit = mesh.unit_point(cell, x))
           found = Place{cell, *unit};
     return found;

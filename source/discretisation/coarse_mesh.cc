@@ -202,6 +202,33 @@ namespace geocone
   }
 
   void
+  CoarseMesh::repeat(const unsigned int times)
+  {
+    const std::size_t n_points = points.size(), n_cells = cells.size();
+    points.reserve(times * n_points);
+    cells.reserve(times * n_cells);
+    const auto repeat_all = [&](auto &list) {
+      const std::size_t n = list.size();
+      for (unsigned int copy = 1; copy < times; ++copy)
+        for (std::size_t i = 0; i < n; ++i)
+          {
+            auto next = list[i];
+            for (unsigned int &v : next.vertices)
+              v += copy * n_points;
+            list.push_back(next);
+          }
+    };
+    repeat_all(cells);
+    if constexpr (dim == 2)
+      repeat_all(boundary.boundary_lines);
+    else
+      repeat_all(boundary.boundary_quads);
+    for (unsigned int copy = 1; copy < times; ++copy)
+      for (std::size_t i = 0; i < n_points; ++i)
+        points.push_back(Point<dim>(points[i]));
+  }
+
+  void
   CoarseMesh::add_boundary(const Face                      &face,
                            const dealii::types::boundary_id side)
   {

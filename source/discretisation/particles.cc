@@ -68,9 +68,10 @@ namespace geocone
                      const Space          &space_,
                      MaterialPoints       &points)
   {
-    mesh  = &mesh_;
-    space = &space_;
-    comm  = mesh->triangulation().get_communicator();
+    contacts = &scene.contacts;
+    mesh     = &mesh_;
+    space    = &space_;
+    comm     = mesh->triangulation().get_communicator();
     seeding.prepare(scene);
     const std::vector<Seed> seeds = seeding.make(scene, *mesh);
     search                        = std::make_unique<CellSearch>(*mesh);
@@ -243,7 +244,8 @@ namespace geocone
         const auto    place = search->find(points.position[p],
                                         cell == numbers::invalid_unsigned_int
                                              ? BackgroundMesh::Cell()
-                                             : search->cell(cell));
+                                             : search->cell(cell),
+                                        contacts->body_of(points.material[p]));
         if (place)
           {
             cell           = place->cell->active_cell_index();

@@ -402,14 +402,15 @@ namespace geocone
         visit_all(scene, [&](Block &block, const Given &given) {
           for (Seed &seed : block)
             {
-              const auto place = cells.find(seed.position);
+              auto place = cells.find(seed.position);
               if (!place)
                 throw outside_mesh(seed.position);
-              if (cells.owner(place->cell) != rank)
-                continue;
               seed.cell = BackgroundMesh::size_of(place->cell);
               describe(seed, scene, given, detail);
-              take(seed);
+              place->cell =
+                mesh.twin(place->cell, scene.contacts.body_of(seed.material));
+              if (cells.owner(place->cell) == rank)
+                take(seed);
             }
         });
         return;
@@ -450,7 +451,8 @@ namespace geocone
               seed.volume   = values.JxW(q);
               seed.cell     = BackgroundMesh::size_of(cell);
               describe(seed, scene, Given(), detail);
-              take(seed);
+              if (scene.contacts.body_of(seed.material) == mesh.layer_of(cell))
+                take(seed);
             }
       }
   }

@@ -135,6 +135,13 @@ namespace geocone
       {
         cell_nodes(cell, nodes);
         active.add_indices(nodes.begin(), nodes.end());
+        // What nodes of other bodies in the same place do is asked where they touch.
+        for (unsigned int layer = 0; layer < mesh->n_layers(); ++layer)
+          if (layer != mesh->layer_of(cell))
+            {
+              cell_nodes(mesh->twin(cell, layer), nodes);
+              active.add_indices(nodes.begin(), nodes.end());
+            }
       }
     // Bodies that touch may do so anywhere: each rank knows their boundaries.
     if (mesh->is_parted())
@@ -246,21 +253,25 @@ namespace geocone
       }
     std::vector<unsigned int> rank_of_cell(
       mesh.triangulation().n_active_cells());
+    const std::size_t n_per_layer = grid_volume(n_cells);
     for (const auto &cell : mesh.triangulation().active_cell_iterators())
-      rank_of_cell[number_in_grid(mesh.place_in_grid(cell), n_cells)] =
+      rank_of_cell[mesh.layer_of(cell) * n_per_layer +
+                   number_in_grid(mesh.place_in_grid(cell), n_cells)] =
         mesh.owner_of_cell()[cell->active_cell_index()];
 
     const auto home = [&](const unsigned int function, const unsigned int n) {
       return std::min(n - 1, function - std::min(function, p / 2));
     };
     std::vector<unsigned int> rank_of_node;
-    for (std::size_t i = 0; i < grid_volume(n_functions); ++i)
-      {
-        GridIndex cell = index_in_grid(i, n_functions);
-        for (unsigned int c = 0; c < dim; ++c)
-          cell[c] = home(cell[c], n_cells[c]);
-        rank_of_node.push_back(rank_of_cell[number_in_grid(cell, n_cells)]);
-      }
+    for (unsigned int layer = 0; layer < mesh.n_layers(); ++layer)
+      for (std::size_t i = 0; i < grid_volume(n_functions); ++i)
+        {
+          GridIndex cell = index_in_grid(i, n_functions);
+          for (unsigned int c = 0; c < dim; ++c)
+            cell[c] = home(cell[c], n_cells[c]);
+          rank_of_node.push_back(
+            rank_of_cell[layer * n_per_layer + number_in_grid(cell, n_cells)]);
+        }
     std::vector<types::global_dof_index> next(n_ranks + 1, 0);
     for (const unsigned int r : rank_of_node)
       ++next[r + 1];
@@ -283,11 +294,12 @@ namespace geocone
         GridIndex       sizes, function;
         for (unsigned int c = 0; c < dim; ++c)
           sizes[c] = splines[c].n_functions();
+        const std::size_t first = mesh->layer_of(cell) * grid_volume(sizes);
         for (unsigned int i = 0; i < n_nodes_per_cell; ++i)
           {
             for (unsigned int c = 0; c < dim; ++c)
               function[c] = place[c] + lattice[i][c];
-            nodes[i] = spline_number[number_in_grid(function, sizes)];
+            nodes[i] = spline_number[first + number_in_grid(function, sizes)];
           }
         return;
       }

@@ -298,12 +298,12 @@ namespace geocone
       }
   }
 
-  std::vector<BodyContact::Facing>
+  std::vector<FacingNode>
   BodyContact::find(const Place &place, const double reach) const
   {
-    std::vector<Facing>    all;
-    std::set<unsigned int> taken;
-    const unsigned int     n_obstacles = scene.obstacles.list.size();
+    std::vector<FacingNode> all;
+    std::set<unsigned int>  taken;
+    const unsigned int      n_obstacles = scene.obstacles.list.size();
     for (unsigned int k = 0; k < pairs.size(); ++k)
       {
         std::map<unsigned int, Sums> sums;
@@ -317,7 +317,7 @@ namespace geocone
           {
             if (!(sum.D > least_cover * sum.whole) || taken.count(node) > 0)
               continue;
-            Facing at;
+            FacingNode at;
             at.node.node     = node;
             at.node.obstacle = n_obstacles + k;
             at.node.normal   = -sum.normal / sum.normal.norm();
@@ -356,7 +356,7 @@ namespace geocone
   void
   BodyContact::check_start(const Place &place) const
   {
-    for (const Facing &at : find(place, 0.))
+    for (const FacingNode &at : find(place, 0.))
       if (at.gap < -1e-3 * at.node.length)
         {
           const Point<dim> x = place(at.node.node);

@@ -20,6 +20,10 @@ namespace geocone
     /** A support's free direction counts as the normal up to here (10 degrees). */
     const double along = std::cos(radians(10.));
 
+    /** Where the other body is held alike, any direction does that is not this near to
+     *  a right angle. */
+    constexpr double hardly = 0.1;
+
     constexpr unsigned int n_motions = RigidMotion::n_components;
 
     /** What the sums over the nodes of an obstacle are: sum G' q, sum rho G' Q G by
@@ -157,6 +161,18 @@ namespace geocone
     return all;
   }
 
+  bool
+  Contact::is_held_alike(const ContactNode &node) const
+  {
+    return node.touches_body() &&
+           std::all_of(node.partners.begin(),
+                       node.partners.end(),
+                       [&](const ContactNode::Partner &other) {
+                         return free_direction(other.node) ==
+                                free_direction(node.node);
+                       });
+  }
+
   void
   Contact::begin_step(ContactStep step)
   {
@@ -175,10 +191,12 @@ namespace geocone
     for (ContactNode &node : step.nodes)
       {
         const unsigned int direction = free_direction(node.node);
+        const bool         is_alike  = is_held_alike(node);
         if (direction == 3 ||
-            (direction < 2 && std::abs(node.normal[direction]) < along))
+            (direction < 2 &&
+             std::abs(node.normal[direction]) < (is_alike ? hardly : along)))
           {
-            if (node.touches_body())
+            if (node.touches_body() && !is_alike)
               throw StepFailure(
                 "a node of a 'Body' of the section 'Contacts' is held by a "
                 "boundary condition against the other body\n"
@@ -188,7 +206,9 @@ namespace geocone
           }
         if (direction < 2)
           {
-            const double sign      = node.normal[direction] > 0. ? 1. : -1.;
+            const double sign = node.normal[direction] > 0. ? 1. : -1.;
+            if (is_alike) // u.n is what is free of it
+              node.least /= std::abs(node.normal[direction]);
             node.normal            = Tensor<1, dim>();
             node.normal[direction] = sign;
             node.friction          = 0.;

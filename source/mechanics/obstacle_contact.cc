@@ -23,6 +23,15 @@ namespace geocone
   {
     /** A gap that counts as none, over the size of a cell. */
     constexpr double closed = 1e-9;
+
+    Tensor<1, dim>
+    velocity_of(const unsigned int node, const Vector &v)
+    {
+      Tensor<1, dim> result;
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d] = v.local_element(dim * node + d);
+      return result;
+    }
   } // namespace
 
   ObstacleContact::ObstacleContact(const Scene          &scene,
@@ -97,7 +106,8 @@ namespace geocone
                          const double               t,
                          const double               h,
                          const double               solved_h,
-                         const std::vector<Vector> &gaps) const
+                         const std::vector<Vector> &gaps,
+                         std::vector<FacingNode>    facing) const
   {
     const double solved_at = t + solved_h;
     const auto  &list      = scene.obstacles.list;
@@ -120,39 +130,44 @@ namespace geocone
             }
       }
     std::map<unsigned int, double> gap_of;
-    if (bodies)
-      gap_of = add_nodes_of_bodies(velocity_n, h, step);
+    if (!scene.contacts.list.empty())
+      {
+        if (mesh_is_body)
+          facing = find_facing(velocity_n, h);
+        gap_of = add_nodes_of_bodies(velocity_n, h, std::move(facing), step);
+      }
     if (!list.empty())
       add_nodes_of_obstacles(velocity_n, h, gaps, gap_of, step);
     return step;
   }
 
-  std::map<unsigned int, double>
-  ObstacleContact::add_nodes_of_bodies(const Vector &velocity_n,
-                                       const double  h,
-                                       ContactStep  &step) const
+  std::vector<FacingNode>
+  ObstacleContact::find_facing(const Vector &velocity_n, const double h) const
   {
-    const auto velocity_of = [&](const unsigned int node) {
-      Tensor<1, dim> v;
-      for (unsigned int d = 0; d < dim; ++d)
-        v[d] = velocity_n.local_element(dim * node + d);
-      return v;
-    };
     double fastest = 0.;
     for (const unsigned int node : candidates)
-      fastest = std::max(fastest, velocity_of(node).norm());
-    fastest        = Utilities::MPI::max(fastest, comm);
+      fastest = std::max(fastest, velocity_of(node, velocity_n).norm());
+    fastest = Utilities::MPI::max(fastest, comm);
+    return bodies->find([this](const unsigned int node) { return place(node); },
+                        4. * h * fastest);
+  }
+
+  std::map<unsigned int, double>
+  ObstacleContact::add_nodes_of_bodies(const Vector           &velocity_n,
+                                       const double            h,
+                                       std::vector<FacingNode> facing,
+                                       ContactStep            &step) const
+  {
     step.has_pairs = true;
     std::map<unsigned int, double> gap_of;
-    for (auto &[contact, gap] :
-         bodies->find([this](const unsigned int node) { return place(node); },
-                      4. * h * fastest))
+    for (auto &[contact, gap] : facing)
       {
-        Tensor<1, dim> u = velocity_of(contact.node);
+        const Tensor<1, dim> v = velocity_of(contact.node, velocity_n);
+        Tensor<1, dim>       u = v;
         for (const ContactNode::Partner &other : contact.partners)
-          u -= other.part * velocity_of(other.node);
+          u -= other.part * velocity_of(other.node, velocity_n);
         contact.least    = -gap / h;
-        contact.velocity = velocity_of(contact.node) - u;
+        contact.velocity = v - u;
         const double u_n = u * contact.normal;
         if (contact.rebounds && u_n < 0. && u_n < contact.least)
           contact.least =
@@ -179,13 +194,11 @@ namespace geocone
     std::string            twice;
     for (const unsigned int node : candidates)
       {
-        const Point<dim> x = place(node);
-        Tensor<1, dim>   v;
-        for (unsigned int d = 0; d < dim; ++d)
-          v[d] = velocity_n.local_element(dim * node + d);
-        ContactNode  contact;
-        double       nearest = std::numeric_limits<double>::infinity();
-        unsigned int n_touch = 0;
+        const Point<dim>     x = place(node);
+        const Tensor<1, dim> v = velocity_of(node, velocity_n);
+        ContactNode          contact;
+        double               nearest = std::numeric_limits<double>::infinity();
+        unsigned int         n_touch = 0;
         for (unsigned int o = 0; o < list.size(); ++o)
           {
             const Tensor<1, dim>    arm = x - centre(o);
@@ -276,10 +289,8 @@ namespace geocone
         ++sums[touch.state == Contact::State::open    ? 0
                : touch.state == Contact::State::stick ? 1
                                                       : 2];
-        Tensor<1, dim> u;
-        for (unsigned int d = 0; d < dim; ++d)
-          u[d] = v.local_element(dim * node + d);
-        const Tensor<1, dim> relative = u - nodes[i].velocity;
+        const Tensor<1, dim> u        = velocity_of(node, v),
+                             relative = u - nodes[i].velocity;
         most[0]                       = std::max(most[0], touch.error);
         sums[6] += touch.size;
         // g of the end: that of the beginning is -least h, but where it rebounds.

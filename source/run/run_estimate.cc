@@ -114,15 +114,18 @@ namespace geocone
       expected.is_simplicial ? (p + 1) * (p + 2) / 2. : std::pow(p + 1., dim);
     if (dim == 3 && expected.is_simplicial)
       functions *= (p + 3) / 3.;
-    const double nodes = e.cells * nodes_per_cell;
-    e.unknowns         = dim * nodes;
-    e.points           = seeding != nullptr
-                           ? seeding->expected_number(scene, expected)
-                           : e.cells * (!expected.is_simplicial ? std::pow(p + 1., dim)
-                                        : p == 1                ? 1.
-                                        : p == 2                ? dim + 1.
-                                                                : 7.);
-    double outputs     = seeding != nullptr ? 1. : 0.;
+    double nodes = e.cells * nodes_per_cell;
+    e.unknowns   = dim * nodes;
+    e.points     = seeding != nullptr
+                     ? seeding->expected_number(scene, expected)
+                     : e.cells * (!expected.is_simplicial ? std::pow(p + 1., dim)
+                                  : p == 1                ? 1.
+                                  : p == 2                ? dim + 1.
+                                                          : 7.);
+    if (seeding != nullptr) // each body of particles has a layer of the mesh
+      for (double *number : {&e.cells, &e.unknowns, &nodes})
+        *number *= scene.contacts.n_bodies;
+    double outputs = seeding != nullptr ? 1. : 0.;
     for (const auto &stage : scene.loading.stages)
       {
         const double n = stage->expected_steps();

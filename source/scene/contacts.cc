@@ -5,6 +5,7 @@
 #include <geocone/scene/contacts.h>
 
 #include <algorithm>
+#include <map>
 
 namespace geocone
 {
@@ -68,16 +69,47 @@ namespace geocone
     add_parameter("Names",
                   names,
                   "Names of pairs of bodies that touch, rub and part, "
-                  "comma-separated; each has a subsection of that name. FEM.");
+                  "comma-separated; each has a subsection of that name. FEM "
+                  "and implicit MPM.");
     for (const std::string &pair : names)
       list.push_back(std::make_unique<BodyPair>(pair));
   }
 
   void
-  Contacts::prepare(const std::vector<std::string> &materials)
+  Contacts::prepare(const std::vector<std::string> &all_materials)
   {
+    materials = all_materials;
     for (const auto &pair : list)
       pair->prepare(materials);
+    if (list.empty())
+      return;
+    std::map<std::vector<bool>, unsigned int> number;
+    for (unsigned int m = 0; m < materials.size(); ++m)
+      {
+        std::vector<bool> is_in;
+        for (const auto &pair : list)
+          {
+            is_in.push_back(pair->is_first[m]);
+            is_in.push_back(pair->is_other[m]);
+          }
+        body.push_back(number.emplace(is_in, number.size()).first->second);
+      }
+    n_bodies = number.size();
+  }
+
+  void
+  Contacts::check_all_pairs() const
+  {
+    for (unsigned int a = 0; a < body.size(); ++a)
+      for (unsigned int b = a + 1; b < body.size(); ++b)
+        if (body[a] != body[b] && !are_apart(a, b))
+          throw InputError("Contacts/Names",
+                           dealii::Patterns::Tools::to_string(names),
+                           "a contact between each two bodies of particles: "
+                           "between '" +
+                             materials[a] + "' and '" + materials[b] +
+                             "' there is none",
+                           "add one, or name both materials in the same body");
   }
 
   void
@@ -94,8 +126,7 @@ namespace geocone
   Contacts::are_apart(const unsigned int a, const unsigned int b) const
   {
     return std::any_of(list.begin(), list.end(), [&](const auto &pair) {
-      return (pair->is_first[a] && pair->is_other[b]) ||
-             (pair->is_first[b] && pair->is_other[a]);
+      return pair->separates(a, b);
     });
   }
 } // namespace geocone

@@ -4,7 +4,6 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/discretisation/point_elasticity.h>
-#include <geocone/mechanics/particle_contact.h>
 #include <geocone/time_stepping/implicit_mpm.h>
 
 #include <deal.II/base/mpi.h>
@@ -106,9 +105,6 @@ namespace geocone
   void
   ImplicitMPM::check_obstacles(const MaterialPoints &points) const
   {
-    scene->contacts.refuse("Discretisation/Method = MPM",
-                           "set it to FEM, or let one of the bodies be an "
-                           "obstacle: bodies of particles share their nodes");
     if (!obstacles->exists())
       return;
     for (const auto &condition : scene->dirichlet.list)
@@ -174,6 +170,8 @@ namespace geocone
     absorbing =
       std::make_unique<AbsorbingBoundary>(*scene, *mesh, *space, true);
     obstacles = std::make_unique<ObstacleContact>(*scene, *mesh, *space, false);
+    if (!scene->contacts.list.empty())
+      bodies.emplace(*scene, *mesh, *space);
     check_obstacles(points);
     system = std::make_unique<LinearSystem>(
       newton.linear_solver(),
@@ -482,10 +480,13 @@ namespace geocone
         step.t,
         step.h,
         step.solved_h,
-        gaps_of_particles(
-          points, scene->obstacles, obstacles->moved(), *space));
+        gaps_of_particles(points, scene->obstacles, obstacles->moved(), *space),
+        bodies ? bodies->find(points, *constraints)
+               : std::vector<FacingNode>());
     problem->begin_step(
       step.solved_h, &force, velocity_L, prescribed, std::move(touching));
+    if (problem->needs_pattern())
+      system->set_pattern(*problem, timer);
     return raised;
   }
 

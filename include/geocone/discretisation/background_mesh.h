@@ -30,6 +30,10 @@ namespace geocone
    * Quadrilaterals and hexahedra live on parallel::distributed::Triangulation (p4est);
    * simplices, which p4est does not know, on parallel::shared::Triangulation,
    * where every rank stores the whole mesh and owns a part of it.
+   *
+   * Bodies of particles that touch each other have a layer each: the same mesh once
+   * more, in the same place, so that the particles of each body move nodes of their
+   * own. This is stored on parallel::shared::Triangulation, too.
    */
   class BackgroundMesh : public dealii::ParameterAcceptor
   {
@@ -144,6 +148,28 @@ namespace geocone
       return parted;
     }
 
+    /** How many layers there are, one after another: of particles one for each body,
+     *  otherwise 1. */
+    unsigned int
+    n_layers() const
+    {
+      return layers;
+    }
+
+    unsigned int
+    layer_of(const Cell &cell) const
+    {
+      return cell->active_cell_index() / (tria->n_active_cells() / layers);
+    }
+
+    /** The cell in the same place of another layer; also of another rank. */
+    Cell
+    twin(const Cell &cell, const unsigned int layer) const
+    {
+      const int n = tria->n_active_cells() / layers;
+      return Cell(tria.get(), 0, cell->index() % n + int(layer) * n);
+    }
+
     /** The lowest coordinates of all vertices. */
     dealii::Point<dim>
     lower_corner() const;
@@ -207,6 +233,7 @@ namespace geocone
     std::map<std::string, dealii::types::boundary_id>         sides;
     std::array<std::vector<double>, dim>                      lines;
     bool                      simplicial = false, parted = false;
+    unsigned int              layers = 1;
     std::optional<CellSizes>  sizes;
     std::vector<unsigned int> owners;
   };

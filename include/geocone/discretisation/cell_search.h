@@ -34,12 +34,14 @@ namespace geocone
 
     /**
      * The place of x: first in the cell @p hint, then in those that share a vertex
-     * with it, then everywhere, where a place on the border of cells belongs to the
-     * cell of the lowest rank and index, whichever rank asks.
+     * with it, then everywhere in a layer of the mesh, where a place on the border of
+     * cells belongs to the cell of the lowest rank and index, whichever rank asks.
      * @return nothing outside of the mesh, or if x is not a number
      */
     std::optional<Place>
-    find(const dealii::Point<dim> &x, const Cell &hint = Cell()) const;
+    find(const dealii::Point<dim> &x,
+         const Cell               &hint  = Cell(),
+         const unsigned int        layer = 0) const;
 
     /** The cell with an index, which all ranks use for the same cell. */
     Cell

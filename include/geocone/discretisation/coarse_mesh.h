@@ -62,6 +62,11 @@ namespace geocone
     std::vector<Face>
     part(const std::function<bool(unsigned int, unsigned int)> &are_apart);
 
+    /** The mesh so many times, one after another, in the same place: no copy shares
+     *  vertices with another. */
+    void
+    repeat(const unsigned int times);
+
     /** Gives a boundary face the number of a side. */
     void
     add_boundary(const Face &face, const dealii::types::boundary_id side);

@@ -123,8 +123,9 @@ namespace geocone
     /** Particles of materials that stages will add. */
     std::map<unsigned int, MaterialPoints> waiting;
 
-    const BackgroundMesh *mesh  = nullptr;
-    const Space          *space = nullptr;
+    const Contacts       *contacts = nullptr;
+    const BackgroundMesh *mesh     = nullptr;
+    const Space          *space    = nullptr;
     MPI_Comm              comm;
     unsigned int          n_lost_all = 0;
   };

@@ -250,7 +250,8 @@ namespace geocone
     std::unique_ptr<dealii::FiniteElement<dim>> fe;
     std::unique_ptr<dealii::DoFHandler<dim>>    dofs;
 
-    /** Splines along x and y, and the number of each of their products. */
+    /** Splines along x and y, and the number of each of their products, layer by
+     *  layer. */
     std::vector<SplineBasis>                     splines;
     std::vector<dealii::types::global_dof_index> spline_number;
 

@@ -40,13 +40,6 @@ namespace geocone
     /** Where a local node is. */
     using Place = std::function<dealii::Point<dim>(unsigned int)>;
 
-    /** A node of a first body that may touch, and the gap (m). */
-    struct Facing
-    {
-      ContactNode node; ///< without what depends on the step
-      double      gap;
-    };
-
     /**
      * All of them, the same on each rank, each node once: by the contact that comes
      * first in the list.
@@ -55,7 +48,7 @@ namespace geocone
      * @throws StepFailure if a node touches by one contact and is touched by another
      * one that comes later
      */
-    std::vector<Facing>
+    std::vector<FacingNode>
     find(const Place &place, const double reach) const;
 
     /** @throws InputError if bodies overlap at the start */

@@ -54,6 +54,14 @@ namespace geocone
     double adhesion = 0.; ///< borne besides friction, while closed (N/m)
   };
 
+  /** A node of a first body that may touch the other one, without what depends on the
+   *  step, and the gap (m). */
+  struct FacingNode
+  {
+    ContactNode node;
+    double      gap;
+  };
+
   /** How an obstacle moves in a step. */
   struct ObstacleBody
   {
@@ -113,7 +121,8 @@ namespace geocone
    * the dual functions of BodyContact, are condensed out.
    *
    * A node that a support holds in one direction is in contact only in the other
-   * one, without friction.
+   * one, without friction: where the normal is along it, or the other body is held
+   * alike.
    */
   class Contact
   {
@@ -270,6 +279,11 @@ namespace geocone
       Force  r, v;
       double rho = 0.;
     };
+
+    /** Whether supports hold the nodes of the other body, if it is one, in the same
+     *  directions as the node: its velocity against them is zero there. */
+    bool
+    is_held_alike(const ContactNode &node) const;
 
     /** v at the free dofs of a node. */
     Force

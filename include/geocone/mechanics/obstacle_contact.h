@@ -80,6 +80,7 @@ namespace geocone
      * @param solved_h what is solved for: h, or h/2 by the midpoint rule
      * @param gaps of a background mesh: per obstacle the gap to it of the nearest
      * particle that a node moves, by its first dof, with ghosts
+     * @param facing of a background mesh: the nodes of bodies that may touch
      * @throws StepFailure if a node touches two obstacles at once, or see
      * BodyContact::find()
      */
@@ -88,7 +89,8 @@ namespace geocone
           const double               t,
           const double               h,
           const double               solved_h,
-          const std::vector<Vector> &gaps = {}) const;
+          const std::vector<Vector> &gaps   = {},
+          std::vector<FacingNode>    facing = {}) const;
 
     /** What came of a step, before commit(). Collective. */
     ContactReport
@@ -182,11 +184,16 @@ namespace geocone
                            const std::map<unsigned int, double> &gap_of,
                            ContactStep                          &step) const;
 
-    /** The nodes that may touch other bodies, and their gaps. Collective. */
+    /** The nodes of bodies whose mesh they are that may touch. Collective. */
+    std::vector<FacingNode>
+    find_facing(const Vector &velocity_n, const double h) const;
+
+    /** Adds nodes that may touch other bodies. @return their gaps */
     std::map<unsigned int, double>
-    add_nodes_of_bodies(const Vector &velocity_n,
-                        const double  h,
-                        ContactStep  &step) const;
+    add_nodes_of_bodies(const Vector           &velocity_n,
+                        const double            h,
+                        std::vector<FacingNode> facing,
+                        ContactStep            &step) const;
 
     /** The force on a node: what supports hold of it is theirs. */
     static dealii::Tensor<1, dim>

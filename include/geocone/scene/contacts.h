@@ -17,8 +17,9 @@ namespace geocone
 {
   /**
    * Two bodies, each of some materials, that touch, rub and part: their meshes are
-   * not joined. Where they touch, the force of the other body on the nodes of the
-   * first and the relative velocity obey Signorini's and Coulomb's laws.
+   * not joined, and their particles move nodes of their own. Where they touch, the force
+   * of the other body on the nodes of the first and the relative velocity obey
+   * Signorini's and Coulomb's laws.
    */
   class BodyPair : public dealii::ParameterAcceptor
   {
@@ -28,6 +29,13 @@ namespace geocone
     /** @param materials names of all. @throws InputError */
     void
     prepare(const std::vector<std::string> &materials);
+
+    /** Whether one material is of the first body and one of the other. */
+    bool
+    separates(const unsigned int a, const unsigned int b) const
+    {
+      return (is_first[a] && is_other[b]) || (is_first[b] && is_other[a]);
+    }
 
     const std::string name;
     InterfaceLaw      law;
@@ -56,10 +64,28 @@ namespace geocone
     bool
     are_apart(const unsigned int a, const unsigned int b) const;
 
+    /** The body of a material, counted from 0: materials that are in the same bodies of
+     *  all contacts are one. Without contacts all are. */
+    unsigned int
+    body_of(const unsigned int material) const
+    {
+      return list.empty() ? 0 : body[material];
+    }
+
+    /** How many bodies there are, 1 without contacts. */
+    unsigned int n_bodies = 1;
+
+    /** For bodies that could pass through each other where they have no contact.
+     *  @throws InputError if two of them have none */
+    void
+    check_all_pairs() const;
+
     std::vector<std::unique_ptr<BodyPair>> list;
 
   private:
-    std::vector<std::string> names;
+    std::vector<std::string>  names;
+    std::vector<std::string>  materials;
+    std::vector<unsigned int> body; ///< by material
   };
 } // namespace geocone
 

@@ -8,6 +8,7 @@
 #include <geocone/discretisation/particles.h>
 #include <geocone/mechanics/absorbing_boundary.h>
 #include <geocone/mechanics/moving_conditions.h>
+#include <geocone/mechanics/particle_contact.h>
 #include <geocone/mechanics/point_functions.h>
 #include <geocone/time_stepping/fading_forces.h>
 #include <geocone/time_stepping/following_grid.h>
@@ -323,6 +324,7 @@ namespace geocone
 
     std::unique_ptr<MovingConditions>   moving;
     std::unique_ptr<ObstacleContact>    obstacles;
+    std::optional<ParticleBodies>       bodies; ///< where there are contacts
     std::unique_ptr<AbsorbingBoundary>  absorbing;
     std::unique_ptr<Constraints>        constraints;
     std::optional<GhostPlaces>          ghost_places; ///< of splines that move
