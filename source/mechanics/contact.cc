@@ -161,6 +161,24 @@ namespace geocone
     return all;
   }
 
+  double
+  Contact::rho_of(const ContactNode &node, const Vector &scale) const
+  {
+    const auto mean = [&](const unsigned int of) {
+      const unsigned int direction = free_direction(of);
+      double             sum       = 0.;
+      for (unsigned int d = 0; d < dim; ++d)
+        if (direction == 2 || direction == d)
+          sum += scale.local_element(dim * of + d) / (direction == 2 ? 2. : 1.);
+      return sum;
+    };
+    double compliance = 1. / mean(node.node);
+    for (const ContactNode::Partner &other : node.partners)
+      if (const double stiffness = mean(other.node); stiffness > 0.)
+        compliance += other.part * other.part / stiffness;
+    return 1. / compliance;
+  }
+
   bool
   Contact::is_held_alike(const ContactNode &node) const
   {
@@ -426,13 +444,9 @@ namespace geocone
     for (unsigned int i = 0; i < list.size(); ++i)
       if (const unsigned int node = list[i].node; is_owned(list[i]))
         {
-          const unsigned int direction = free_direction(node);
-          locals[i].r                  = free_part(residual, node);
-          locals[i].v                  = free_part(v, node);
-          for (unsigned int d = 0; d < dim; ++d)
-            if (direction == 2 || direction == d)
-              locals[i].rho += scale.local_element(dim * node + d) /
-                               (direction == 2 ? 2. : 1.);
+          locals[i].r   = free_part(residual, node);
+          locals[i].v   = free_part(v, node);
+          locals[i].rho = rho_of(list[i], scale);
         }
     move_bodies(locals, residual.get_mpi_communicator());
     for (unsigned int i = 0; i < list.size(); ++i)

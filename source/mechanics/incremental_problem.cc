@@ -125,6 +125,8 @@ namespace geocone
     elastic_diagonal.reinit(layout);
     for (const Term *term : terms)
       term->add_elastic_diagonal(elastic_diagonal);
+    if (contact_term) // which asks at nodes of other ranks, too
+      elastic_diagonal.update_ghost_values();
     return elastic_diagonal;
   }
 

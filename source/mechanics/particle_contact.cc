@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/convex_hull.h>
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/mechanics/particle_contact.h>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -78,16 +80,6 @@ namespace geocone
       }
   }
 
-  namespace
-  {
-    /** lambda: planes are as steep as this lets them be. */
-    constexpr double steepness = 1e-4;
-
-    /** Steps of Newton's method, and the longest, of n over the size of a cell. */
-    constexpr unsigned int most_steps   = 40;
-    constexpr double       longest_step = 4.;
-  } // namespace
-
   ParticleBodies::ParticleBodies(const Scene          &scene,
                                  const BackgroundMesh &mesh,
                                  const Space          &space)
@@ -138,9 +130,9 @@ namespace geocone
   }
 
   std::vector<ParticleBodies::Share>
-  ParticleBodies::shares_of(const Pair              &pair,
-                            const MaterialPoints    &points,
-                            const std::vector<bool> &is_shared) const
+  ParticleBodies::shares_of(const Pair           &pair,
+                            const MaterialPoints &points,
+                            const Unknowns       &unknowns) const
   {
     std::vector<Share> shares;
     for_each_point(points,
@@ -150,128 +142,108 @@ namespace geocone
                      const unsigned int layer = layer_of[at.nodes[0]];
                      if (layer != pair.first && layer != pair.other)
                        return;
+                     // What stays in the mesh has moved for those that it touches.
+                     Point<dim> x = points.position[p];
+                     if (scene.regions.are_fixed(points.material[p]))
+                       x += points.displacement[p];
                      for (unsigned int i = 0; i < at.n; ++i)
                        if (const unsigned int place = place_of[at.nodes[i]];
-                           is_shared[place] && at.N[i] > least_share)
-                         shares.push_back({p,
-                                           place,
-                                           layer == pair.first ? 1. : -1.,
-                                           points.weight[p] * at.N[i]});
+                           at.N[i] > least_share &&
+                           unknowns.has_mass(dim * nodes[place][pair.first]) &&
+                           unknowns.has_mass(dim * nodes[place][pair.other]))
+                         shares.push_back({place,
+                                           layer == pair.first,
+                                           x,
+                                           length_of(points.weight[p]) / 2.});
                    });
     return shares;
   }
 
-  void
-  ParticleBodies::sum(const Pair &pair, Eigen::MatrixXd &rows) const
+  std::vector<Tensor<1, dim>>
+  ParticleBodies::normals(const Pair               &pair,
+                          const std::vector<Share> &shares) const
   {
-    // By the vectors of the space, dim numbers of a node at a time.
-    for (unsigned int c = 0; c < rows.rows(); c += dim)
-      {
-        Vector             x(space.partitioner());
-        const unsigned int n = std::min<unsigned int>(dim, rows.rows() - c);
-        for (unsigned int place = 0; place < nodes.size(); ++place)
-          for (unsigned int d = 0; d < n; ++d)
-            x.local_element(dim * nodes[place][pair.first] + d) =
-              rows(c + d, place);
-        x.compress(VectorOperation::add);
-        x.update_ghost_values();
-        for (unsigned int place = 0; place < nodes.size(); ++place)
-          for (unsigned int d = 0; d < n; ++d)
-            rows(c + d, place) =
-              x.local_element(dim * nodes[place][pair.first] + d);
-      }
-  }
-
-  Eigen::Matrix<double, dim + 1, 1>
-  ParticleBodies::reach(const Share          &share,
-                        const MaterialPoints &points) const
-  {
-    const unsigned int p = share.point;
-    Tensor<1, dim>     x =
-      points.position[p] - space.node_positions()[nodes[share.place][0]];
-    // What stays in the mesh has moved for those that it touches.
-    if (scene.regions.are_fixed(points.material[p]))
-      x += points.displacement[p];
-    Eigen::Matrix<double, dim + 1, 1> result;
-    for (unsigned int d = 0; d < dim; ++d)
-      result[d] = x[d] / size;
-    result[dim] = 1.;
-    return result;
-  }
-
-  ParticleBodies::Planes
-  ParticleBodies::part(const Pair           &pair,
-                       const MaterialPoints &points,
-                       std::vector<Share>   &shares) const
-  {
-    constexpr unsigned int m       = dim + 1;
-    const auto             n_cols  = nodes.size();
-    Eigen::MatrixXd        weights = Eigen::MatrixXd::Zero(2, n_cols);
+    std::vector<Tensor<1, dim>>                         normal(nodes.size());
+    std::vector<std::array<std::vector<Point<dim>>, 2>> of_place(nodes.size());
     for (const Share &share : shares)
-      weights(share.side > 0. ? 0 : 1, share.place) += share.weight;
-    sum(pair, weights);
-    for (Share &share : shares)
-      share.weight /= weights(share.side > 0. ? 0 : 1, share.place);
+      of_place[share.place][share.is_first].push_back(share.x);
 
-    Planes planes(n_cols, Eigen::Matrix<double, m, 1>::Zero());
-    for (unsigned int step = 0; step < most_steps; ++step)
+    // Others have more of the particles at places that they share: the number of
+    // the place, the side, x and y, of corners of hulls only.
+    const auto &layout = *space.partitioner();
+    const auto  number = [&](const unsigned int place) {
+      return layout.local_to_global(dim * nodes[place][pair.first]);
+    };
+    if (layout.n_mpi_processes() > 1)
       {
-        // The slope, and the upper triangle of the curvature.
-        Eigen::MatrixXd sums =
-          Eigen::MatrixXd::Zero(m + m * (m + 1) / 2, n_cols);
-        for (const Share &share : shares)
+        std::vector<double> corners;
+        for (unsigned int place = 0; place < nodes.size(); ++place)
+          for (const bool is_first : {false, true})
+            for (const Point<dim> &x : convex_hull(of_place[place][is_first]))
+              corners.insert(
+                corners.end(),
+                {double(number(place)), is_first ? 1. : 0., x[0], x[1]});
+        std::map<types::global_dof_index, unsigned int> here;
+        for (unsigned int place = 0; place < nodes.size(); ++place)
           {
-            const auto   x = reach(share, points);
-            const double doubt =
-              1. / (1. + std::exp(share.side * planes[share.place].dot(x)));
-            auto         own = sums.col(share.place);
-            unsigned int k   = m;
-            for (unsigned int i = 0; i < m; ++i)
-              {
-                own[i] -= share.side * share.weight * doubt * x[i];
-                for (unsigned int j = i; j < m; ++j)
-                  own[k++] += share.weight * doubt * (1. - doubt) * x[i] * x[j];
-              }
+            here[number(place)] = place;
+            of_place[place]     = {};
           }
-        sum(pair, sums);
-        double largest = 0.;
-        for (unsigned int place = 0; place < n_cols; ++place)
-          {
-            if (!(weights(0, place) > 0.) || !(weights(1, place) > 0.))
-              continue;
-            Eigen::Matrix<double, m, 1> slope = sums.col(place).head(m);
-            Eigen::Matrix<double, m, m> curvature;
-            unsigned int                k = m;
-            for (unsigned int i = 0; i < m; ++i)
-              for (unsigned int j = i; j < m; ++j)
-                curvature(i, j) = curvature(j, i) = sums(k++, place);
-            for (unsigned int d = 0; d < m; ++d)
+        for (const auto &of_rank :
+             Utilities::MPI::all_gather(layout.get_mpi_communicator(), corners))
+          for (std::size_t i = 0; i < of_rank.size(); i += 4)
+            if (const auto at = here.find(types::global_dof_index(of_rank[i]));
+                at != here.end())
               {
-                slope[d] += steepness * planes[place][d];
-                curvature(d, d) += steepness;
+                Point<dim> x;
+                std::copy_n(&of_rank[i + 2], 2, x.begin_raw());
+                of_place[at->second][of_rank[i + 1] > 0.].push_back(x);
               }
-            Eigen::Matrix<double, m, 1> change = curvature.ldlt().solve(slope);
-            change *= std::min(1., longest_step / change.norm());
-            planes[place] -= change;
-            largest = std::max(largest, change.norm());
-          }
-        if (Utilities::MPI::max(
-              largest, space.partitioner()->get_mpi_communicator()) < 1e-10)
-          break;
       }
-    return planes;
+    for (unsigned int place = 0; place < nodes.size(); ++place)
+      if (!of_place[place][0].empty() && !of_place[place][1].empty())
+        normal[place] = way_between(of_place[place][0], of_place[place][1]);
+    return normal;
+  }
+
+  std::vector<double>
+  ParticleBodies::gaps(const Pair                        &pair,
+                       const std::vector<Share>          &shares,
+                       const std::vector<Tensor<1, dim>> &normal) const
+  {
+    // How far both sides reach from the place.
+    std::array<Vector, 2> nearest;
+    for (Vector &of_side : nearest)
+      {
+        of_side.reinit(space.partitioner());
+        for (unsigned int i = 0; i < space.n_local_nodes(); ++i)
+          of_side.local_element(dim * i) = 1e300;
+      }
+    for (const Share &share : shares)
+      {
+        const unsigned int node = nodes[share.place][pair.first];
+        const double       along =
+          (share.x - space.node_positions()[node]) * normal[share.place];
+        double &least = nearest[share.is_first].local_element(dim * node);
+        least = std::min(least, (share.is_first ? along : -along) - share.half);
+      }
+    for (Vector &of_side : nearest)
+      {
+        of_side.compress(VectorOperation::min);
+        of_side.update_ghost_values();
+      }
+    std::vector<double> gap;
+    for (const std::vector<unsigned int> &place : nodes)
+      gap.push_back(nearest[0].local_element(dim * place[pair.first]) +
+                    nearest[1].local_element(dim * place[pair.first]));
+    return gap;
   }
 
   std::vector<FacingNode>
   ParticleBodies::find(const MaterialPoints &points,
                        const Unknowns       &unknowns) const
   {
-    const MPI_Comm          comm = space.partitioner()->get_mpi_communicator();
-    std::vector<FacingNode> found;
-    std::vector<unsigned int> of_place(nodes.size(),
-                                       numbers::invalid_unsigned_int);
-    std::string               twice;
-    Vector                    outward(space.partitioner()); // int N_i n dA
+    Vector outward(space.partitioner()); // a
     for_each_point(points,
                    [&](const unsigned int p,
                        const unsigned int /* cell */,
@@ -290,85 +262,61 @@ namespace geocone
       return result;
     };
 
+    std::vector<FacingNode>             found;
+    std::map<unsigned int, std::size_t> of_place; // in found
+    std::string                         thrice;
     for (const Pair &pair : pairs)
       {
-        std::vector<bool> is_shared(nodes.size());
+        const std::vector<Share>    shares = shares_of(pair, points, unknowns);
+        std::vector<Tensor<1, dim>> normal = normals(pair, shares);
         for (unsigned int place = 0; place < nodes.size(); ++place)
-          is_shared[place] =
-            unknowns.has_mass(dim * nodes[place][pair.first]) &&
-            unknowns.has_mass(dim * nodes[place][pair.other]);
-        std::vector<Share> shares = shares_of(pair, points, is_shared);
-        const Planes       planes = part(pair, points, shares);
-
-        // How far both reach along the normal, from the place.
-        std::array<Vector, 2> nearest;
-        for (Vector &of_side : nearest)
-          {
-            of_side.reinit(space.partitioner());
-            for (unsigned int i = 0; i < space.n_local_nodes(); ++i)
-              of_side.local_element(dim * i) = 1e300;
-          }
-        for (const Share &share : shares)
-          {
-            const auto  &plane = planes[share.place];
-            const double along =
-              size * plane.template head<dim>().normalized().dot(
-                       reach(share, points).template head<dim>());
-            double &least = nearest[share.side > 0. ? 0 : 1].local_element(
-              dim * nodes[share.place][pair.first]);
-            least = std::min(least,
-                             share.side * along -
-                               length_of(points.weight[share.point]) / 2.);
-          }
-        for (Vector &of_side : nearest)
-          {
-            of_side.compress(VectorOperation::min);
-            of_side.update_ghost_values();
-          }
+          if (normal[place].norm_square() == 0.)
+            normal[place] = outward_at(nodes[place][pair.other]) -
+                            outward_at(nodes[place][pair.first]);
+        for (Tensor<1, dim> &n : normal)
+          if (n.norm_square() > 0.)
+            n /= n.norm();
+        const std::vector<double> gap = gaps(pair, shares, normal);
 
         const InterfaceLaw &law = scene.contacts.list[pair.contact]->law;
         for (unsigned int place = 0; place < nodes.size(); ++place)
           {
+            if (!(gap[place] < 1e200) || normal[place].norm_square() == 0.)
+              continue;
             const unsigned int node  = nodes[place][pair.first],
                                other = nodes[place][pair.other];
-            const double gap         = nearest[0].local_element(dim * node) +
-                               nearest[1].local_element(dim * node);
-            if (!is_shared[place] || !(gap < 1e200))
-              continue;
-            FacingNode facing;
-            facing.gap           = std::max(gap, 0.);
+            const Tensor<1, dim> &n  = normal[place];
+            FacingNode            facing;
+            facing.gap           = std::max(gap[place], 0.);
             facing.node.node     = node;
             facing.node.obstacle = scene.obstacles.list.size() + pair.contact;
-            for (unsigned int d = 0; d < dim; ++d)
-              facing.node.normal[d] = planes[place][d];
-            facing.node.normal /= facing.node.normal.norm();
+            facing.node.normal   = n;
             facing.node.partners = {{other, 1.}};
-            facing.node.length =
-              std::max(0.,
-                       std::min(-(outward_at(node) * facing.node.normal),
-                                outward_at(other) * facing.node.normal));
-            facing.node.friction = law.friction;
-            facing.node.adhesion = law.adhesion * facing.node.length;
-            facing.node.rebounds = law.restitution > 0.;
-            if (of_place[place] == numbers::invalid_unsigned_int)
+            facing.node.length   = std::max(
+              0., std::min(-(outward_at(node) * n), outward_at(other) * n));
+            facing.node.friction    = law.friction;
+            facing.node.adhesion    = law.adhesion * facing.node.length;
+            facing.node.rebounds    = law.restitution > 0.;
+            const auto [at, is_new] = of_place.emplace(place, found.size());
+            if (is_new)
               {
-                of_place[place] = found.size();
                 found.push_back(facing);
                 continue;
               }
-            FacingNode &before = found[of_place[place]];
+            FacingNode &before = found[at->second];
             if (std::max(before.gap, facing.gap) <= 1e-9 * size)
-              twice =
+              thrice =
                 format("three bodies touch at (%s)",
                        text_of_place(space.node_positions()[node]).c_str());
             if (facing.gap < before.gap)
               before = facing;
           }
       }
-    twice = text_of_any_rank(comm, twice);
-    if (!twice.empty())
-      throw StepFailure(twice + "\n  remedy:  let two of them be one body, or "
-                                "make cells smaller");
+    thrice =
+      text_of_any_rank(space.partitioner()->get_mpi_communicator(), thrice);
+    if (!thrice.empty())
+      throw StepFailure(thrice + "\n  remedy:  let two of them be one body, or "
+                                 "make cells smaller");
     return found;
   }
 } // namespace geocone

@@ -101,8 +101,7 @@ namespace geocone
    * which takes the place of R in these rows, so that one Newton iteration solves
    * for plasticity and contact. dF = A dr + B dv: rows of the Jacobian are
    * combined by the 2 x 2 matrices A, and B comes to the diagonal; both are the
-   * identity's multiples or zero but for sliding nodes. rho is the node's mean of
-   * IncrementalProblem::scale().
+   * identity's multiples or zero but for sliding nodes. rho is rho_of().
    *
    * So F = r - q, q the projection of p = r - rho (u - least n). A free obstacle has no
    * unknowns here either: its velocity y at the end of the step, which is G_i y at node
@@ -279,6 +278,11 @@ namespace geocone
       Force  r, v;
       double rho = 0.;
     };
+
+    /** rho: of a pair 1/rho = 1/d_i + sum P_ij^2/d_j, d the mean of IncrementalProblem::
+     *  scale() at a node; a light body gives way, whichever of both it is. */
+    double
+    rho_of(const ContactNode &node, const Vector &scale) const;
 
     /** Whether supports hold the nodes of the other body, if it is one, in the same
      *  directions as the node: its velocity against them is zero there. */

@@ -10,8 +10,6 @@
 #include <geocone/mechanics/unknowns.h>
 #include <geocone/scene/scene.h>
 
-#include <Eigen/Dense>
-
 #include <vector>
 
 namespace geocone
@@ -36,17 +34,15 @@ namespace geocone
 
   /**
    * Where bodies of particles touch. Each has a layer of the background mesh, so that in
-   * a place that both reach there is a node of each. Both are parted there by a plane
-   *   n.x + o = 0,   n out of the other body,
-   * by logistic regression of the particles p that move them (Nairn et al. 2020): with
-   * c = 1 in the first body, -1 in the other one, and weights w that are V_p N_i and sum
-   * up to 1 in each, the minimum of the convex function
-   *   sum_p w_p ln(1 + exp(-c_p (n.x_p + o))) + lambda |n|^2/2
-   * of places over the size of a cell. It does not mind sides of the mesh, edges of a
-   * body and how densely it is filled, as gradients of volume do. Along n/|n| the gap is
-   * what is between the nearest particles of both, squares of their volume; and the
-   * length that the node stands for is int N_i dA of the body that has less of it:
-   *   -n.sum_p V_p grad N_i of the first, n.sum_p V_p grad N_i of the other one.
+   * a place that both reach there is a node of each. The normal there is that of the plane
+   * which parts the particles that move the two nodes with the greatest margin: along
+   * the shortest way between their convex hulls. Unlike gradients of volume it does not
+   * mind sides of the mesh, edges of a body and how densely it is filled. Where no
+   * plane parts them, in a notch, it is that of the gradients,
+   *   n = a_other - a_first,   a = sum_p V_p grad N_i = int N_i n dA  of a body.
+   * Along n the gap is what is between the nearest particles of both, squares of their
+   * volume; and the length that the node stands for is the smaller one of -n.a of the first
+   * body and n.a of the other one.
    */
   class ParticleBodies
   {
@@ -72,36 +68,30 @@ namespace geocone
       unsigned int first, other; ///< layers
     };
 
-    /** n and o of each place. */
-    using Planes = std::vector<Eigen::Matrix<double, dim + 1, 1>>;
-
-    /** A particle that moves a node of a pair in a place. */
+    /** A particle that moves the node of a pair in a place. */
     struct Share
     {
-      unsigned int point, place;
-      double       side;   ///< c
-      double       weight; ///< V N
+      unsigned int       place;
+      bool               is_first; ///< of the first body
+      dealii::Point<dim> x;
+      double             half; ///< of its square's side (m)
     };
 
+    /** Of all particles that move nodes of a pair where both have mass. */
     std::vector<Share>
-    shares_of(const Pair              &pair,
-              const MaterialPoints    &points,
-              const std::vector<bool> &is_shared) const;
+    shares_of(const Pair           &pair,
+              const MaterialPoints &points,
+              const Unknowns       &unknowns) const;
 
-    /** @param[in,out] shares in: weights V N; out: w. Collective. */
-    Planes
-    part(const Pair           &pair,
-         const MaterialPoints &points,
-         std::vector<Share>   &shares) const;
+    /** The normals by place; zero where no plane parts the bodies. Collective. */
+    std::vector<dealii::Tensor<1, dim>>
+    normals(const Pair &pair, const std::vector<Share> &shares) const;
 
-    /** Sums the rows of places, of a pair of bodies, over the ranks: by row in turn.
-     *  Collective. */
-    void
-    sum(const Pair &pair, Eigen::MatrixXd &rows) const;
-
-    /** x_p from a place, over the size of a cell, and 1. */
-    Eigen::Matrix<double, dim + 1, 1>
-    reach(const Share &share, const MaterialPoints &points) const;
+    /** The gaps by place along the normals. Collective. */
+    std::vector<double>
+    gaps(const Pair                                &pair,
+         const std::vector<Share>                  &shares,
+         const std::vector<dealii::Tensor<1, dim>> &normal) const;
 
     const Scene &scene;
     const Space &space;
