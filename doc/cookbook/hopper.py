@@ -136,7 +136,7 @@ def main():
     mass.legend()
     stress.set(xlabel="r (m)", ylabel="radial pressure (kPa), t = 0.3 s", xlim=(0.15, 0.62),
                ylim=(0., None))
-    figure.savefig(ROOT / "doc" / "cookbook" / "contact_hopper.png", dpi=110)
+    figure.savefig(ROOT / "doc" / "cookbook" / "contact_hopper.png", dpi=95)
 
 
 if __name__ == "__main__":
