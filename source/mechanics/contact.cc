@@ -381,7 +381,7 @@ namespace geocone
         rho_Q[i] = Matrix();
         for (unsigned int a = 0; a < dim; ++a)
           {
-            rho_Q[i][a][a] = rho[i];
+            rho_Q[i][a][a] = touch[i].rho;
             for (unsigned int b = 0; b < dim; ++b)
               row_A[a].local_element(dim * list[i].node + b) = a == b ? 1. : 0.;
           }
@@ -433,7 +433,6 @@ namespace geocone
     relaxed = false;
     touch.assign(list.size(), Touch());
     rho_Q.assign(list.size(), Matrix());
-    rho.assign(list.size(), 0.);
     for (Vector &row : row_A)
       if (row.size() == 0)
         row.reinit(residual);
@@ -469,7 +468,6 @@ namespace geocone
           locals[i].r.norm() + locals[i].rho * (locals[i].v - velocity).norm();
         touch[i].relative = locals[i].v - velocity;
         touch[i].rho      = locals[i].rho;
-        rho[i]            = locals[i].rho;
         rho_Q[i]          = locals[i].rho * at.Q;
         for (unsigned int a = 0; a < dim; ++a)
           for (unsigned int b = 0; b < dim; ++b)
@@ -575,7 +573,8 @@ namespace geocone
                       GQ[d] * matrix.value[j];
                   if (!is_owned(list[i]))
                     continue;
-                  sums[number].local_element(dim * node + d) -= rho[i] * GQ[d];
+                  sums[number].local_element(dim * node + d) -=
+                    touch[i].rho * GQ[d];
                   update.U(row, number) += rho_Q[i][d] * G;
                 }
           });
@@ -607,8 +606,9 @@ namespace geocone
           if (const ContactNode &node = list[i];
               is_owned(node) && !node.touches_body())
             {
-              const Force p = rho_Q[i] * (free_part(dst, node.node) / rho[i] -
-                                          free_part(dv, node.node));
+              const Force p =
+                rho_Q[i] * (free_part(dst, node.node) / touch[i].rho -
+                            free_part(dv, node.node));
               for (unsigned int k = 0; k < n_motions; ++k)
                 sums[n_motions * node.obstacle + k] +=
                   RigidMotion::of_point(k, node.arm) * p;

@@ -17,10 +17,14 @@ namespace geocone
   }
 
   void
-  EnergyBalance::add_step(const Energies &end, const Works &of_step)
+  EnergyBalance::add_step(const Energies &end,
+                          const Energies &of_lost,
+                          const Works    &of_step)
   {
-    const double step_loss =
-      last.sum() + of_step.external - end.sum() - of_step.dissipated();
+    const double step_loss = last.sum() + of_step.external - end.sum() -
+                             of_lost.sum() - of_step.dissipated();
+    taken_away += of_lost.sum();
+    removed_potential += of_lost.potential;
     done += of_step;
     last = end;
     lost += step_loss;

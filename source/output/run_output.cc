@@ -18,10 +18,12 @@ namespace geocone
   void
   RunOutput::prepare(const RunOptions &options,
                      const Scene      &scene_,
-                     const bool        points_move_)
+                     const bool        points_move_,
+                     const bool        points_leave_)
   {
-    scene       = &scene_;
-    points_move = points_move_;
+    scene        = &scene_;
+    points_move  = points_move_;
+    points_leave = points_leave_;
     make_folder(options);
     if (const auto &load = scene->observation.reference)
       reference_case.set_default("limit_load/value", *load);
@@ -141,7 +143,7 @@ namespace geocone
       add_work("contact dissipation (J/m)", &Works::contact_dissipation);
     table.add(unit("total energy (J/m)"),
               [this](const Record &) { return balance.total(); });
-    if (scene->loading.changes_body())
+    if (scene->loading.changes_body() || points_leave)
       table.add(unit("removed energy (J/m)"),
                 [this](const Record &) { return balance.removed(); });
     table.add(unit("numerical loss (J/m)"),
@@ -237,7 +239,8 @@ namespace geocone
   void
   RunOutput::add_step(const StepRecord &record)
   {
-    balance.add_step(record.last.energies, record.last.works);
+    balance.add_step(
+      record.last.energies, record.last.of_lost, record.last.works);
     const std::vector<double> line = table.line(record);
     records.push_back(record);
     records.back().last.newton.table.clear(); // only the numbers are kept

@@ -219,7 +219,10 @@ namespace geocone
   void
   ImplicitSimulation::prepare_output(const RunOptions &options)
   {
-    run_output.prepare(options, scene, stepper->has_moving_points());
+    run_output.prepare(options,
+                       scene,
+                       stepper->has_moving_points(),
+                       stepper->points_may_leave());
     freezer.prepare(run_output.folder());
     run_output.set_initial_energy(
       stepper->state_energies(kinematics, points, 0.));

@@ -560,10 +560,16 @@ namespace geocone
     kinematics.velocity = v;
     if (following)
       follow_side();
+    const unsigned int n_lost_before = particles.n_lost();
+    Energies           before;
+    if (points_may_leave())
+      before = state_energies(kinematics, points, t + h);
     particles.sort(points);
     begun = false;
 
     report.energies = state_energies(kinematics, points, t + h);
+    if (particles.n_lost() > n_lost_before)
+      report.of_lost = before - report.energies;
     report.largest_plastic_strain =
       largest_plastic_strain(points, v.get_mpi_communicator());
     report.motion = {n_light,

@@ -88,6 +88,13 @@ namespace geocone
       return n_lost_all;
     }
 
+    /** Whether those that leave the mesh are counted, and the run goes on. */
+    bool
+    may_leave() const
+    {
+      return !outflow.is_error();
+    }
+
     /** Where they come from. */
     Seeding &
     seeds()

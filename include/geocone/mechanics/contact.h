@@ -345,7 +345,6 @@ namespace geocone
     std::vector<ContactNode> list;
     std::vector<Touch>       touch;
     std::vector<Matrix>      rho_Q; ///< of owned ones
-    std::vector<double>      rho;
     std::array<Vector, dim>
       row_A; ///< 1 - Q by component of F, at the node's dofs
     std::vector<ObstacleBody>    bodies;

@@ -29,9 +29,12 @@ namespace geocone
     void
     begin(const Energies &energies);
 
-    /** A step has led to these energies. */
+    /** A step has led to these energies. @param of_lost those of particles that left
+     *  the mesh, which are no more among them */
     void
-    add_step(const Energies &end, const Works &of_step);
+    add_step(const Energies &end,
+             const Energies &of_lost,
+             const Works    &of_step);
 
     /** The energies now, with all works since the start, and what was removed, of
      *  which a part was potential energy. */

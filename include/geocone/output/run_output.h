@@ -86,12 +86,14 @@ namespace geocone
     /**
      * Makes the folder, or enters that of the run before.
      * @param points_move through the mesh
+     * @param points_leave may leave it
      * @throws InputError if it exists and may not be used, or cannot be written
      */
     void
     prepare(const RunOptions &options,
             const Scene      &scene,
-            const bool        points_move);
+            const bool        points_move,
+            const bool        points_leave);
 
     void
     state_of_run(StateRow &row) override;
@@ -237,6 +239,7 @@ namespace geocone
 
     EnergyBalance balance;
     bool          points_move  = false;
+    bool          points_leave = false;
     unsigned int  n_load_jumps = 0;
   };
 } // namespace geocone

@@ -25,6 +25,14 @@ namespace geocone
       return kinetic + elastic + potential;
     }
 
+    Energies
+    operator-(const Energies &other) const
+    {
+      return {kinetic - other.kinetic,
+              elastic - other.elastic,
+              potential - other.potential};
+    }
+
     void
     state(StateRow &row)
     {

@@ -92,6 +92,12 @@ namespace geocone
       return advection != Advection::none;
     }
 
+    bool
+    points_may_leave() const override
+    {
+      return particles.may_leave();
+    }
+
     std::string
     linear_solver_name() const override
     {

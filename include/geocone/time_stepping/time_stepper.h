@@ -65,6 +65,7 @@ namespace geocone
     SolverReport newton;
     Quality      quality;
     Energies     energies; ///< at its end
+    Energies     of_lost;  ///< of particles that have left the mesh
     Works        works;    ///< of the step
 
     /** Forces on the body of each of Scene::supports() (N/m), and their moments
@@ -101,6 +102,7 @@ namespace geocone
           newton,
           quality,
           energies,
+          of_lost,
           works,
           reactions,
           unknowns,
@@ -251,6 +253,13 @@ namespace geocone
     /** Whether points move through the mesh. */
     virtual bool
     has_moving_points() const
+    {
+      return false;
+    }
+
+    /** Whether points may leave the mesh, which are then counted. */
+    virtual bool
+    points_may_leave() const
     {
       return false;
     }
