@@ -17,6 +17,8 @@ namespace geocone
 
   namespace
   {
+    constexpr unsigned int n_motions = RigidMotion::n_components;
+
     /** A support's free direction counts as the normal up to here (10 degrees). */
     const double along = std::cos(radians(10.));
 
@@ -24,59 +26,6 @@ namespace geocone
      *  a right angle. */
     constexpr double hardly = 0.1;
 
-    constexpr unsigned int n_motions = RigidMotion::n_components;
-
-    /** What the sums over the nodes of an obstacle are: sum G' q, sum rho G' Q G by
-     *  rows, and the size of what is added. */
-    constexpr unsigned int n_sums = n_motions + n_motions * n_motions + 1;
-
-    /** Of an obstacle at a motion: what its equilibrium lacks, E, and the size of its
-     *  sums. */
-    struct BodyBalance
-    {
-      Eigen::Vector3d R = Eigen::Vector3d::Zero();
-      Eigen::Matrix3d E = Eigen::Matrix3d::Identity();
-      double          size;
-
-      BodyBalance(const ObstacleBody &body,
-                  const RigidMotion  &motion,
-                  const double       *sums)
-        : size(sums[n_sums - 1])
-      {
-        for (unsigned int k = 0; k < n_motions; ++k)
-          if (body.is_free[k])
-            {
-              const double inertia = body.inertia[k];
-              R[k] = inertia * (motion[k] - body.without_contact[k]) + sums[k];
-              size += inertia *
-                      (std::abs(motion[k]) + std::abs(body.without_contact[k]));
-              for (unsigned int l = 0; l < n_motions; ++l)
-                if (body.is_free[l])
-                  E(k, l) = sums[n_motions + n_motions * k + l] +
-                            (k == l ? inertia : 0.);
-            }
-      }
-    };
-    using Balances = std::vector<BodyBalance>;
-
-    bool
-    is_solved(const Balances &now)
-    {
-      return std::all_of(now.begin(), now.end(), [](const BodyBalance &body) {
-        return body.R.norm() <= 1e-14 * body.size;
-      });
-    }
-
-    /** Of all residuals, each over the diagonal of E at @p scale. */
-    double
-    norm(const Balances &at, const Balances &scale)
-    {
-      double sum = 0.;
-      for (unsigned int o = 0; o < at.size(); ++o)
-        for (unsigned int k = 0; k < n_motions; ++k)
-          sum += at[o].R[k] * at[o].R[k] / scale[o].E(k, k);
-      return std::sqrt(sum);
-    }
   } // namespace
 
   unsigned int
@@ -194,17 +143,8 @@ namespace geocone
   void
   Contact::begin_step(ContactStep step)
   {
-    bodies    = std::move(step.bodies);
+    obstacles.begin_step(std::move(step.bodies));
     has_pairs = step.has_pairs;
-    motion.clear();
-    first_free.clear();
-    n_free = 0;
-    for (const ObstacleBody &body : bodies)
-      {
-        motion.push_back(body.without_contact);
-        first_free.push_back(n_free);
-        n_free += body.n_free();
-      }
     list.clear();
     for (ContactNode &node : step.nodes)
       {
@@ -277,15 +217,18 @@ namespace geocone
   Contact::sums_of_nodes(const std::vector<Local> &locals,
                          const MPI_Comm            comm) const
   {
-    std::vector<double> sums(n_sums * bodies.size(), 0.);
+    std::vector<double> sums(ObstacleMotions::n_sums * obstacles.n_obstacles(),
+                             0.);
     for (unsigned int i = 0; i < list.size(); ++i)
       if (const ContactNode &node = list[i]; is_owned(node) &&
                                              !node.touches_body() &&
-                                             bodies[node.obstacle].n_free() > 0)
+                                             obstacles.is_free(node.obstacle))
         {
           const Projection at =
-            project(node, locals[i], motion[node.obstacle].at(node.arm));
-          double *const own = &sums[n_sums * node.obstacle];
+            project(node,
+                    locals[i],
+                    obstacles.velocities()[node.obstacle].at(node.arm));
+          double *const own = &sums[ObstacleMotions::n_sums * node.obstacle];
           for (unsigned int k = 0; k < n_motions; ++k)
             {
               const Force G = RigidMotion::of_point(k, node.arm);
@@ -295,60 +238,11 @@ namespace geocone
                   locals[i].rho *
                   (G * (at.Q * RigidMotion::of_point(l, node.arm)));
             }
-          own[n_sums - 1] += at.q.norm() * (1. + node.arm.norm());
+          own[ObstacleMotions::n_sums - 1] +=
+            at.q.norm() * (1. + node.arm.norm());
         }
     sum_over_ranks(sums, comm);
     return sums;
-  }
-
-  void
-  Contact::move_bodies(const std::vector<Local> &locals, const MPI_Comm comm)
-  {
-    mobility.assign(bodies.size(), Eigen::Matrix3d::Zero());
-    body_error = 0.;
-    if (n_free == 0)
-      return;
-    const auto balance = [&]() {
-      const std::vector<double> sums = sums_of_nodes(locals, comm);
-      Balances                  result;
-      for (unsigned int o = 0; o < bodies.size(); ++o)
-        result.emplace_back(bodies[o], motion[o], &sums[n_sums * o]);
-      return result;
-    };
-
-    // Newton's method from the last motions, in shorter steps where it must.
-    Balances now = balance();
-    for (unsigned int iteration = 0; iteration < 50 && !is_solved(now);
-         ++iteration)
-      {
-        const std::vector<RigidMotion> before = motion;
-        const Balances                 old    = now;
-        for (double step = 1.; step > 1e-4; step /= 2.)
-          {
-            for (unsigned int o = 0; o < bodies.size(); ++o)
-              {
-                const Eigen::Vector3d change =
-                  old[o].E.partialPivLu().solve(old[o].R);
-                for (unsigned int k = 0; k < n_motions; ++k)
-                  motion[o][k] = before[o][k] - step * change[k];
-              }
-            now = balance();
-            if (norm(now, old) <= (1. - 0.1 * step) * norm(old, old))
-              break;
-          }
-        if (norm(now, old) >= norm(old, old)) // rounding, or nothing better
-          break;
-      }
-    for (unsigned int o = 0; o < bodies.size(); ++o)
-      {
-        body_error += now[o].R.norm();
-        const Eigen::Matrix3d inverse = now[o].E.inverse();
-        for (unsigned int k = 0; k < n_motions; ++k)
-          for (unsigned int l = 0; l < n_motions; ++l)
-            if (bodies[o].is_free[k] && bodies[o].is_free[l])
-              mobility[o](k, l) = inverse(k, l);
-      }
-    body_error /= dealii::Utilities::MPI::n_mpi_processes(comm);
   }
 
   std::vector<unsigned int>
@@ -390,29 +284,6 @@ namespace geocone
       row.update_ghost_values();
   }
 
-  void
-  Contact::balance_of_motions(Eigen::VectorXd &inertia,
-                              Eigen::VectorXd &lack) const
-  {
-    inertia.resize(n_free);
-    lack.resize(n_free);
-    for (unsigned int o = 0; o < bodies.size(); ++o)
-      for_free_motions(o, [&](const unsigned int k, const unsigned int number) {
-        inertia[number] = bodies[o].inertia[k];
-        lack[number] =
-          bodies[o].inertia[k] * (motion[o][k] - bodies[o].without_contact[k]);
-      });
-  }
-
-  void
-  Contact::change_motions(const Eigen::VectorXd &change)
-  {
-    for (unsigned int o = 0; o < bodies.size(); ++o)
-      for_free_motions(o, [&](const unsigned int k, const unsigned int number) {
-        motion[o][k] += change[number];
-      });
-  }
-
   bool
   Contact::has_friction(const MPI_Comm comm) const
   {
@@ -447,13 +318,16 @@ namespace geocone
           locals[i].v   = free_part(v, node);
           locals[i].rho = rho_of(list[i], scale);
         }
-    move_bodies(locals, residual.get_mpi_communicator());
+    const MPI_Comm comm = residual.get_mpi_communicator();
+    obstacles.find([&]() { return sums_of_nodes(locals, comm); });
+    body_error =
+      obstacles.error() / dealii::Utilities::MPI::n_mpi_processes(comm);
     for (unsigned int i = 0; i < list.size(); ++i)
       {
         ContactNode &node = list[i];
         node.velocity     = node.touches_body()
                               ? velocity_of_partners(node, v)
-                              : motion[node.obstacle].at(node.arm);
+                              : obstacles.velocities()[node.obstacle].at(node.arm);
         if (!is_owned(node))
           continue;
         const unsigned int direction = free_direction(node.node);
@@ -541,7 +415,7 @@ namespace geocone
   {
     LowRank update;
     update.U = update.W =
-      Eigen::MatrixXd::Zero(matrix.n_owned, relaxed ? 0 : n_free);
+      Eigen::MatrixXd::Zero(matrix.n_owned, relaxed ? 0 : obstacles.n_free());
     if (update.rank() == 0)
       return update;
     // Rows of the matrix are sums over ranks, each of which has those of its cells.
@@ -549,12 +423,12 @@ namespace geocone
     for (unsigned int dof = 0; dof < unknowns.free_row.size(); ++dof)
       if (unknowns.free_row[dof] >= 0)
         dof_of[unknowns.free_row[dof]] = dof;
-    std::vector<Vector> sums(n_free); // of G' Q (K - rho)
+    std::vector<Vector> sums(obstacles.n_free()); // of G' Q (K - rho)
     for (Vector &sum : sums)
       sum.reinit(row_A[0]);
     for (unsigned int i = 0; i < list.size(); ++i)
       if (!list[i].touches_body())
-        for_free_motions(
+        obstacles.for_free(
           list[i].obstacle,
           [&](const unsigned int k, const unsigned int number) {
             const unsigned int node = list[i].node;
@@ -580,16 +454,18 @@ namespace geocone
           });
     for (Vector &sum : sums)
       sum.compress(dealii::VectorOperation::add);
-    for (unsigned int o = 0; o < bodies.size(); ++o)
-      for_free_motions(o, [&](const unsigned int k, const unsigned int number) {
-        for_free_motions(
-          o, [&](const unsigned int l, const unsigned int other) {
-            for (unsigned int i = 0; i < sums[other].locally_owned_size(); ++i)
-              if (const int row = unknowns.free_row[i]; row >= 0)
-                update.W(row, number) +=
-                  mobility[o](k, l) * sums[other].local_element(i);
-          });
-      });
+    for (unsigned int o = 0; o < obstacles.n_obstacles(); ++o)
+      obstacles.for_free(
+        o, [&](const unsigned int k, const unsigned int number) {
+          obstacles.for_free(
+            o, [&](const unsigned int l, const unsigned int other) {
+              for (unsigned int i = 0; i < sums[other].locally_owned_size();
+                   ++i)
+                if (const int row = unknowns.free_row[i]; row >= 0)
+                  update.W(row, number) +=
+                    obstacles.mobility(o)(k, l) * sums[other].local_element(i);
+            });
+        });
     return update;
   }
 
@@ -598,10 +474,10 @@ namespace geocone
   {
     load_partners(dst);
     // How free obstacles give way.
-    std::vector<RigidMotion> change(bodies.size());
-    if (n_free > 0 && !relaxed)
+    std::vector<RigidMotion> change(obstacles.n_obstacles());
+    if (obstacles.n_free() > 0 && !relaxed)
       {
-        std::vector<double> sums(n_motions * bodies.size(), 0.);
+        std::vector<double> sums(n_motions * obstacles.n_obstacles(), 0.);
         for (unsigned int i = 0; i < list.size(); ++i)
           if (const ContactNode &node = list[i];
               is_owned(node) && !node.touches_body())
@@ -614,10 +490,11 @@ namespace geocone
                   RigidMotion::of_point(k, node.arm) * p;
             }
         sum_over_ranks(sums, dst.get_mpi_communicator());
-        for (unsigned int o = 0; o < bodies.size(); ++o)
+        for (unsigned int o = 0; o < obstacles.n_obstacles(); ++o)
           for (unsigned int k = 0; k < n_motions; ++k)
             for (unsigned int l = 0; l < n_motions; ++l)
-              change[o][k] -= mobility[o](k, l) * sums[n_motions * o + l];
+              change[o][k] -=
+                obstacles.mobility(o)(k, l) * sums[n_motions * o + l];
       }
     for (unsigned int i = 0; i < list.size(); ++i)
       {

@@ -450,7 +450,7 @@ namespace geocone
     const unsigned int n_obstacles = displacement.size(),
                        n_pairs     = scene.contacts.list.size();
     for (unsigned int o = 0; o < n_obstacles; ++o)
-      supports[first + o] += h * contact.motions()[o].centre;
+      supports[first + o] += h * contact.motions().velocities()[o].centre;
     if (n_pairs == 0)
       return;
     std::vector<double> sums((dim + 1) * n_pairs, 0.);
@@ -483,7 +483,7 @@ namespace geocone
     for (unsigned int o = 0; o < displacement.size(); ++o)
       for (unsigned int k = 0; k < RigidMotion::n_components; ++k)
         {
-          const double solved = contact.motions()[o][k];
+          const double solved = contact.motions().velocities()[o][k];
           if (moves)
             displacement[o][k] += h * solved;
           velocity[o][k] =

@@ -169,7 +169,7 @@ namespace geocone
     // Of all ranks, by component: where it is, the stiffness in the Jacobian, the laws
     // and how free obstacles move it.
     constexpr unsigned int n_data = 6;
-    const unsigned int     n_free = contact.n_free_motions();
+    const unsigned int     n_free = contact.motions().n_free();
     MatrixXd               data = MatrixXd::Zero(n_components, n_data + n_free);
     for (const Component &component : own)
       {
@@ -205,7 +205,7 @@ namespace geocone
     const VectorXd c = -stiffness * without, u0 = data.col(0);
     const MatrixXd G = data.rightCols(n_free), KG = K * G;
     VectorXd       inertia, lack;
-    contact.balance_of_motions(inertia, lack);
+    contact.motions().balance(inertia, lack);
     MatrixXd Z = G.transpose() * KG;
     Z.diagonal() += inertia;
     const Eigen::PartialPivLU<MatrixXd> factors(

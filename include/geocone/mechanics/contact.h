@@ -7,8 +7,8 @@
 #include <geocone/base/sparse_matrix.h>
 #include <geocone/mechanics/jacobian_pattern.h>
 #include <geocone/mechanics/low_rank.h>
+#include <geocone/mechanics/obstacle_motions.h>
 #include <geocone/mechanics/unknowns.h>
-#include <geocone/scene/rigid_motion.h>
 
 #include <Eigen/Dense>
 
@@ -60,23 +60,6 @@ namespace geocone
   {
     ContactNode node;
     double      gap;
-  };
-
-  /** How an obstacle moves in a step. */
-  struct ObstacleBody
-  {
-    /** Its velocity y_0 at the end where nothing touches it. */
-    RigidMotion without_contact;
-
-    std::array<bool, RigidMotion::n_components> is_free = {};
-
-    RigidMotion inertia; ///< M/h of what is free
-
-    unsigned int
-    n_free() const
-    {
-      return is_free[0] + is_free[1] + is_free[2];
-    }
   };
 
   /** What may touch in a step. */
@@ -209,21 +192,13 @@ namespace geocone
       return dim * node.node < row_A[0].locally_owned_size();
     }
 
-    unsigned int
-    n_free_motions() const
-    {
-      return n_free;
-    }
-
-    /** M/h of the free motions, and what the equilibrium of each lacks at the last
-     *  replace() without the forces of nodes: M/h (y - y_0). */
-    void
-    balance_of_motions(Eigen::VectorXd &inertia, Eigen::VectorXd &lack) const;
-
     /** Changes the velocities of free obstacles from which the next replace() begins to
      *  look for them. */
     void
-    change_motions(const Eigen::VectorXd &change);
+    change_motions(const Eigen::VectorXd &change)
+    {
+      obstacles.change(change);
+    }
 
     /** Calls f(number, G) for each free motion of a node's obstacle, of which the node
      *  has the velocity G. */
@@ -232,10 +207,10 @@ namespace geocone
     for_motions_of(const ContactNode &node, const Function &f) const
     {
       if (!node.touches_body())
-        for_free_motions(node.obstacle,
-                         [&](const unsigned int k, const unsigned int number) {
-                           f(number, RigidMotion::of_point(k, node.arm));
-                         });
+        obstacles.for_free(
+          node.obstacle, [&](const unsigned int k, const unsigned int number) {
+            f(number, RigidMotion::of_point(k, node.arm));
+          });
     }
     /** @} */
 
@@ -256,11 +231,11 @@ namespace geocone
     bool
     has_friction(const MPI_Comm comm) const;
 
-    /** The velocities of the obstacles at the last replace(). */
-    const std::vector<RigidMotion> &
+    /** The velocities of the obstacles, at the last replace(). */
+    const ObstacleMotions &
     motions() const
     {
-      return motion;
+      return obstacles;
     }
 
     /** The free direction of a node: 0 or 1 where a support holds the other one, 2
@@ -322,21 +297,6 @@ namespace geocone
     std::vector<double>
     sums_of_nodes(const std::vector<Local> &locals, const MPI_Comm comm) const;
 
-    /** Finds the motions of the free obstacles. Collective. */
-    void
-    move_bodies(const std::vector<Local> &locals, const MPI_Comm comm);
-
-    /** Calls f(motion, number) for each free motion of a node's obstacle. */
-    template <typename Function>
-    void
-    for_free_motions(const unsigned int obstacle, const Function &f) const
-    {
-      unsigned int number = first_free[obstacle];
-      for (unsigned int k = 0; k < RigidMotion::n_components; ++k)
-        if (bodies[obstacle].is_free[k])
-          f(k, number++);
-    }
-
     /** What free obstacles add to the Jacobian. @param matrix before linearise() */
     LowRank
     low_rank(const SparseMatrix &matrix) const;
@@ -346,16 +306,12 @@ namespace geocone
     std::vector<Touch>       touch;
     std::vector<Matrix>      rho_Q; ///< of owned ones
     std::array<Vector, dim>
-      row_A; ///< 1 - Q by component of F, at the node's dofs
-    std::vector<ObstacleBody>    bodies;
-    std::vector<RigidMotion>     motion;
-    std::vector<Eigen::Matrix3d> mobility; ///< E^-1, zero for what is driven
-    std::vector<unsigned int> first_free; ///< number of an obstacle's first one
-    unsigned int              n_free     = 0;     ///< motions of all obstacles
-    bool                      has_pairs  = false; ///< of bodies, on any rank
-    double                    body_error = 0.;   ///< of their equilibrium (N/m)
-    bool                      rubs       = true; ///< in the last replace()
-    bool                      relaxed    = false; ///< since the last replace()
+                    row_A; ///< 1 - Q by component of F, at the node's dofs
+    ObstacleMotions obstacles;
+    bool            has_pairs  = false; ///< of bodies, on any rank
+    double          body_error = 0.;    ///< of their equilibrium (N/m)
+    bool            rubs       = true;  ///< in the last replace()
+    bool            relaxed    = false; ///< since the last replace()
   };
 } // namespace geocone
 
