@@ -154,12 +154,12 @@ namespace geocone
   BackgroundMesh::prepare(const Scene &scene, const Method &method)
   {
     parameters.prepare(scene.geometry, method);
-    CoarseMesh mesh =
-      fitted_mesh(parameters, scene, comm, sizes ? &*sizes : nullptr);
+    CoarseMesh mesh = fitted_mesh(
+      parameters, scene, comm, sizes ? &*sizes : nullptr, !method.is_mpm());
     if (method.is_mpm())
       {
         scene.contacts.check_all_pairs();
-        layers = scene.contacts.n_bodies;
+        layers = scene.contacts.n_bodies();
         mesh.repeat(layers);
       }
     else if (!scene.contacts.list.empty())

@@ -48,10 +48,14 @@ namespace geocone
   fitted_mesh(const MeshParameters &parameters,
               const Scene          &scene,
               const MPI_Comm        comm,
-              const CellSizes      *sizes)
+              const CellSizes      *sizes,
+              const bool            parts_bodies)
   {
     if (scene.geometry.shape == Geometry::Shape::file)
-      return mesh_of_file(scene.geometry, scene.regions, scene.contacts, comm);
+      return mesh_of_file(scene.geometry,
+                          scene.regions,
+                          parts_bodies ? &scene.contacts : nullptr,
+                          comm);
     const dealii::BoundingBox<dim> domain(parameters.outline);
     CoarseMesh                     mesh;
     if (!parameters.is_unstructured())

@@ -264,7 +264,7 @@ namespace geocone
   CoarseMesh
   mesh_of_file(const Geometry &geometry,
                const Regions  &regions,
-               const Contacts &contacts,
+               const Contacts *contacts,
                const MPI_Comm  comm)
   {
     const std::string what =
@@ -274,7 +274,7 @@ namespace geocone
       from_first_rank(comm, [&]() { return data_of_file(geometry, what); }),
       what,
       regions,
-      &contacts);
+      contacts);
   }
 
   namespace

@@ -405,12 +405,17 @@ namespace geocone
               auto place = cells.find(seed.position);
               if (!place)
                 throw outside_mesh(seed.position);
+              if (mesh.n_layers() > 1)
+                {
+                  describe(seed, scene, given, Detail::material);
+                  place->cell = mesh.twin(
+                    place->cell, scene.contacts.body_of(seed.material));
+                }
+              if (cells.owner(place->cell) != rank)
+                continue;
               seed.cell = BackgroundMesh::size_of(place->cell);
               describe(seed, scene, given, detail);
-              place->cell =
-                mesh.twin(place->cell, scene.contacts.body_of(seed.material));
-              if (cells.owner(place->cell) == rank)
-                take(seed);
+              take(seed);
             }
         });
         return;
@@ -450,9 +455,15 @@ namespace geocone
               seed.position = values.quadrature_point(q);
               seed.volume   = values.JxW(q);
               seed.cell     = BackgroundMesh::size_of(cell);
+              if (mesh.n_layers() > 1)
+                {
+                  describe(seed, scene, Given(), Detail::material);
+                  if (scene.contacts.body_of(seed.material) !=
+                      mesh.layer_of(cell))
+                    continue;
+                }
               describe(seed, scene, Given(), detail);
-              if (scene.contacts.body_of(seed.material) == mesh.layer_of(cell))
-                take(seed);
+              take(seed);
             }
       }
   }

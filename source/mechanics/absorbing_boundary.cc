@@ -53,6 +53,9 @@ namespace geocone
                 ? scene.regions.material_at(
                     point.position - 1e-6 * cell->diameter() * point.normal, 0)
                 : cell->material_id();
+            if (of_particles &&
+                scene.contacts.body_of(material) != mesh.layer_of(cell))
+              return; // of another body
             const Material   &law = scene.materials[material];
             const Elasticity &e   = law.elasticity();
             const double      rho = law.density(),

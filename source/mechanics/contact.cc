@@ -22,8 +22,8 @@ namespace geocone
     /** A support's free direction counts as the normal up to here (10 degrees). */
     const double along = std::cos(radians(10.));
 
-    /** Where the other body is held alike, any direction does that is not this near to
-     *  a right angle. */
+    /** Of twins, which are held alike, any direction does that is not this near to a right
+     *  angle. */
     constexpr double hardly = 0.1;
 
   } // namespace
@@ -128,18 +128,6 @@ namespace geocone
     return 1. / compliance;
   }
 
-  bool
-  Contact::is_held_alike(const ContactNode &node) const
-  {
-    return node.touches_body() &&
-           std::all_of(node.partners.begin(),
-                       node.partners.end(),
-                       [&](const ContactNode::Partner &other) {
-                         return free_direction(other.node) ==
-                                free_direction(node.node);
-                       });
-  }
-
   void
   Contact::begin_step(ContactStep step)
   {
@@ -149,12 +137,11 @@ namespace geocone
     for (ContactNode &node : step.nodes)
       {
         const unsigned int direction = free_direction(node.node);
-        const bool         is_alike  = is_held_alike(node);
         if (direction == 3 ||
-            (direction < 2 &&
-             std::abs(node.normal[direction]) < (is_alike ? hardly : along)))
+            (direction < 2 && std::abs(node.normal[direction]) <
+                                (node.is_twin ? hardly : along)))
           {
-            if (node.touches_body() && !is_alike)
+            if (node.touches_body() && !node.is_twin)
               throw StepFailure(
                 "a node of a 'Body' of the section 'Contacts' is held by a "
                 "boundary condition against the other body\n"
@@ -165,7 +152,7 @@ namespace geocone
         if (direction < 2)
           {
             const double sign = node.normal[direction] > 0. ? 1. : -1.;
-            if (is_alike) // u.n is what is free of it
+            if (node.is_twin) // u.n is what is free of it
               node.least /= std::abs(node.normal[direction]);
             node.normal            = Tensor<1, dim>();
             node.normal[direction] = sign;

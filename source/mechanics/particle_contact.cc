@@ -25,14 +25,34 @@ namespace geocone
   {
     /** Functions that are smaller at a particle do not count as moved by it. */
     constexpr double least_share = 1e-12;
+
+    /** A gap that counts as none, over the size of a cell. */
+    constexpr double closed = 1e-9;
+
+    /** Squares side by side are farther apart than this part of the sum of both halves,
+     *  Gauss points, too. */
+    constexpr double beside = 0.4;
+
+    /** Where a particle is for those that it touches: what stays in the mesh of soil
+     *  that moves has been displaced. */
+    Point<dim>
+    place_of(const Scene          &scene,
+             const MaterialPoints &points,
+             const unsigned int    p)
+    {
+      return scene.regions.are_fixed(points.material[p])
+               ? points.position[p] + points.displacement[p]
+               : points.position[p];
+    }
   } // namespace
 
   std::vector<Vector>
   gaps_of_particles(const MaterialPoints           &points,
-                    const Obstacles                &obstacles,
+                    const Scene                    &scene,
                     const std::vector<RigidMotion> &moved,
                     const Space                    &space)
   {
+    const auto         &obstacles = scene.obstacles;
     std::vector<Vector> all(obstacles.list.size());
     for (unsigned int o = 0; o < all.size(); ++o)
       {
@@ -46,7 +66,7 @@ namespace geocone
                          const double half = length_of(points.weight[p]) / 2.;
                          const double gap =
                            obstacles.list[o]
-                             ->nearest(points.position[p], moved[o], {})
+                             ->nearest(place_of(scene, points, p), moved[o], {})
                              .distance -
                            half;
                          for (unsigned int i = 0; i < at.n; ++i)
@@ -239,10 +259,54 @@ namespace geocone
     return gap;
   }
 
+  void
+  ParticleBodies::check_start(const MaterialPoints &points,
+                              const Unknowns       &unknowns) const
+  {
+    for (const Pair &pair : pairs)
+      {
+        std::map<unsigned int, std::array<std::vector<Share>, 2>> of_place;
+        for (const Share &share : shares_of(pair, points, unknowns))
+          of_place[share.place][share.is_first].push_back(share);
+        std::string where;
+        for (const auto &[place, sides] : of_place)
+          for (const Share &a : sides[0])
+            for (const Share &b : sides[1])
+              if (a.x.distance(b.x) < beside * (a.half + b.half))
+                where = text_of_place(a.x);
+        where =
+          text_of_any_rank(space.partitioner()->get_mpi_communicator(), where);
+        if (!where.empty())
+          throw InputError("Contacts/Names",
+                           scene.contacts.list[pair.contact]->name,
+                           "bodies that do not overlap at the start",
+                           "particles of both are at (" + where +
+                             "): move one of the bodies");
+      }
+  }
+
+  void
+  ParticleBodies::check_fixed(const MaterialPoints &points) const
+  {
+    std::string far;
+    for (unsigned int p = 0; p < points.n_points(); ++p)
+      if (scene.regions.are_fixed(points.material[p]) &&
+          points.displacement[p].norm() > size / 2.)
+        far = scene.materials.name(points.material[p]);
+    far = text_of_any_rank(space.partitioner()->get_mpi_communicator(), far);
+    if (!far.empty())
+      throw StepFailure("'" + far +
+                        "' has moved by half a cell, and its points stay: what "
+                        "touches it would lose it\n  remedy:  let its points "
+                        "move (leave out 'Materials/" +
+                        far + "/Points'), or take larger cells");
+  }
+
   std::vector<FacingNode>
   ParticleBodies::find(const MaterialPoints &points,
                        const Unknowns       &unknowns) const
   {
+    check_fixed(points);
     Vector outward(space.partitioner()); // a
     for_each_point(points,
                    [&](const unsigned int p,
@@ -292,6 +356,7 @@ namespace geocone
             facing.node.obstacle = scene.obstacles.list.size() + pair.contact;
             facing.node.normal   = n;
             facing.node.partners = {{other, 1.}};
+            facing.node.is_twin  = true;
             facing.node.length   = std::max(
               0., std::min(-(outward_at(node) * n), outward_at(other) * n));
             facing.node.friction    = law.friction;
@@ -304,7 +369,7 @@ namespace geocone
                 continue;
               }
             FacingNode &before = found[at->second];
-            if (std::max(before.gap, facing.gap) <= 1e-9 * size)
+            if (std::max(before.gap, facing.gap) <= closed * size)
               thrice =
                 format("three bodies touch at (%s)",
                        text_of_place(space.node_positions()[node]).c_str());

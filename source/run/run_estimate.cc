@@ -124,7 +124,7 @@ namespace geocone
                                                           : 7.);
     if (seeding != nullptr) // each body of particles has a layer of the mesh
       for (double *number : {&e.cells, &e.unknowns, &nodes})
-        *number *= scene.contacts.n_bodies;
+        *number *= scene.contacts.n_bodies();
     double outputs = seeding != nullptr ? 1. : 0.;
     for (const auto &stage : scene.loading.stages)
       {

@@ -16,13 +16,15 @@ namespace geocone
     add_parameter("Body",
                   first,
                   "Materials, comma-separated, that are the first body: the "
-                  "laws of contact hold at its nodes. Take the one with the "
-                  "finer cells, or else the softer or the smaller one.");
+                  "laws of contact hold at its nodes. With FEM take the one "
+                  "with the finer cells, or else the softer or the smaller "
+                  "one; with MPM either.");
     add_parameter(
       "Other body",
       other,
       "Materials, comma-separated, of the body that it touches. "
-      "Their common edges part the mesh, which need not fit there.");
+      "With FEM their common edges part the mesh, which need not fit there; "
+      "with MPM each body has a mesh of its own in the same place.");
     law.declare(*this);
   }
 
@@ -83,7 +85,7 @@ namespace geocone
       pair->prepare(materials);
     if (list.empty())
       return;
-    std::map<std::vector<bool>, unsigned int> number;
+    std::map<std::vector<bool>, unsigned int> numbers;
     for (unsigned int m = 0; m < materials.size(); ++m)
       {
         std::vector<bool> is_in;
@@ -92,9 +94,9 @@ namespace geocone
             is_in.push_back(pair->is_first[m]);
             is_in.push_back(pair->is_other[m]);
           }
-        body.push_back(number.emplace(is_in, number.size()).first->second);
+        body.push_back(numbers.emplace(is_in, numbers.size()).first->second);
       }
-    n_bodies = number.size();
+    number = numbers.size();
   }
 
   void

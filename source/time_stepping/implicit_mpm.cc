@@ -103,7 +103,7 @@ namespace geocone
   }
 
   void
-  ImplicitMPM::check_obstacles(const MaterialPoints &points) const
+  ImplicitMPM::check_contact(const MaterialPoints &points) const
   {
     if (!obstacles->exists())
       return;
@@ -112,14 +112,15 @@ namespace geocone
         throw InputError(
           condition->parameter("Imposed on"),
           condition->imposition.word(),
-          "nodes where there are obstacles",
+          "nodes where there are obstacles or contacts",
           "press by an obstacle that moves, or by the nodes of a "
           "side");
     if (integration == Integration::midpoint)
       throw InputError("Material point method/Integration",
                        integration.word(),
-                       "backward Euler where there are obstacles",
-                       "the midpoint rule would let the body enter them");
+                       "backward Euler where there are obstacles or contacts",
+                       "the midpoint rule would let bodies enter what they "
+                       "touch");
     for (const auto &obstacle : scene->obstacles.list)
       if (obstacle->law.adhesion > 0.)
         throw InputError(obstacle->parameter("Adhesion"),
@@ -128,6 +129,53 @@ namespace geocone
                          "the surface of particles has no area; take FEM");
     check_particles_outside(
       points, scene->obstacles, mesh->triangulation().get_communicator());
+    if (bodies)
+      check_bodies();
+  }
+
+  void
+  ImplicitMPM::check_bodies() const
+  {
+    scene->tractions.refuse("bodies of particles that touch ('Contacts')",
+                            "press by an obstacle that moves, or by weight");
+    for (const auto &pair : scene->contacts.list)
+      if (pair->law.adhesion > 0.)
+        throw InputError("Contacts/" + pair->name + "/Adhesion",
+                         pair->law.adhesion,
+                         "0 with MPM",
+                         "the surface of particles has no exact area; take "
+                         "FEM");
+    const Materials &materials = scene->materials;
+    bool             is_fixed  = false;
+    for (unsigned int m = 0; m < materials.size(); ++m)
+      is_fixed = is_fixed || scene->regions.are_fixed(m);
+    if (is_fixed && advection == Advection::none)
+      throw InputError("Material point method/Advection",
+                       advection.word(),
+                       "grid velocity | particle velocity where some points "
+                       "are fixed and touch others that are not",
+                       "leave out 'Points = fixed': all of them stay");
+    for (const auto &stage : scene->loading.stages)
+      {
+        const std::string section = "Loading/" + stage->name + "/";
+        if (stage->reset_displacement && is_fixed)
+          throw InputError(section + "Reset displacement",
+                           "true",
+                           "false where points stay ('Points = fixed') and "
+                           "touch others: these find them by their "
+                           "displacement",
+                           "leave it out, or let the points move");
+        for (const auto &[from, to] : stage->changed_materials)
+          for (unsigned int a = 0; a < materials.size(); ++a)
+            for (unsigned int b = 0; b < materials.size(); ++b)
+              if (materials.name(a) == from && materials.name(b) == to &&
+                  scene->contacts.body_of(a) != scene->contacts.body_of(b))
+                throw InputError(section + "Changed materials",
+                                 from + ": " + to,
+                                 "materials of one body",
+                                 "name '" + to + "' beside '" + from +
+                                   "' in the contacts");
+      }
   }
 
   std::string
@@ -172,7 +220,7 @@ namespace geocone
     obstacles = std::make_unique<ObstacleContact>(*scene, *mesh, *space, false);
     if (!scene->contacts.list.empty())
       bodies.emplace(*scene, *mesh, *space);
-    check_obstacles(points);
+    check_contact(points);
     system = std::make_unique<LinearSystem>(
       newton.linear_solver(),
       mesh->triangulation().get_communicator(),
@@ -187,6 +235,8 @@ namespace geocone
         points.affine[p] = scene->initial_velocity.gradient(
           points.position[p], length_of(points.weight[p]));
     begin(points, timer);
+    if (bodies)
+      bodies->check_start(points, *constraints);
     constraints->check_axis(*mesh, *space);
     newton.check(*problem);
     moving->check_held_particles(points);
@@ -261,8 +311,10 @@ namespace geocone
     }
     if (absorbing->exists())
       problem->add(*absorbing);
-    system->set_pattern(*problem, timer);
-    begun = true;
+    if (!bodies) // else it is not known yet what touches
+      system->set_pattern(*problem, timer);
+    has_pattern = !bodies;
+    begun       = true;
   }
 
   void
@@ -277,7 +329,7 @@ namespace geocone
     if (obstacles->exists() || absorbing->exists())
       throw InputError(FollowingGrid::parameter,
                        grid_follows,
-                       "nothing with obstacles or absorbing sides",
+                       "nothing with obstacles, contacts or absorbing sides",
                        "leave it out");
     following.emplace(grid_follows, *scene, *moving, *mesh, *space);
   }
@@ -480,13 +532,14 @@ namespace geocone
         step.t,
         step.h,
         step.solved_h,
-        gaps_of_particles(points, scene->obstacles, obstacles->moved(), *space),
+        gaps_of_particles(points, *scene, obstacles->moved(), *space),
         bodies ? bodies->find(points, *constraints)
                : std::vector<FacingNode>());
     problem->begin_step(
       step.solved_h, &force, velocity_L, prescribed, std::move(touching));
-    if (problem->needs_pattern())
+    if (!has_pattern || problem->needs_pattern())
       system->set_pattern(*problem, timer);
+    has_pattern = true;
     return raised;
   }
 

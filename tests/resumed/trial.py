@@ -70,6 +70,7 @@ METHODS = {
     "slide": ("contact/incline-MPM-01.prm", {"Loading/slide/Output every": "20"}),
     # A body that slides over another one.
     "bodies": ("contact/incline_bodies-01.prm", {"Loading/slide/Output every": "20"}),
+    "bodies_mpm": ("contact/blocks-MPM-01.prm", {"Loading/slide/Output every": "12"}),
     # A bar that hits a wall, by the midpoint rule.
     "impact": ("contact/bar_impact-01.prm", {"Loading/fly/Output every": "20"}),
     # One point of a law with history.

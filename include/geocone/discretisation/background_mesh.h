@@ -156,6 +156,7 @@ namespace geocone
       return layers;
     }
 
+    /** The layer of a cell, counted from 0. */
     unsigned int
     layer_of(const Cell &cell) const
     {

@@ -18,13 +18,16 @@ namespace geocone
    * boundary. Collective.
    * @param parameters prepared for the scene and the method
    * @param sizes instead of those of the parameters; then gmsh makes the mesh
+   * @param parts_bodies whether it may be parted where bodies touch, as it is not for
+   * particles
    * @throws InputError
    */
   CoarseMesh
   fitted_mesh(const MeshParameters &parameters,
               const Scene          &scene,
               const MPI_Comm        comm,
-              const CellSizes      *sizes = nullptr);
+              const CellSizes      *sizes        = nullptr,
+              const bool            parts_bodies = true);
 
   /**
    * The numbers of the sides of a condition.

@@ -52,12 +52,13 @@ namespace geocone
   /**
    * The mesh of a .msh file (see msh_file.h), or of a geo script if the geometry
    * says that it may be run. Collective: the first rank reads or runs it.
+   * @param contacts along which bodies may have nodes of their own, or null
    * @throws InputError if it is neither, or no mesh of ours
    */
   CoarseMesh
   mesh_of_file(const Geometry &geometry,
                const Regions  &regions,
-               const Contacts &contacts,
+               const Contacts *contacts,
                const MPI_Comm  comm);
 } // namespace geocone
 

@@ -37,6 +37,10 @@ namespace geocone
     };
     std::vector<Partner> partners; ///< of an obstacle none
 
+    /** Whether the other body's node is in the same place of another layer of the mesh:
+     *  what holds one of both holds the other one alike. */
+    bool is_twin = false;
+
     double length = 0.; ///< of the boundary that the node stands for (m), or 0
 
     /** Least relative normal velocity: -g/h for a gap g, or -e u_N of the beginning
@@ -103,8 +107,7 @@ namespace geocone
    * the dual functions of BodyContact, are condensed out.
    *
    * A node that a support holds in one direction is in contact only in the other
-   * one, without friction: where the normal is along it, or the other body is held
-   * alike.
+   * one, without friction: where the normal is along it, or the nodes are twins.
    */
   class Contact
   {
@@ -258,11 +261,6 @@ namespace geocone
      *  scale() at a node; a light body gives way, whichever of both it is. */
     double
     rho_of(const ContactNode &node, const Vector &scale) const;
-
-    /** Whether supports hold the nodes of the other body, if it is one, in the same
-     *  directions as the node: its velocity against them is zero there. */
-    bool
-    is_held_alike(const ContactNode &node) const;
 
     /** v at the free dofs of a node. */
     Force

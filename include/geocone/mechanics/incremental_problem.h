@@ -52,7 +52,7 @@ namespace geocone
      * @param consistent_part c of Inertia, not zero only for points with N and
      * mass
      * @param ghosts stencils of GhostStiffness
-     * @param has_contact whether there are obstacles, the same on all ranks
+     * @param has_contact whether something may touch, the same on all ranks
      */
     IncrementalProblem(
       const MaterialPoints &points,
@@ -220,7 +220,7 @@ namespace geocone
       return contact_term.has_value();
     }
 
-    /** Whether there are obstacles that rub. Collective. */
+    /** Whether what may touch rubs. Collective. */
     bool
     has_contact_friction() const
     {
@@ -228,7 +228,7 @@ namespace geocone
              contact_term->has_friction(layout->get_mpi_communicator());
     }
 
-    /** What touches, where there are obstacles. */
+    /** What touches, where something may. */
     const Contact &
     contact() const
     {

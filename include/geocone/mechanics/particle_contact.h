@@ -22,7 +22,7 @@ namespace geocone
    */
   std::vector<Vector>
   gaps_of_particles(const MaterialPoints           &points,
-                    const Obstacles                &obstacles,
+                    const Scene                    &scene,
                     const std::vector<RigidMotion> &moved,
                     const Space                    &space);
 
@@ -55,10 +55,16 @@ namespace geocone
      * The nodes of first bodies that may touch the other ones, of this rank and its
      * ghosts: in each place those of the pair that is nearest.
      * @param unknowns which nodes have mass
-     * @throws StepFailure if three bodies touch in one place. Collective.
+     * @throws StepFailure if three bodies touch in one place, or if a body whose points
+     * stay in the mesh has moved too far for it. Collective.
      */
     std::vector<FacingNode>
     find(const MaterialPoints &points, const Unknowns &unknowns) const;
+
+    /** @throws InputError if particles of two bodies are in the same place at the
+     *  start. Collective. */
+    void
+    check_start(const MaterialPoints &points, const Unknowns &unknowns) const;
 
   private:
     /** Two bodies, by the contact between them. */
@@ -83,7 +89,8 @@ namespace geocone
               const MaterialPoints &points,
               const Unknowns       &unknowns) const;
 
-    /** The normals by place; zero where no plane parts the bodies. Collective. */
+    /** The normals by place; zero where no plane parts the bodies. Each rank gets the
+     *  corners of all hulls, of which there are few. Collective. */
     std::vector<dealii::Tensor<1, dim>>
     normals(const Pair &pair, const std::vector<Share> &shares) const;
 
@@ -92,6 +99,10 @@ namespace geocone
     gaps(const Pair                                &pair,
          const std::vector<Share>                  &shares,
          const std::vector<dealii::Tensor<1, dim>> &normal) const;
+
+    /** @throws StepFailure if points that stay have moved by half a cell. Collective. */
+    void
+    check_fixed(const MaterialPoints &points) const;
 
     const Scene &scene;
     const Space &space;

@@ -72,8 +72,12 @@ namespace geocone
       return list.empty() ? 0 : body[material];
     }
 
-    /** How many bodies there are, 1 without contacts. */
-    unsigned int n_bodies = 1;
+    /** 1 without contacts. */
+    unsigned int
+    n_bodies() const
+    {
+      return number;
+    }
 
     /** For bodies that could pass through each other where they have no contact.
      *  @throws InputError if two of them have none */
@@ -85,7 +89,8 @@ namespace geocone
   private:
     std::vector<std::string>  names;
     std::vector<std::string>  materials;
-    std::vector<unsigned int> body; ///< by material
+    std::vector<unsigned int> body;       ///< by material
+    unsigned int              number = 1; ///< of bodies
   };
 } // namespace geocone
 

@@ -167,9 +167,13 @@ namespace geocone
     void
     follow_side();
 
-    /** Refuses what obstacles cannot do with particles. @throws InputError */
+    /** Refuses what contact cannot do with particles. @throws InputError */
     void
-    check_obstacles(const MaterialPoints &points) const;
+    check_contact(const MaterialPoints &points) const;
+
+    /** Refuses what bodies that touch cannot do. @throws InputError */
+    void
+    check_bodies() const;
 
     /** Why a step must not be taken, though it is solved; or nothing. */
     std::string
@@ -336,7 +340,8 @@ namespace geocone
     std::optional<GhostPlaces>          ghost_places; ///< of splines that move
     std::unique_ptr<IncrementalProblem> problem;
     std::unique_ptr<LinearSystem>       system;
-    bool                                begun = false;
+    bool                                begun       = false;
+    bool                                has_pattern = false; ///< of begin()
     Vector                              lumped_mass;
     Vector                              velocity_L;
     Vector                              force;
