@@ -66,8 +66,7 @@ namespace geocone
     add_parameter("Gmsh algorithm",
                   algorithm,
                   "gmsh's number of the 2D algorithm: 5 Delaunay, 6 "
-                  "frontal-Delaunay, 1 MeshAdapt, 8 frontal for "
-                  "quadrilaterals.");
+                  "frontal-Delaunay, 1 MeshAdapt.");
   }
 
   void
@@ -148,6 +147,14 @@ namespace geocone
     positive("Smallest size", smallest);
     positive("Largest size", largest);
     positive("Size ratio", size_ratio);
+    if (algorithm == 8) // gmsh 4.8 crashes, whatever the domain
+      throw InputError("Mesh/Gmsh algorithm",
+                       algorithm,
+                       "1 to 7, 9, 11: gmsh's frontal algorithm for "
+                       "quadrilaterals ends with a segmentation fault where "
+                       "sizes are given by a field",
+                       "take 5 or 6; 'Mesh/Cells = quadrilaterals' recombines "
+                       "their triangles");
     if (largest < smallest)
       throw InputError("Mesh/Largest size",
                        largest,
