@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace geocone
@@ -22,8 +23,8 @@ namespace geocone
     /** A support's free direction counts as the normal up to here (10 degrees). */
     const double along = std::cos(radians(10.));
 
-    /** Of twins, which are held alike, any direction does that is not this near to a right
-     *  angle. */
+    /** A sine or cosine that is hardly one. Of twins, which are held alike, any direction
+     *  does that is not this near to a right angle. */
     constexpr double hardly = 0.1;
 
   } // namespace
@@ -63,13 +64,13 @@ namespace geocone
       return;
     residual.zero_out_ghost_values();
     for (const ContactNode &node : list)
-      if (is_owned(node))
-        for (unsigned int d = 0; d < dim; ++d)
-          if (const unsigned int dof = dim * node.node + d;
-              unknowns.is_free(dof))
-            for (const ContactNode::Partner &other : node.partners)
-              residual.local_element(dim * other.node + d) +=
-                other.part * residual.local_element(dof);
+      if (is_owned(node) && node.touches_body())
+        {
+          const Force r = node.share * free_part(residual, node.node);
+          for (const ContactNode::Partner &other : node.partners)
+            for (unsigned int d = 0; d < dim; ++d)
+              residual.local_element(dim * other.node + d) += other.part * r[d];
+        }
     residual.compress(dealii::VectorOperation::add);
   }
 
@@ -79,21 +80,24 @@ namespace geocone
     for (const ContactNode &node : list)
       for (const ContactNode::Partner &other : node.partners)
         for (unsigned int d = 0; d < dim; ++d)
-          {
-            const int from = unknowns.free_row[dim * node.node + d],
-                      to   = unknowns.free_row[dim * other.node + d];
-            if (from < 0 || to < 0)
-              continue;
-            // Both have sorted columns, those of the first are among the second's.
-            int k = matrix.row_start[to];
-            for (int j = matrix.row_start[from]; j < matrix.row_start[from + 1];
-                 ++j)
-              {
-                while (matrix.column[k] < matrix.column[j])
-                  ++k;
-                matrix.value[k] += other.part * matrix.value[j];
-              }
-          }
+          for (unsigned int e = 0; e < dim; ++e)
+            {
+              const int from    = unknowns.free_row[dim * node.node + e],
+                        to      = unknowns.free_row[dim * other.node + d];
+              const double part = other.part * node.share[d][e];
+              if (from < 0 || to < 0 || part == 0.)
+                continue;
+              // Both have sorted columns, those of the first are among the second's.
+              int k = matrix.row_start[to];
+              for (int j = matrix.row_start[from];
+                   j < matrix.row_start[from + 1];
+                   ++j)
+                {
+                  while (matrix.column[k] < matrix.column[j])
+                    ++k;
+                  matrix.value[k] += part * matrix.value[j];
+                }
+            }
   }
 
   std::vector<std::vector<unsigned int>>
@@ -161,6 +165,46 @@ namespace geocone
           }
         list.push_back(node);
       }
+    make_corners();
+  }
+
+  void
+  Contact::make_corners()
+  {
+    std::map<unsigned int, std::size_t> first;
+    std::vector<bool>                   is_left_out(list.size(), false);
+    for (std::size_t i = 0; i < list.size(); ++i)
+      {
+        const auto [at, is_new] = first.emplace(list[i].node, i);
+        if (is_new)
+          continue;
+        ContactNode &a = list[at->second], &b = list[i];
+        // Two of a node that has one direction only, or with one normal, are one.
+        const double sine =
+          a.normal[0] * b.normal[1] - a.normal[1] * b.normal[0];
+        if (free_direction(a.node) < 2 || std::abs(sine) < hardly)
+          {
+            is_left_out[i] = true;
+            continue;
+          }
+        const auto dual = [&](const Force &n, const double divisor) {
+          return Force({n[1], -n[0]}) / divisor;
+        };
+        a.share     = outer_product(a.normal, dual(b.normal, sine));
+        b.share     = outer_product(b.normal, dual(a.normal, -sine));
+        b.is_second = true;
+        for (ContactNode *node : {&a, &b})
+          {
+            node->is_corner = true;
+            node->friction  = 0.;
+            node->adhesion  = 0.;
+          }
+      }
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < list.size(); ++i)
+      if (!is_left_out[i])
+        list[n++] = list[i];
+    list.resize(n);
   }
 
   Contact::Projection
@@ -242,7 +286,7 @@ namespace geocone
     largest = dealii::Utilities::MPI::max(largest, comm);
     std::vector<unsigned int> chosen;
     for (unsigned int i = 0; i < list.size(); ++i)
-      if (is_owned(list[i]) &&
+      if (is_owned(list[i]) && !list[i].is_corner &&
           (touch[i].state != State::open ||
            touch[i].rho *
                (touch[i].relative * list[i].normal - list[i].least) <=
@@ -301,7 +345,7 @@ namespace geocone
     for (unsigned int i = 0; i < list.size(); ++i)
       if (const unsigned int node = list[i].node; is_owned(list[i]))
         {
-          locals[i].r   = free_part(residual, node);
+          locals[i].r   = list[i].share * free_part(residual, node);
           locals[i].v   = free_part(v, node);
           locals[i].rho = rho_of(list[i], scale);
         }
@@ -330,14 +374,18 @@ namespace geocone
         touch[i].relative = locals[i].v - velocity;
         touch[i].rho      = locals[i].rho;
         rho_Q[i]          = locals[i].rho * at.Q;
+        Matrix A          = node.share - at.Q * node.share;
         for (unsigned int a = 0; a < dim; ++a)
           for (unsigned int b = 0; b < dim; ++b)
-            row_A[a].local_element(dim * node.node + b) =
-              (a == b ? 1. : 0.) - at.Q[a][b];
+            if (node.is_second)
+              row_A[a].local_element(dim * node.node + b) += A[a][b];
+            else
+              row_A[a].local_element(dim * node.node + b) = A[a][b];
         for (unsigned int d = 0; d < dim; ++d)
           if (direction == 2 || direction == d)
             {
-              residual.local_element(dim * node.node + d) = at.F[d];
+              double &row    = residual.local_element(dim * node.node + d);
+              row            = (node.is_second ? row : 0.) + at.F[d];
               touch[i].error = std::hypot(touch[i].error, at.F[d]);
             }
       }
@@ -358,7 +406,9 @@ namespace geocone
           return row_A[a].local_element(dim * node + b);
         };
         // Both rows have the same columns.
-        if (row[0] >= 0 && row[1] >= 0)
+        if (list[i].is_second)
+          {} // they are combined
+        else if (row[0] >= 0 && row[1] >= 0)
           {
             double *x = &matrix.value[matrix.row_start[row[0]]],
                    *y = &matrix.value[matrix.row_start[row[1]]];
@@ -497,8 +547,11 @@ namespace geocone
           if (unknowns.is_free(dim * node.node + a))
             {
               double sum = rho_Q[i][a] * du;
+              // A of both contacts of a corner is applied once.
               for (unsigned int b = 0; b < dim; ++b)
-                if (unknowns.is_free(dim * node.node + b))
+                if (node.is_second)
+                  sum += a == b ? dr[b] : 0.;
+                else if (unknowns.is_free(dim * node.node + b))
                   sum += row_A[a].local_element(dim * node.node + b) * dr[b];
               dst.local_element(dim * node.node + a) = sum;
             }

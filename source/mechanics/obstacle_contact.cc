@@ -24,6 +24,9 @@ namespace geocone
     /** A gap that counts as none, over the size of a cell. */
     constexpr double closed = 1e-9;
 
+    /** Normals with a larger cosine between them count as one (10 degrees). */
+    const double parallel = std::cos(radians(10.));
+
     Tensor<1, dim>
     velocity_of(const unsigned int node, const Vector &v)
     {
@@ -129,15 +132,15 @@ namespace geocone
                 velocity[o][k] + force[k] / body.inertia[k];
             }
       }
-    std::map<unsigned int, double> gap_of;
+    NearBodies near;
     if (!scene.contacts.list.empty())
       {
+        step.has_pairs = true;
         if (mesh_is_body)
           facing = find_facing(velocity_n, h);
-        gap_of = add_nodes_of_bodies(velocity_n, h, std::move(facing), step);
+        near = near_bodies(velocity_n, h, std::move(facing));
       }
-    if (!list.empty())
-      add_nodes_of_obstacles(velocity_n, h, gaps, gap_of, step);
+    add_nodes(velocity_n, h, gaps, near, step);
     return step;
   }
 
@@ -152,14 +155,12 @@ namespace geocone
                         4. * h * fastest);
   }
 
-  std::map<unsigned int, double>
-  ObstacleContact::add_nodes_of_bodies(const Vector           &velocity_n,
-                                       const double            h,
-                                       std::vector<FacingNode> facing,
-                                       ContactStep            &step) const
+  ObstacleContact::NearBodies
+  ObstacleContact::near_bodies(const Vector           &velocity_n,
+                               const double            h,
+                               std::vector<FacingNode> facing) const
   {
-    step.has_pairs = true;
-    std::map<unsigned int, double> gap_of;
+    NearBodies near;
     for (auto &[contact, gap] : facing)
       {
         const Tensor<1, dim> v = velocity_of(contact.node, velocity_n);
@@ -175,30 +176,26 @@ namespace geocone
                .list[contact.obstacle - scene.obstacles.list.size()]
                ->law.restitution *
             u_n;
-        gap_of[contact.node] = gap;
-        step.nodes.push_back(contact);
+        near[contact.node] = {
+          contact, gap, closed * size + 2. * h * std::abs(u_n)};
       }
-    return gap_of;
+    return near;
   }
 
   void
-  ObstacleContact::add_nodes_of_obstacles(
-    const Vector                         &velocity_n,
-    const double                          h,
-    const std::vector<Vector>            &gaps,
-    const std::map<unsigned int, double> &gap_of,
-    ContactStep                          &step) const
+  ObstacleContact::add_nodes(const Vector              &velocity_n,
+                             const double               h,
+                             const std::vector<Vector> &gaps,
+                             const NearBodies          &bodies,
+                             ContactStep               &step) const
   {
-    const auto            &list = scene.obstacles.list;
-    std::set<unsigned int> taken; // from other bodies
-    std::string            twice;
+    const auto &list = scene.obstacles.list;
+    std::string refusal;
     for (const unsigned int node : candidates)
       {
         const Point<dim>     x = place(node);
         const Tensor<1, dim> v = velocity_of(node, velocity_n);
-        ContactNode          contact;
-        double               nearest = std::numeric_limits<double>::infinity();
-        unsigned int         n_touch = 0;
+        std::vector<Near>    near;
         for (unsigned int o = 0; o < list.size(); ++o)
           {
             const Tensor<1, dim>    arm = x - centre(o);
@@ -212,10 +209,7 @@ namespace geocone
             const double gap =
               mesh_is_body ? at.distance
                            : std::max(gaps[o].local_element(dim * node), 0.);
-            n_touch += gap < closed * size;
-            if (gap >= nearest)
-              continue;
-            nearest          = gap;
+            ContactNode contact;
             contact.node     = node;
             contact.obstacle = o;
             contact.normal   = at.normal;
@@ -231,32 +225,61 @@ namespace geocone
             const double u_n = (v - V) * at.normal;
             if (contact.rebounds && u_n < 0. && u_n < contact.least)
               contact.least = -list[o]->law.restitution * u_n;
+            near.push_back(
+              {contact, gap, closed * size + 2. * h * std::abs(u_n)});
           }
-        if (n_touch > 1)
-          twice = format(
-            "the node at (%g, %g) touches two obstacles at once", x[0], x[1]);
-        // Where another body is as near, what touches the obstacle does.
-        const auto other = gap_of.find(node);
-        if (other != gap_of.end() && nearest > closed * size &&
-            nearest > other->second)
-          continue;
-        if (other != gap_of.end())
-          taken.insert(node);
-        if (std::isfinite(nearest))
-          step.nodes.push_back(contact);
+        if (const auto other = bodies.find(node); other != bodies.end())
+          near.push_back(other->second);
+        add_nearest(near, refusal, step);
       }
-    step.nodes.erase(std::remove_if(step.nodes.begin(),
-                                    step.nodes.end(),
-                                    [&](const ContactNode &contact) {
-                                      return contact.touches_body() &&
-                                             taken.count(contact.node) > 0;
-                                    }),
-                     step.nodes.end());
-    twice = text_of_any_rank(comm, twice);
-    if (!twice.empty())
-      throw StepFailure(twice +
-                        "\n  remedy:  hold one of the two sides by a boundary "
+    refusal = text_of_any_rank(comm, refusal);
+    if (!refusal.empty())
+      throw StepFailure(refusal +
+                        "\n  remedy:  hold one of the sides by a boundary "
                         "condition, or leave the corner out of the body");
+  }
+
+  void
+  ObstacleContact::add_nearest(std::vector<Near> &near,
+                               std::string       &refusal,
+                               ContactStep       &step) const
+  {
+    // Obstacles come before bodies that are as near.
+    std::stable_sort(
+      near.begin(), near.end(), [](const Near &a, const Near &b) {
+        return a.gap < b.gap;
+      });
+    std::vector<const Near *> taken;
+    for (const Near &at : near)
+      if (std::isfinite(at.gap) &&
+          (taken.empty() ||
+           (at.gap <= at.reach && taken[0]->gap <= taken[0]->reach &&
+            std::all_of(taken.begin(), taken.end(), [&](const Near *other) {
+              return at.contact.normal * other->contact.normal < parallel;
+            }))))
+        taken.push_back(&at);
+    if (taken.size() > 1)
+      {
+        const Point<dim> x       = place(taken[0]->contact.node);
+        bool             is_free = false;
+        for (const Near *at : taken)
+          is_free = is_free || (!at->contact.touches_body() &&
+                                step.bodies[at->contact.obstacle].n_free() > 0);
+        if (taken.size() > 2)
+          refusal = format(
+            "the node at (%g, %g) touches three things at once", x[0], x[1]);
+        else if (taken[0]->contact.normal * taken[1]->contact.normal <
+                 -parallel)
+          refusal = format(
+            "the node at (%g, %g) is squeezed between two things", x[0], x[1]);
+        else if (is_free)
+          refusal = format("the node at (%g, %g) touches a free obstacle and "
+                           "something else at once",
+                           x[0],
+                           x[1]);
+      }
+    for (const Near *at : taken)
+      step.nodes.push_back(at->contact);
   }
 
   Tensor<1, dim>
@@ -378,7 +401,7 @@ namespace geocone
     Vector closed_nodes(space.partitioner()), inertia = mass;
     for (unsigned int i = 0; i < nodes.size(); ++i)
       if (nodes[i].node < space.n_owned_nodes())
-        closed_nodes.local_element(dim * nodes[i].node) =
+        closed_nodes.local_element(dim * nodes[i].node + nodes[i].is_second) =
           contact.touches()[i].state == Contact::State::open    ? 0.
           : contact.touches()[i].state == Contact::State::stick ? 2.
                                                                 : 1.;
@@ -390,7 +413,8 @@ namespace geocone
     double lost = 0.;
     for (const ContactNode &at : nodes)
       {
-        const double state = closed_nodes.local_element(dim * at.node);
+        const double state =
+          closed_nodes.local_element(dim * at.node + at.is_second);
         if (state == 0.)
           continue;
         const Tensor<1, dim> &n = at.normal;

@@ -92,7 +92,7 @@ namespace geocone
     direction.update_ghost_values();
     for (unsigned int i = 0; i < contact.nodes().size(); ++i)
       if (const ContactNode &node = contact.nodes()[i];
-          contact.is_owned(node) && !is_chosen[i])
+          contact.is_owned(node) && !is_chosen[i] && !node.is_corner)
         {
           const double w =
             (contact.touches()[i].relative + relative_change(node, direction)) *
@@ -279,8 +279,12 @@ namespace geocone
     for (unsigned int i = 0; i < contact.nodes().size(); ++i)
       if (const ContactNode &node = contact.nodes()[i]; contact.is_owned(node))
         {
-          sum += (contact.touches()[i].force - end_force[i]) *
-                 relative_change(node, direction);
+          // In a corner the laws are linear in the direction, without its forces.
+          if (!node.is_corner)
+            sum += (contact.touches()[i].force - end_force[i]) *
+                   relative_change(node, direction);
+          else if (node.is_second)
+            continue;
           for (unsigned int d = 0; d < dim; ++d)
             if (const unsigned int dof = dim * node.node + d;
                 work.problem.free_dofs().is_free(dof))

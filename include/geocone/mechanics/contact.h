@@ -10,6 +10,8 @@
 #include <geocone/mechanics/obstacle_motions.h>
 #include <geocone/mechanics/unknowns.h>
 
+#include <deal.II/base/symmetric_tensor.h>
+
 #include <Eigen/Dense>
 
 #include <array>
@@ -48,6 +50,13 @@ namespace geocone
     double least    = 0.;
     bool   rebounds = false; ///< whether e > 0
 
+    /** Of a corner, where a node is in two contacts with other normals n and m: the part
+     *  of its force that is this one's, n k' with k.n = 1, k.m = 0; else the identity. */
+    dealii::Tensor<2, dim> share =
+      dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>());
+    bool is_corner = false;
+    bool is_second = false; ///< of the two contacts
+
     bool
     touches_body() const
     {
@@ -69,8 +78,9 @@ namespace geocone
   /** What may touch in a step. */
   struct ContactStep
   {
-    std::vector<ContactNode>
-      nodes; ///< all of this rank, with ghosts, each once
+    /** All of this rank, with ghosts; in a corner two of the same node, the nearer one
+     *  first. */
+    std::vector<ContactNode>  nodes;
     std::vector<ObstacleBody> bodies; ///< the obstacles
     bool has_pairs = false;           ///< whether bodies may touch, on any rank
   };
@@ -105,6 +115,10 @@ namespace geocone
    * So P_ij r_i comes to the residual there before r_i gives way to F_i, and P_ij times
    * the rows of i to the rows of j: the multipliers of the contact, which are the r_i by
    * the dual functions of BodyContact, are condensed out.
+   *
+   * A node in a corner is in two contacts with normals n_1 and n_2, each an entry of its
+   * own. Without friction its force is r = a_1 n_1 + a_2 n_2, of which each takes its share
+   * n_i k_i' r. F and A are the sums of both.
    *
    * A node that a support holds in one direction is in contact only in the other
    * one, without friction: where the normal is along it, or the nodes are twins.
@@ -269,6 +283,10 @@ namespace geocone
     /** Of the other body at a node, in its free directions. @param v with ghosts */
     Force
     velocity_of_partners(const ContactNode &node, const Vector &v) const;
+
+    /** Makes pairs of entries of the same node corners. */
+    void
+    make_corners();
 
     /** Adds P' r to the rows of other bodies. Collective. */
     void

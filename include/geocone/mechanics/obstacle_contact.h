@@ -11,7 +11,9 @@
 #include <geocone/mechanics/contact.h>
 #include <geocone/scene/scene.h>
 
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace geocone
@@ -81,8 +83,8 @@ namespace geocone
      * @param gaps of a background mesh: per obstacle the gap to it of the nearest
      * particle that a node moves, by its first dof, with ghosts
      * @param facing of a background mesh: the nodes of bodies that may touch
-     * @throws StepFailure if a node touches two obstacles at once, or see
-     * BodyContact::find()
+     * @throws StepFailure if a node touches three things at once, or see
+     * BodyContact::find(), ParticleBodies::find()
      */
     ContactStep
     begin(const Vector              &velocity_n,
@@ -175,25 +177,40 @@ namespace geocone
              displacement[obstacle].centre;
     }
 
-    /** The nodes that may touch obstacles. @param[in,out] step in: those of bodies
-     *  @param gap_of the gaps of these by node */
+    /** A contact of a node, and its gap (m). */
+    struct Near
+    {
+      ContactNode contact;
+      double      gap;
+      double      reach; ///< what the gap may be to be closed in the step (m)
+    };
+    using NearBodies = std::map<unsigned int, Near>; ///< by node
+
+    /** The nodes that may touch obstacles, or other bodies. Collective. */
     void
-    add_nodes_of_obstacles(const Vector                         &velocity_n,
-                           const double                          h,
-                           const std::vector<Vector>            &gaps,
-                           const std::map<unsigned int, double> &gap_of,
-                           ContactStep                          &step) const;
+    add_nodes(const Vector              &velocity_n,
+              const double               h,
+              const std::vector<Vector> &gaps,
+              const NearBodies          &bodies,
+              ContactStep               &step) const;
+
+    /** Of a node: the contact that is nearest, and where another one may be closed with
+     *  it, with another normal, that one, too.
+     *  @param[in,out] refusal why that cannot be */
+    void
+    add_nearest(std::vector<Near> &near,
+                std::string       &refusal,
+                ContactStep       &step) const;
 
     /** The nodes of bodies whose mesh they are that may touch. Collective. */
     std::vector<FacingNode>
     find_facing(const Vector &velocity_n, const double h) const;
 
-    /** Adds nodes that may touch other bodies. @return their gaps */
-    std::map<unsigned int, double>
-    add_nodes_of_bodies(const Vector           &velocity_n,
-                        const double            h,
-                        std::vector<FacingNode> facing,
-                        ContactStep            &step) const;
+    /** The nodes that may touch other bodies. */
+    NearBodies
+    near_bodies(const Vector           &velocity_n,
+                const double            h,
+                std::vector<FacingNode> facing) const;
 
     /** The force on a node: what supports hold of it is theirs. */
     static dealii::Tensor<1, dim>
