@@ -24,6 +24,9 @@ namespace geocone
     /** A gap that counts as none, over the size of a cell. */
     constexpr double closed = 1e-9;
 
+    /** The same of particles in a corner, whose squares breathe with their volume. */
+    constexpr double nearly_closed = 1e-3;
+
     /** Normals with a larger cosine between them count as one (10 degrees). */
     const double parallel = std::cos(radians(10.));
 
@@ -155,6 +158,13 @@ namespace geocone
                         4. * h * fastest);
   }
 
+  double
+  ObstacleContact::reach(const double h, const double u_n) const
+  {
+    return (mesh_is_body ? closed : nearly_closed) * size +
+           2. * h * std::abs(u_n);
+  }
+
   ObstacleContact::NearBodies
   ObstacleContact::near_bodies(const Vector           &velocity_n,
                                const double            h,
@@ -176,8 +186,7 @@ namespace geocone
                .list[contact.obstacle - scene.obstacles.list.size()]
                ->law.restitution *
             u_n;
-        near[contact.node] = {
-          contact, gap, closed * size + 2. * h * std::abs(u_n)};
+        near[contact.node] = {contact, gap, reach(h, u_n)};
       }
     return near;
   }
@@ -225,8 +234,7 @@ namespace geocone
             const double u_n = (v - V) * at.normal;
             if (contact.rebounds && u_n < 0. && u_n < contact.least)
               contact.least = -list[o]->law.restitution * u_n;
-            near.push_back(
-              {contact, gap, closed * size + 2. * h * std::abs(u_n)});
+            near.push_back({contact, gap, reach(h, u_n)});
           }
         if (const auto other = bodies.find(node); other != bodies.end())
           near.push_back(other->second);

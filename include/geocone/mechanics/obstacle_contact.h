@@ -184,6 +184,10 @@ namespace geocone
       double      gap;
       double      reach; ///< what the gap may be to be closed in the step (m)
     };
+    /** @param u_n relative velocity at the beginning of the step, of h */
+    double
+    reach(const double h, const double u_n) const;
+
     using NearBodies = std::map<unsigned int, Near>; ///< by node
 
     /** The nodes that may touch obstacles, or other bodies. Collective. */
