@@ -21,10 +21,8 @@ namespace geocone
 
   namespace
   {
-    /** A gap that counts as none, over the size of a cell. */
-    constexpr double closed = 1e-9;
-
-    /** The same of particles in a corner, whose squares breathe with their volume. */
+    /** A gap in a corner of particles that counts as none, over the size of a cell: their
+     *  squares breathe with their volume. */
     constexpr double nearly_closed = 1e-3;
 
     /** Normals with a larger cosine between them count as one (10 degrees). */
@@ -92,7 +90,7 @@ namespace geocone
           least[o] =
             std::min(least[o], list[o]->nearest(place(node), {}, {}).distance);
         least[o] = Utilities::MPI::min(least[o], comm);
-        if (least[o] < -closed * size)
+        if (least[o] < -closed_gap * size)
           list[o]->refuse_overlap(format("it is entered by %.3g m", -least[o]));
       }
   }
@@ -161,7 +159,7 @@ namespace geocone
   double
   ObstacleContact::reach(const double h, const double u_n) const
   {
-    return (mesh_is_body ? closed : nearly_closed) * size +
+    return (mesh_is_body ? closed_gap : nearly_closed) * size +
            2. * h * std::abs(u_n);
   }
 
@@ -213,7 +211,7 @@ namespace geocone
               list[o]->nearest(x, displacement[o], V - v);
             // Of a background mesh only what is in or on the obstacle: the others
             // are of the body, and may come as near as they like.
-            if (!mesh_is_body && at.distance > closed * size)
+            if (!mesh_is_body && at.distance > closed_gap * size)
               continue;
             const double gap =
               mesh_is_body ? at.distance

@@ -26,9 +26,6 @@ namespace geocone
     /** Functions that are smaller at a particle do not count as moved by it. */
     constexpr double least_share = 1e-12;
 
-    /** A gap that counts as none, over the size of a cell. */
-    constexpr double closed = 1e-9;
-
     /** Squares side by side are farther apart than this part of the sum of both halves,
      *  Gauss points, too. */
     constexpr double beside = 0.4;
@@ -369,7 +366,7 @@ namespace geocone
                 continue;
               }
             FacingNode &before = found[at->second];
-            if (std::max(before.gap, facing.gap) <= closed * size)
+            if (std::max(before.gap, facing.gap) <= closed_gap * size)
               thrice =
                 format("three bodies touch at (%s)",
                        text_of_place(space.node_positions()[node]).c_str());

@@ -19,6 +19,9 @@
 
 namespace geocone
 {
+  /** A gap that counts as none, over the size of a cell. */
+  constexpr double closed_gap = 1e-9;
+
   /** A node that may touch an obstacle, or another body, in a step. */
   struct ContactNode
   {
