@@ -137,9 +137,7 @@ namespace geocone
         std::string corner;
         for (const unsigned int node : nodes[c])
           {
-            Tensor<1, dim> n;
-            for (unsigned int d = 0; d < dim; ++d)
-              n[d] = normal.local_element(dim * node + d);
+            const Tensor<1, dim> n = value_at(normal, node);
             if (n.norm() > least_mean_normal * size.local_element(dim * node))
               of_node[node].push_back({c, dim, n / n.norm()});
             else

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 namespace geocone
@@ -23,10 +22,9 @@ namespace geocone
     /** A support's free direction counts as the normal up to here (10 degrees). */
     const double along = std::cos(radians(10.));
 
-    /** A sine or cosine that is hardly one. Of twins, which are held alike, any direction
-     *  does that is not this near to a right angle. */
+    /** Of twins, which are held alike, any direction does that is not this near to a right
+     *  angle. */
     constexpr double hardly = 0.1;
-
   } // namespace
 
   unsigned int
@@ -163,48 +161,33 @@ namespace geocone
             node.friction          = 0.;
             node.adhesion          = 0.;
           }
-        list.push_back(node);
+        if (list.empty() || list.back().node != node.node)
+          list.push_back(node);
+        else if (direction == 2)
+          {
+            make_corner(list.back(), node);
+            list.push_back(node);
+          }
+        // else: in the one direction the nearer one counts
       }
-    make_corners();
   }
 
   void
-  Contact::make_corners()
+  Contact::make_corner(ContactNode &a, ContactNode &b)
   {
-    std::map<unsigned int, std::size_t> first;
-    std::vector<bool>                   is_left_out(list.size(), false);
-    for (std::size_t i = 0; i < list.size(); ++i)
+    const double sine = a.normal[0] * b.normal[1] - a.normal[1] * b.normal[0];
+    const auto   dual = [&](const Force &n, const double divisor) {
+      return Force({n[1], -n[0]}) / divisor;
+    };
+    a.share     = outer_product(a.normal, dual(b.normal, sine));
+    b.share     = outer_product(b.normal, dual(a.normal, -sine));
+    b.is_second = true;
+    for (ContactNode *node : {&a, &b})
       {
-        const auto [at, is_new] = first.emplace(list[i].node, i);
-        if (is_new)
-          continue;
-        ContactNode &a = list[at->second], &b = list[i];
-        // Two of a node that has one direction only, or with one normal, are one.
-        const double sine =
-          a.normal[0] * b.normal[1] - a.normal[1] * b.normal[0];
-        if (free_direction(a.node) < 2 || std::abs(sine) < hardly)
-          {
-            is_left_out[i] = true;
-            continue;
-          }
-        const auto dual = [&](const Force &n, const double divisor) {
-          return Force({n[1], -n[0]}) / divisor;
-        };
-        a.share     = outer_product(a.normal, dual(b.normal, sine));
-        b.share     = outer_product(b.normal, dual(a.normal, -sine));
-        b.is_second = true;
-        for (ContactNode *node : {&a, &b})
-          {
-            node->is_corner = true;
-            node->friction  = 0.;
-            node->adhesion  = 0.;
-          }
+        node->is_corner = true;
+        node->friction  = 0.;
+        node->adhesion  = 0.;
       }
-    std::size_t n = 0;
-    for (std::size_t i = 0; i < list.size(); ++i)
-      if (!is_left_out[i])
-        list[n++] = list[i];
-    list.resize(n);
   }
 
   Contact::Projection
@@ -393,6 +376,35 @@ namespace geocone
       row.update_ghost_values();
   }
 
+  void
+  Contact::combine_rows(const unsigned int node, SparseMatrix &matrix) const
+  {
+    const int *row = &unknowns.free_row[dim * node];
+    const auto A   = [&](const unsigned int a, const unsigned int b) {
+      return row_A[a].local_element(dim * node + b);
+    };
+    // Both rows have the same columns.
+    if (row[0] >= 0 && row[1] >= 0)
+      {
+        double *x   = &matrix.value[matrix.row_start[row[0]]],
+               *y   = &matrix.value[matrix.row_start[row[1]]];
+        const int n = matrix.row_start[row[0] + 1] - matrix.row_start[row[0]];
+        for (int k = 0; k < n; ++k)
+          {
+            const double old = x[k];
+            x[k]             = A(0, 0) * old + A(0, 1) * y[k];
+            y[k]             = A(1, 0) * old + A(1, 1) * y[k];
+          }
+      }
+    else
+      for (unsigned int d = 0; d < dim; ++d)
+        if (row[d] >= 0)
+          for (int k = matrix.row_start[row[d]];
+               k < matrix.row_start[row[d] + 1];
+               ++k)
+            matrix.value[k] *= A(d, d);
+  }
+
   LowRank
   Contact::linearise(const JacobianPattern &pattern, SparseMatrix &matrix) const
   {
@@ -400,34 +412,9 @@ namespace geocone
     const LowRank of_obstacles = low_rank(matrix);
     for (unsigned int i = 0; i < list.size(); ++i)
       {
-        const unsigned int node = list[i].node;
-        const int         *row  = &unknowns.free_row[dim * node];
-        const auto         A = [&](const unsigned int a, const unsigned int b) {
-          return row_A[a].local_element(dim * node + b);
-        };
-        // Both rows have the same columns.
-        if (list[i].is_second)
-          {} // they are combined
-        else if (row[0] >= 0 && row[1] >= 0)
-          {
-            double *x = &matrix.value[matrix.row_start[row[0]]],
-                   *y = &matrix.value[matrix.row_start[row[1]]];
-            const int n =
-              matrix.row_start[row[0] + 1] - matrix.row_start[row[0]];
-            for (int k = 0; k < n; ++k)
-              {
-                const double old = x[k];
-                x[k]             = A(0, 0) * old + A(0, 1) * y[k];
-                y[k]             = A(1, 0) * old + A(1, 1) * y[k];
-              }
-          }
-        else
-          for (unsigned int d = 0; d < dim; ++d)
-            if (row[d] >= 0)
-              for (int k = matrix.row_start[row[d]];
-                   k < matrix.row_start[row[d] + 1];
-                   ++k)
-                matrix.value[k] *= A(d, d);
+        const int *row = &unknowns.free_row[dim * list[i].node];
+        if (!list[i].is_second)
+          combine_rows(list[i].node, matrix);
         if (is_owned(list[i]))
           for (unsigned int a = 0; a < dim; ++a)
             for (unsigned int b = 0; b < dim; ++b)
@@ -547,12 +534,12 @@ namespace geocone
           if (unknowns.is_free(dim * node.node + a))
             {
               double sum = rho_Q[i][a] * du;
-              // A of both contacts of a corner is applied once.
-              for (unsigned int b = 0; b < dim; ++b)
-                if (node.is_second)
-                  sum += a == b ? dr[b] : 0.;
-                else if (unknowns.is_free(dim * node.node + b))
-                  sum += row_A[a].local_element(dim * node.node + b) * dr[b];
+              if (node.is_second) // A of both is applied
+                sum += dr[a];
+              else
+                for (unsigned int b = 0; b < dim; ++b)
+                  if (unknowns.is_free(dim * node.node + b))
+                    sum += row_A[a].local_element(dim * node.node + b) * dr[b];
               dst.local_element(dim * node.node + a) = sum;
             }
       }

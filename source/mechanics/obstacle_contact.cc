@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -27,15 +26,6 @@ namespace geocone
 
     /** Normals with a larger cosine between them count as one (10 degrees). */
     const double parallel = std::cos(radians(10.));
-
-    Tensor<1, dim>
-    velocity_of(const unsigned int node, const Vector &v)
-    {
-      Tensor<1, dim> result;
-      for (unsigned int d = 0; d < dim; ++d)
-        result[d] = v.local_element(dim * node + d);
-      return result;
-    }
   } // namespace
 
   ObstacleContact::ObstacleContact(const Scene          &scene,
@@ -100,8 +90,7 @@ namespace geocone
   {
     Point<dim> x = space.node_positions()[node];
     if (mesh_is_body)
-      for (unsigned int d = 0; d < dim; ++d)
-        x[d] += path.local_element(dim * node + d);
+      x += value_at(path, node);
     return x;
   }
 
@@ -150,7 +139,7 @@ namespace geocone
   {
     double fastest = 0.;
     for (const unsigned int node : candidates)
-      fastest = std::max(fastest, velocity_of(node, velocity_n).norm());
+      fastest = std::max(fastest, value_at(velocity_n, node).norm());
     fastest = Utilities::MPI::max(fastest, comm);
     return bodies->find([this](const unsigned int node) { return place(node); },
                         4. * h * fastest);
@@ -171,10 +160,10 @@ namespace geocone
     NearBodies near;
     for (auto &[contact, gap] : facing)
       {
-        const Tensor<1, dim> v = velocity_of(contact.node, velocity_n);
+        const Tensor<1, dim> v = value_at(velocity_n, contact.node);
         Tensor<1, dim>       u = v;
         for (const ContactNode::Partner &other : contact.partners)
-          u -= other.part * velocity_of(other.node, velocity_n);
+          u -= other.part * value_at(velocity_n, other.node);
         contact.least    = -gap / h;
         contact.velocity = v - u;
         const double u_n = u * contact.normal;
@@ -201,7 +190,7 @@ namespace geocone
     for (const unsigned int node : candidates)
       {
         const Point<dim>     x = place(node);
-        const Tensor<1, dim> v = velocity_of(node, velocity_n);
+        const Tensor<1, dim> v = value_at(velocity_n, node);
         std::vector<Near>    near;
         for (unsigned int o = 0; o < list.size(); ++o)
           {
@@ -318,7 +307,7 @@ namespace geocone
         ++sums[touch.state == Contact::State::open    ? 0
                : touch.state == Contact::State::stick ? 1
                                                       : 2];
-        const Tensor<1, dim> u        = velocity_of(node, v),
+        const Tensor<1, dim> u        = value_at(v, node),
                              relative = u - nodes[i].velocity;
         most[0]                       = std::max(most[0], touch.error);
         sums[6] += touch.size;

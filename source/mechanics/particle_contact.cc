@@ -1,11 +1,11 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/base/convex_hull.h>
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/mechanics/particle_contact.h>
 #include <geocone/mechanics/point_functions.h>
+#include <geocone/scene/convex_hull.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -33,9 +33,9 @@ namespace geocone
     /** Where a particle is for those that it touches: what stays in the mesh of soil
      *  that moves has been displaced. */
     Point<dim>
-    place_of(const Scene          &scene,
-             const MaterialPoints &points,
-             const unsigned int    p)
+    position_of(const Scene          &scene,
+                const MaterialPoints &points,
+                const unsigned int    p)
     {
       return scene.regions.are_fixed(points.material[p])
                ? points.position[p] + points.displacement[p]
@@ -56,24 +56,24 @@ namespace geocone
         all[o].reinit(space.partitioner());
         for (unsigned int node = 0; node < space.n_local_nodes(); ++node)
           all[o].local_element(dim * node) = 1e300;
-        for_each_point(points,
-                       [&](const unsigned int p,
-                           const unsigned int /* cell */,
-                           const PointFunctions &at) {
-                         const double half = length_of(points.weight[p]) / 2.;
-                         const double gap =
-                           obstacles.list[o]
-                             ->nearest(place_of(scene, points, p), moved[o], {})
-                             .distance -
-                           half;
-                         for (unsigned int i = 0; i < at.n; ++i)
-                           if (at.N[i] > least_share)
-                             {
-                               double &least =
-                                 all[o].local_element(dim * at.nodes[i]);
-                               least = std::min(least, gap);
-                             }
-                       });
+        for_each_point(
+          points,
+          [&](const unsigned int p,
+              const unsigned int /* cell */,
+              const PointFunctions &at) {
+            const double half = length_of(points.weight[p]) / 2.;
+            const double gap =
+              obstacles.list[o]
+                ->nearest(position_of(scene, points, p), moved[o], {})
+                .distance -
+              half;
+            for (unsigned int i = 0; i < at.n; ++i)
+              if (at.N[i] > least_share)
+                {
+                  double &least = all[o].local_element(dim * at.nodes[i]);
+                  least         = std::min(least, gap);
+                }
+          });
         all[o].compress(VectorOperation::min);
         all[o].update_ghost_values();
       }
@@ -159,10 +159,7 @@ namespace geocone
                      const unsigned int layer = layer_of[at.nodes[0]];
                      if (layer != pair.first && layer != pair.other)
                        return;
-                     // What stays in the mesh has moved for those that it touches.
-                     Point<dim> x = points.position[p];
-                     if (scene.regions.are_fixed(points.material[p]))
-                       x += points.displacement[p];
+                     const Point<dim> x = position_of(scene, points, p);
                      for (unsigned int i = 0; i < at.n; ++i)
                        if (const unsigned int place = place_of[at.nodes[i]];
                            at.N[i] > least_share &&
@@ -316,13 +313,6 @@ namespace geocone
                    });
     outward.compress(VectorOperation::add);
     outward.update_ghost_values();
-    const auto outward_at = [&](const unsigned int node) {
-      Tensor<1, dim> result;
-      for (unsigned int d = 0; d < dim; ++d)
-        result[d] = outward.local_element(dim * node + d);
-      return result;
-    };
-
     std::vector<FacingNode>             found;
     std::map<unsigned int, std::size_t> of_place; // in found
     std::string                         thrice;
@@ -332,8 +322,8 @@ namespace geocone
         std::vector<Tensor<1, dim>> normal = normals(pair, shares);
         for (unsigned int place = 0; place < nodes.size(); ++place)
           if (normal[place].norm_square() == 0.)
-            normal[place] = outward_at(nodes[place][pair.other]) -
-                            outward_at(nodes[place][pair.first]);
+            normal[place] = value_at(outward, nodes[place][pair.other]) -
+                            value_at(outward, nodes[place][pair.first]);
         for (Tensor<1, dim> &n : normal)
           if (n.norm_square() > 0.)
             n /= n.norm();
@@ -354,10 +344,11 @@ namespace geocone
             facing.node.normal   = n;
             facing.node.partners = {{other, 1.}};
             facing.node.is_twin  = true;
-            facing.node.length   = std::max(
-              0., std::min(-(outward_at(node) * n), outward_at(other) * n));
+            facing.node.length =
+              std::max(0.,
+                       std::min(-(value_at(outward, node) * n),
+                                value_at(outward, other) * n));
             facing.node.friction    = law.friction;
-            facing.node.adhesion    = law.adhesion * facing.node.length;
             facing.node.rebounds    = law.restitution > 0.;
             const auto [at, is_new] = of_place.emplace(place, found.size());
             if (is_new)

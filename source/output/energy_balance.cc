@@ -23,8 +23,7 @@ namespace geocone
   {
     const double step_loss = last.sum() + of_step.external - end.sum() -
                              of_lost.sum() - of_step.dissipated();
-    taken_away += of_lost.sum();
-    removed_potential += of_lost.potential;
+    remove(of_lost);
     done += of_step;
     last = end;
     lost += step_loss;
@@ -58,8 +57,14 @@ namespace geocone
   EnergyBalance::change_body(const Energies &before, const Energies &after)
   {
     last = after;
-    taken_away += before.sum() - after.sum();
-    removed_potential += before.potential - after.potential;
+    remove(before - after);
+  }
+
+  void
+  EnergyBalance::remove(const Energies &energies)
+  {
+    taken_away += energies.sum();
+    removed_potential += energies.potential;
   }
 
   double

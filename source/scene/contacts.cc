@@ -83,8 +83,6 @@ namespace geocone
     materials = all_materials;
     for (const auto &pair : list)
       pair->prepare(materials);
-    if (list.empty())
-      return;
     std::map<std::vector<bool>, unsigned int> numbers;
     for (unsigned int m = 0; m < materials.size(); ++m)
       {

@@ -165,16 +165,19 @@ namespace geocone
                            "touch others: these find them by their "
                            "displacement",
                            "leave it out, or let the points move");
-        for (const auto &[from, to] : stage->changed_materials)
-          for (unsigned int a = 0; a < materials.size(); ++a)
-            for (unsigned int b = 0; b < materials.size(); ++b)
-              if (materials.name(a) == from && materials.name(b) == to &&
-                  scene->contacts.body_of(a) != scene->contacts.body_of(b))
-                throw InputError(section + "Changed materials",
-                                 from + ": " + to,
-                                 "materials of one body",
-                                 "name '" + to + "' beside '" + from +
-                                   "' in the contacts");
+        const std::vector<unsigned int> after =
+          materials_after(*stage, materials);
+        for (unsigned int m = 0; m < materials.size(); ++m)
+          if (scene->contacts.body_of(m) != scene->contacts.body_of(after[m]))
+            {
+              const std::string from = materials.name(m),
+                                to   = materials.name(after[m]);
+              throw InputError(section + "Changed materials",
+                               from + ": " + to,
+                               "materials of one body",
+                               "name '" + to + "' beside '" + from +
+                                 "' in the contacts");
+            }
       }
   }
 

@@ -29,16 +29,11 @@ namespace geocone
                        "take elements of degree 2 or 3, which do not lock");
   }
 
-  std::vector<std::string>
-  change_materials(const Stage    &stage,
-                   const Scene    &scene,
-                   const Space    &space,
-                   const MPI_Comm  comm,
-                   MaterialPoints &points)
+  std::vector<unsigned int>
+  materials_after(const Stage &stage, const Materials &materials)
   {
-    const Materials          &materials = scene.materials;
-    const unsigned int        n         = materials.size();
-    std::vector<unsigned int> becomes(n), number(n, 0);
+    const unsigned int        n = materials.size();
+    std::vector<unsigned int> becomes(n);
     for (unsigned int i = 0; i < n; ++i)
       {
         becomes[i]       = i;
@@ -48,7 +43,21 @@ namespace geocone
               materials.name(j) == found->second)
             becomes[i] = j;
       }
-    HistoryStart start;
+    return becomes;
+  }
+
+  std::vector<std::string>
+  change_materials(const Stage    &stage,
+                   const Scene    &scene,
+                   const Space    &space,
+                   const MPI_Comm  comm,
+                   MaterialPoints &points)
+  {
+    const Materials                &materials = scene.materials;
+    const unsigned int              n         = materials.size();
+    const std::vector<unsigned int> becomes = materials_after(stage, materials);
+    std::vector<unsigned int>       number(n, 0);
+    HistoryStart                    start;
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       for (unsigned int p = points.first_point[c];
            p < points.first_point[c + 1];

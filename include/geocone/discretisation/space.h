@@ -29,6 +29,16 @@ namespace geocone
    */
   using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
 
+  /** The dim values of a local node. */
+  inline dealii::Tensor<1, dim>
+  value_at(const Vector &field, const unsigned int node)
+  {
+    dealii::Tensor<1, dim> value;
+    for (unsigned int d = 0; d < dim; ++d)
+      value[d] = field.local_element(dim * node + d);
+    return value;
+  }
+
   /**
    * The space of velocities: scalar shape functions, the same for all components.
    * Its face to everything below is "cell -> nodes" and "cell, unit point -> N,

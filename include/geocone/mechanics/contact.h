@@ -81,8 +81,8 @@ namespace geocone
   /** What may touch in a step. */
   struct ContactStep
   {
-    /** All of this rank, with ghosts; in a corner two of the same node, the nearer one
-     *  first. */
+    /** All of this rank, with ghosts; in a corner two of the same node, one after the
+     *  other, the nearer one first, with normals that are not parallel. */
     std::vector<ContactNode>  nodes;
     std::vector<ObstacleBody> bodies; ///< the obstacles
     bool has_pairs = false;           ///< whether bodies may touch, on any rank
@@ -287,9 +287,9 @@ namespace geocone
     Force
     velocity_of_partners(const ContactNode &node, const Vector &v) const;
 
-    /** Makes pairs of entries of the same node corners. */
-    void
-    make_corners();
+    /** Makes two entries of the same node, whose normals are not parallel, a corner. */
+    static void
+    make_corner(ContactNode &a, ContactNode &b);
 
     /** Adds P' r to the rows of other bodies. Collective. */
     void
@@ -316,6 +316,10 @@ namespace geocone
     std::vector<double>
     sums_of_nodes(const std::vector<Local> &locals, const MPI_Comm comm) const;
 
+    /** Combines the rows of a node by A. */
+    void
+    combine_rows(const unsigned int node, SparseMatrix &matrix) const;
+
     /** What free obstacles add to the Jacobian. @param matrix before linearise() */
     LowRank
     low_rank(const SparseMatrix &matrix) const;
@@ -324,13 +328,12 @@ namespace geocone
     std::vector<ContactNode> list;
     std::vector<Touch>       touch;
     std::vector<Matrix>      rho_Q; ///< of owned ones
-    std::array<Vector, dim>
-                    row_A; ///< 1 - Q by component of F, at the node's dofs
-    ObstacleMotions obstacles;
-    bool            has_pairs  = false; ///< of bodies, on any rank
-    double          body_error = 0.;    ///< of their equilibrium (N/m)
-    bool            rubs       = true;  ///< in the last replace()
-    bool            relaxed    = false; ///< since the last replace()
+    std::array<Vector, dim>  row_A; ///< A by component of F, at the node's dofs
+    ObstacleMotions          obstacles;
+    bool                     has_pairs  = false; ///< of bodies, on any rank
+    double                   body_error = 0.;    ///< of their equilibrium (N/m)
+    bool                     rubs       = true;  ///< in the last replace()
+    bool                     relaxed    = false; ///< since the last replace()
   };
 } // namespace geocone
 

@@ -184,7 +184,7 @@ namespace geocone
       double      gap;
       double      reach; ///< what the gap may be to be closed in the step (m)
     };
-    /** @param u_n relative velocity at the beginning of the step, of h */
+    /** Near::reach. @param u_n relative velocity at the beginning of the step, of h */
     double
     reach(const double h, const double u_n) const;
 

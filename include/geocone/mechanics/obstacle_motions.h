@@ -6,8 +6,6 @@
 
 #include <geocone/scene/rigid_motion.h>
 
-#include <deal.II/base/mpi.h>
-
 #include <Eigen/Dense>
 
 #include <array>

@@ -136,6 +136,10 @@ namespace geocone
     }
 
   private:
+    /** What has left the body with a part of it. */
+    void
+    remove(const Energies &energies);
+
     Energies at_start, last;
     Works    done; ///< since the start
     double lost = 0., least_step_loss = 0., largest_loss = 0., kinetic_max = 0.,

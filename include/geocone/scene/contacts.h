@@ -69,7 +69,7 @@ namespace geocone
     unsigned int
     body_of(const unsigned int material) const
     {
-      return list.empty() ? 0 : body[material];
+      return body[material];
     }
 
     /** 1 without contacts. */

@@ -123,6 +123,10 @@ namespace geocone
     Energies                 before, after; ///< what is there of them
   };
 
+  /** By number what each material becomes in a stage, itself or another one. */
+  std::vector<unsigned int>
+  materials_after(const Stage &stage, const Materials &materials);
+
   /** Points of materials that become others do: with their stresses, from which their
    *  histories begin, and by their volumes. Collective.
    *  @return remarks @throws StepFailure if there is none of a material */

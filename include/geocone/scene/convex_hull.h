@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef geocone_base_convex_hull_h
-#define geocone_base_convex_hull_h
+#ifndef geocone_scene_convex_hull_h
+#define geocone_scene_convex_hull_h
 
 #include <geocone/base/types.h>
 

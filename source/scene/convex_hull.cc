@@ -1,7 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/base/convex_hull.h>
+#include <geocone/scene/convex_hull.h>
+#include <geocone/scene/geometry.h>
 
 #include <algorithm>
 #include <limits>
@@ -18,16 +19,6 @@ namespace geocone
     area(const Point<dim> &a, const Point<dim> &b, const Point<dim> &c)
     {
       return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-    }
-
-    Point<dim>
-    nearest_on(const Point<dim> &x, const Point<dim> &a, const Point<dim> &b)
-    {
-      const Tensor<1, dim> edge   = b - a;
-      const double         square = edge.norm_square();
-      return square > 0.
-               ? a + std::clamp((x - a) * edge / square, 0., 1.) * edge
-               : a;
     }
   } // namespace
 
@@ -73,8 +64,8 @@ namespace geocone
         for (std::size_t i = 0; i < edges.size(); ++i)
           {
             const Tensor<1, dim> way =
-              sign *
-              (x - nearest_on(x, edges[i], edges[(i + 1) % edges.size()]));
+              sign * (x - nearest_on_segment(
+                            x, edges[i], edges[(i + 1) % edges.size()]));
             if (way.norm() < least)
               {
                 least    = way.norm();
