@@ -44,8 +44,7 @@ namespace geocone
     bool
     is_started_alone()
     {
-      for (const char *name :
-           {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"})
+      for (const char *name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"})
         if (std::getenv(name))
           return false;
       return true;
@@ -199,8 +198,10 @@ namespace geocone
   }
 
   int
-  run_program(int argc, char **argv, const std::function<int(Drawing &)> &run)
+  run_program(char **argv, const std::function<int(Drawing &)> &run)
   {
+    // PETSc and Kokkos, which deal.II may start, would take our options for theirs.
+    int     n_arguments_for_libraries = 1;
     Watcher watcher;
     Drawing drawing;
     int     status = 1;
@@ -213,7 +214,8 @@ namespace geocone
         setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
       }
     {
-      dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+      dealii::Utilities::MPI::MPI_InitFinalize mpi(
+        n_arguments_for_libraries, argv, 1);
       watch_for_signals();
       const bool first =
         dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;

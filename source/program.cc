@@ -224,6 +224,6 @@ namespace geocone
   run_geocone(int argc, char **argv)
   {
     return run_program(
-      argc, argv, [&](Drawing &drawing) { return run(argc, argv, drawing); });
+      argv, [&](Drawing &drawing) { return run(argc, argv, drawing); });
   }
 } // namespace geocone
