@@ -26,7 +26,12 @@ namespace geocone
     static auto
     of(T &x)
     {
-      return x.begin_raw();
+      // The rows of a tensor of second order stand one after another.
+      static_assert(sizeof(T) == n * sizeof(double));
+      if constexpr (T::rank == 1)
+        return &x[0];
+      else
+        return &x[0][0];
     }
   };
   template <>
