@@ -41,6 +41,7 @@ namespace geocone
     , space(space)
     , comm(mesh.triangulation().get_communicator())
   {
+    node_positions = &space.node_positions();
     // Per local dof the conditions that prescribe it; the last one holds it.
     const auto &list = scene.dirichlet.list;
     std::map<unsigned int, std::vector<unsigned int>> of_dof;

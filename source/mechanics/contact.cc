@@ -19,9 +19,6 @@ namespace geocone
   {
     constexpr unsigned int n_motions = RigidMotion::n_components;
 
-    /** A support's free direction counts as the normal up to here (10 degrees). */
-    const double along = std::cos(radians(10.));
-
     /** Of twins, which are held alike, any direction does that is not this near to a right
      *  angle. */
     constexpr double hardly = 0.1;
@@ -141,7 +138,7 @@ namespace geocone
         const unsigned int direction = free_direction(node.node);
         if (direction == 3 ||
             (direction < 2 && std::abs(node.normal[direction]) <
-                                (node.is_twin ? hardly : along)))
+                                (node.is_twin ? hardly : along_support)))
           {
             if (node.touches_body() && !node.is_twin)
               throw StepFailure(

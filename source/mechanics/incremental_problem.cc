@@ -107,7 +107,7 @@ namespace geocone
         sums[square] = free_dot(dst, dst);
       }
     ResidualReport report;
-    report.force_norm =
+    report.force_norm = force_norm =
       std::sqrt(*std::max_element(sums.begin() + first_size, sums.end()));
     report.norm        = std::sqrt(sums[square]);
     report.n_cone      = sums[0];
@@ -158,6 +158,59 @@ namespace geocone
     return matrix;
   }
 
+  NodalRows
+  IncrementalProblem::nodal_rows() const
+  {
+    NodalRows rows;
+    rows.layout               = layout;
+    const unsigned int n_dofs = layout->locally_owned_size();
+    for (unsigned int i = 0; i < unknowns.free_row.size(); ++i)
+      if (unknowns.is_free(i))
+        rows.dof.push_back(layout->local_to_global(i));
+
+    const auto add = [&](const auto &velocity) {
+      std::vector<double> values(n_dofs);
+      for (unsigned int i = 0; i < n_dofs; ++i)
+        values[i] = velocity(i / dim, i % dim);
+      for (const Unknowns::TurnedNode &turned : unknowns.turned_nodes)
+        if (dim * turned.node < n_dofs)
+          {
+            double      *at = &values[dim * turned.node];
+            const double x = at[0], y = at[1];
+            at[0] = turned.n_x * x + turned.n_y * y;
+            at[1] = turned.n_x * y - turned.n_y * x;
+          }
+      for (unsigned int i = 0; i < n_dofs; ++i)
+        if (!unknowns.is_free(i))
+          values[i] = 0.;
+      rows.rigid_motions.push_back(std::move(values));
+    };
+    for (unsigned int d = 0; d < dim; ++d)
+      add([&](const unsigned int, const unsigned int component) {
+        return component == d ? 1. : 0.;
+      });
+    if (unknowns.node_positions == nullptr)
+      return rows;
+    const std::vector<Point<dim>> &places = *unknowns.node_positions;
+    Tensor<1, dim>                 sum;
+    for (unsigned int node = 0; node < n_dofs / dim; ++node)
+      sum += places[node];
+    const Point<dim> centre(
+      Utilities::MPI::sum(sum, layout->get_mpi_communicator()) /
+      (layout->size() / double(dim)));
+    for (unsigned int r = 0; r < n_rotations; ++r)
+      {
+        const auto [a, b] = plane_of_rotation[r];
+        add([&, a = a, b = b](const unsigned int node,
+                              const unsigned int component) {
+          return component == a   ? centre[b] - places[node][b]
+                 : component == b ? places[node][a] - centre[a]
+                                  : 0.;
+        });
+      }
+    return rows;
+  }
+
   bool
   IncrementalProblem::needs_pattern() const
   {
@@ -173,6 +226,20 @@ namespace geocone
     for (const Term *term : terms)
       term->linearise(pattern, blend, matrix);
     return contact_term ? contact_term->linearise(pattern, matrix) : LowRank();
+  }
+
+  double
+  IncrementalProblem::unbalanced_share(const Vector &v)
+  {
+    double share = 0.;
+    if (inertia && force_norm > 0.)
+      {
+        inertia->residual(part, v, {});
+        share = std::sqrt(free_dot(part, part)) / force_norm;
+      }
+    return contact_term
+             ? std::max(share, contact_term->motions().unbalanced_share())
+             : share;
   }
 
   void

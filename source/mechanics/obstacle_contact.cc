@@ -26,16 +26,31 @@ namespace geocone
 
     /** Normals with a larger cosine between them count as one (10 degrees). */
     const double parallel = std::cos(radians(10.));
+
+    constexpr char of_corner[] = "\n  remedy:  hold one of the sides by a "
+                                 "boundary condition, or leave the "
+                                 "corner out of the body";
+
+    /** A node that comes nearer faster than u_N = least hits in this step. */
+    void
+    rebound(const double u_n, const InterfaceLaw &law, ContactNode &node)
+    {
+      if (!node.rebounds || u_n >= 0. || u_n >= node.least)
+        return;
+      node.impact = u_n;
+      node.least  = -law.restitution * u_n;
+    }
   } // namespace
 
   ObstacleContact::ObstacleContact(const Scene          &scene,
                                    const BackgroundMesh &mesh,
                                    const Space          &space,
-                                   const bool            mesh_is_body)
+                                   const Unknowns       *supports)
     : scene(scene)
     , space(space)
     , comm(mesh.triangulation().get_communicator())
-    , mesh_is_body(mesh_is_body)
+    , mesh_is_body(supports != nullptr)
+    , supports(supports)
     , displacement(scene.obstacles.list.size())
     , velocity(scene.obstacles.list.size())
   {
@@ -94,6 +109,17 @@ namespace geocone
     return x;
   }
 
+  bool
+  ObstacleContact::is_held(const unsigned int    node,
+                           const Tensor<1, dim> &normal) const
+  {
+    Tensor<1, dim> free;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (supports->is_free(dim * node + d))
+        free[d] = normal[d];
+    return free.norm() < along_support;
+  }
+
   ContactStep
   ObstacleContact::begin(const Vector              &velocity_n,
                          const double               t,
@@ -116,8 +142,9 @@ namespace geocone
         for (unsigned int k = 0; k < RigidMotion::n_components; ++k)
           if (obstacle.is_free(k))
             {
-              body.is_free[k] = true;
-              body.inertia[k] = obstacle.inertia(k) / solved_h;
+              body.is_free[k]    = true;
+              body.inertia[k]    = obstacle.inertia(k) / solved_h;
+              body.velocity_n[k] = velocity[o][k];
               body.without_contact[k] =
                 velocity[o][k] + force[k] / body.inertia[k];
             }
@@ -167,12 +194,11 @@ namespace geocone
         contact.least    = -gap / h;
         contact.velocity = v - u;
         const double u_n = u * contact.normal;
-        if (contact.rebounds && u_n < 0. && u_n < contact.least)
-          contact.least =
-            -scene.contacts
-               .list[contact.obstacle - scene.obstacles.list.size()]
-               ->law.restitution *
-            u_n;
+        rebound(
+          u_n,
+          scene.contacts.list[contact.obstacle - scene.obstacles.list.size()]
+            ->law,
+          contact);
         near[contact.node] = {contact, gap, reach(h, u_n)};
       }
     return near;
@@ -197,7 +223,23 @@ namespace geocone
             const Tensor<1, dim>    arm = x - centre(o);
             const Tensor<1, dim>    V = step.bodies[o].without_contact.at(arm);
             const Obstacle::Nearest at =
-              list[o]->nearest(x, displacement[o], V - v);
+              list[o]->slides_little()
+                ? list[o]->nearest_to_start(space.node_positions()[node],
+                                            x,
+                                            displacement[o],
+                                            h * (V - v))
+                : list[o]->nearest(x, displacement[o], V - v);
+            if (mesh_is_body && at.distance < -closed_gap * size &&
+                is_held(node, at.normal))
+              refusal =
+                format("the obstacle '%s' enters the node at (%g, %g), "
+                       "which a boundary condition holds, by %.3g m"
+                       "\n  remedy:  end the condition before it ('Box'), "
+                       "or move the obstacle less",
+                       list[o]->name.c_str(),
+                       x[0],
+                       x[1],
+                       -at.distance);
             // Of a background mesh only what is in or on the obstacle: the others
             // are of the body, and may come as near as they like.
             if (!mesh_is_body && at.distance > closed_gap * size)
@@ -217,10 +259,8 @@ namespace geocone
               mesh_is_body ? length.local_element(dim * node) : 0.;
             contact.adhesion = list[o]->law.adhesion * contact.length;
             contact.rebounds = list[o]->law.restitution > 0.;
-            // Faster than that it would hit the obstacle in this step.
             const double u_n = (v - V) * at.normal;
-            if (contact.rebounds && u_n < 0. && u_n < contact.least)
-              contact.least = -list[o]->law.restitution * u_n;
+            rebound(u_n, list[o]->law, contact);
             near.push_back({contact, gap, reach(h, u_n)});
           }
         if (const auto other = bodies.find(node); other != bodies.end())
@@ -229,9 +269,7 @@ namespace geocone
       }
     refusal = text_of_any_rank(comm, refusal);
     if (!refusal.empty())
-      throw StepFailure(refusal +
-                        "\n  remedy:  hold one of the sides by a boundary "
-                        "condition, or leave the corner out of the body");
+      throw StepFailure(refusal);
   }
 
   void
@@ -261,17 +299,24 @@ namespace geocone
           is_free = is_free || (!at->contact.touches_body() &&
                                 step.bodies[at->contact.obstacle].n_free() > 0);
         if (taken.size() > 2)
-          refusal = format(
-            "the node at (%g, %g) touches three things at once", x[0], x[1]);
+          refusal =
+            format("the node at (%g, %g) touches three things at once%s",
+                   x[0],
+                   x[1],
+                   of_corner);
         else if (taken[0]->contact.normal * taken[1]->contact.normal <
                  -parallel)
-          refusal = format(
-            "the node at (%g, %g) is squeezed between two things", x[0], x[1]);
+          refusal =
+            format("the node at (%g, %g) is squeezed between two things%s",
+                   x[0],
+                   x[1],
+                   of_corner);
         else if (is_free)
           refusal = format("the node at (%g, %g) touches a free obstacle and "
-                           "something else at once",
+                           "something else at once%s",
                            x[0],
-                           x[1]);
+                           x[1],
+                           of_corner);
       }
     for (const Near *at : taken)
       step.nodes.push_back(at->contact);
@@ -293,9 +338,9 @@ namespace geocone
                           const Vector  &v,
                           const double   h) const
   {
-    // Open, stick, slip, work, dissipation, width, size of F, width that sticks;
-    // error, penetration, pressure, shear.
-    std::array<double, 8> sums  = {};
+    // Open, stick, slip, work, dissipation, width, size of F, width that sticks, work
+    // of rebounds; error, penetration, pressure, shear.
+    std::array<double, 9> sums  = {};
     std::array<double, 4> most  = {};
     const auto           &nodes = contact.nodes();
     for (unsigned int i = 0; i < nodes.size(); ++i)
@@ -332,6 +377,9 @@ namespace geocone
         // A pair of bodies does no work but what friction and impact take.
         sums[3] += h * (r * (nodes[i].touches_body() ? relative : u));
         sums[4] -= h * (r * relative);
+        if (nodes[i].impact < 0.)
+          sums[8] += h * (r * nodes[i].normal) *
+                     (nodes[i].impact - relative * nodes[i].normal) / 2.;
       }
     sum_over_ranks(sums, comm);
     Utilities::MPI::max(ArrayView<const double>(most.data(), most.size()),
@@ -347,6 +395,7 @@ namespace geocone
     report.penetration = most[1];
     report.width       = sums[5];
     report.stick_width = sums[7];
+    report.of_rebound  = sums[8];
     report.pressure    = most[2];
     report.shear       = most[3];
     return report;

@@ -141,6 +141,26 @@ namespace geocone
       });
   }
 
+  double
+  ObstacleMotions::unbalanced_share() const
+  {
+    double largest = 0.;
+    for (unsigned int o = 0; o < bodies.size(); ++o)
+      {
+        const ObstacleBody &body    = bodies[o];
+        double              inertia = 0., loads = 0.;
+        for_free(o, [&](const unsigned int k, const unsigned int) {
+          const double change = motion[o][k] - body.velocity_n[k],
+                       free   = body.without_contact[k] - body.velocity_n[k];
+          inertia += body.inertia[k] * change * change;
+          loads += body.inertia[k] * free * free;
+        });
+        if (loads > 0.)
+          largest = std::max(largest, std::sqrt(inertia / loads));
+      }
+    return largest;
+  }
+
   void
   ObstacleMotions::change(const Eigen::VectorXd &by)
   {

@@ -69,7 +69,10 @@ namespace geocone
         stage.largest_unbalanced_force,
         "Explicit MPM: the stage must end in equilibrium, with no node's "
         "unbalanced force larger than this part of the weight of the body, "
-        "e.g. 1e-3; 0: not tested.");
+        "e.g. 1e-3; 0: not tested. FEM and MPM with a 'Strength factor' and "
+        "'Until failure' = true: a step is solved only if inertia takes at "
+        "most this part of the largest forces, as soil that accelerates is "
+        "no stable one; 0: 1e-3.");
       stage.add_parameter(
         "Largest kinetic energy",
         stage.largest_kinetic_energy,
@@ -364,6 +367,22 @@ namespace geocone
                   "subsection of that name.");
     for (const std::string &stage : names)
       stages.push_back(std::make_unique<Stage>(stage));
+  }
+
+  std::string
+  Stage::no_equilibrium(const double unbalanced_share) const
+  {
+    const double most =
+      largest_unbalanced_force > 0. ? largest_unbalanced_force : 1e-3;
+    return unbalanced_share <= most
+             ? ""
+             : format(
+                 "this is no equilibrium: inertia takes %.3g of the largest "
+                 "forces, more than %.3g ('Loading/%s/Largest unbalanced "
+                 "force')",
+                 unbalanced_share,
+                 most,
+                 name.c_str());
   }
 
   bool

@@ -41,6 +41,12 @@ namespace geocone
       ". What is behind a line ('Point', 'Normal'), inside a circle "
       "('Point' is its centre, 'Radius') or inside a convex polygon "
       "('Vertices').");
+    sliding.declare(
+      *this,
+      "Sliding",
+      " along it. Small (FEM): nodes keep the place on its boundary that they "
+      "faced at the start, so that none slides off its edge, as strains are "
+      "small, too; its load on a smooth footing is that of its full width.");
     add_parameter("Point",
                   place,
                   "A point x, y (m) of the line of a half-plane, or the centre "
@@ -204,6 +210,23 @@ namespace geocone
     for (const Point<dim> &vertex : vertices)
       mean += vertex / double(vertices.size());
     return mean;
+  }
+
+  Obstacle::Nearest
+  Obstacle::nearest_to_start(const Point<dim>     &start,
+                             const Point<dim>     &x,
+                             const RigidMotion    &moved,
+                             const Tensor<1, dim> &step) const
+  {
+    const Point<dim> X = centre();
+    const Point<dim> now(X + turned(x - X - moved.centre, -moved.angle));
+    // At a vertex it faces the side that has come, or comes, against it.
+    const Tensor<1, dim> approach = start - now + turned(step, -moved.angle);
+    const Tensor<1, dim> normal   = nearest(start, {}, approach).normal;
+    Nearest              found    = nearest(
+      Point<dim>(start + ((now - start) * normal) * normal), {}, approach);
+    found.normal = turned(found.normal, moved.angle);
+    return found;
   }
 
   Obstacle::Nearest

@@ -24,7 +24,8 @@ namespace geocone
     name.declare(*this,
                  "Name",
                  ". Automatic: Cholmod for associated flow on one rank, "
-                 "otherwise Mumps.");
+                 "otherwise Mumps. Multigrid takes less memory in three "
+                 "dimensions.");
     index_size.declare(*this,
                        "Index size",
                        ": bits of the integers that count the entries of "
@@ -38,20 +39,43 @@ namespace geocone
                   folder,
                   "Where, on a disk of each rank's machine. The files go when "
                   "the run ends.");
+    add_parameter("Tolerance",
+                  tolerance,
+                  "Of multigrid: the residual over the right-hand side.",
+                  prm,
+                  dealii::Patterns::Double(1e-14, 0.1));
+    add_parameter("Maximum iterations",
+                  max_iterations,
+                  "Of multigrid, after which a system goes to a direct solver.",
+                  prm,
+                  dealii::Patterns::Integer(1));
   }
 
   std::unique_ptr<LinearSolver>
   LinearSolverParameters::make(const MPI_Comm comm, const bool symmetric) const
   {
+    if (name != Name::multigrid)
+      return make_direct(name.get(), comm, symmetric);
+    return make_multigrid(comm,
+                          symmetric,
+                          tolerance,
+                          max_iterations,
+                          make_direct(Name::automatic, comm, symmetric));
+  }
+
+  std::unique_ptr<LinearSolver>
+  LinearSolverParameters::make_direct(Name           chosen,
+                                      const MPI_Comm comm,
+                                      const bool     symmetric) const
+  {
     const bool serial = dealii::Utilities::MPI::n_mpi_processes(comm) == 1;
-    Name       chosen = name.get();
     if (chosen == Name::automatic)
       chosen =
         serial && symmetric && !out_of_core ? Name::cholmod : Name::mumps;
     if (chosen != Name::mumps && !serial)
       throw InputError("Linear solver/Name",
                        name.word(),
-                       "automatic | Mumps on several ranks",
+                       "automatic | Mumps | multigrid on several ranks",
                        "take automatic, or one rank");
     if (out_of_core && dealii::Utilities::MPI::logical_or(
                          access(folder.c_str(), W_OK | X_OK) != 0, comm))

@@ -29,8 +29,11 @@ namespace geocone
                         next.global_index != matrix.global_index;
     matrix      = std::move(next);
     has_pattern = true;
-    if (dealii::Utilities::MPI::max(changes, comm) > 0)
-      solver->analyse(matrix);
+    if (dealii::Utilities::MPI::max(changes, comm) == 0)
+      return;
+    if (solver->wants_nodal_rows())
+      solver->set_nodal_rows(problem.nodal_rows());
+    solver->analyse(matrix);
   }
 
   bool

@@ -92,7 +92,8 @@ namespace geocone
           });
       }
     constraints = std::make_unique<Constraints>(*scene, mesh_, space_);
-    obstacles = std::make_unique<ObstacleContact>(*scene, mesh_, space_, true);
+    obstacles   = std::make_unique<ObstacleContact>(
+      *scene, mesh_, space_, constraints.get());
     kinematics.velocity.reinit(space_.partitioner());
     kinematics.displacement.reinit(space_.partitioner());
     kinematics.supports.resize(scene->supports().size());
@@ -426,9 +427,12 @@ namespace geocone
     StepReport report;
     Vector     residual = problem->make_vector();
     Vector     v        = velocity_n;
-    report.newton    = newton.solve(*problem, *system, timer, v, residual, {});
-    report.converged = report.newton.converged;
-    freezer.take(*problem, velocity_n, false, report.converged);
+    report.newton = newton.solve(*problem, *system, timer, v, residual, {});
+    freezer.take(*problem, velocity_n, false, report.newton.converged);
+    if (const Stage &stage = scene->loading.stage_at(t + h / 2.);
+        stage.seeks_equilibrium() && report.newton.converged)
+      report.newton.reason = stage.no_equilibrium(problem->unbalanced_share(v));
+    report.converged = report.newton.converged && report.newton.reason.empty();
     if (!report.converged)
       return report;
 
@@ -461,7 +465,8 @@ namespace geocone
     // Friction takes of the work what it does not give to the body.
     works.external += report.contact.dissipation;
     report.contact.dissipation += update_kinematics(step, v, kinematics);
-    works.contact_dissipation = report.contact.dissipation;
+    works.contact_dissipation =
+      report.contact.dissipation - report.contact.of_rebound;
     if (obstacles->exists())
       {
         for (const Reaction &reaction :

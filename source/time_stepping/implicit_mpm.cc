@@ -122,6 +122,12 @@ namespace geocone
                        "the midpoint rule would let bodies enter what they "
                        "touch");
     for (const auto &obstacle : scene->obstacles.list)
+      if (obstacle->slides_little())
+        throw InputError(obstacle->parameter("Sliding"),
+                         "small",
+                         "finite with MPM",
+                         "particles are where they are: leave it out");
+    for (const auto &obstacle : scene->obstacles.list)
       if (obstacle->law.adhesion > 0.)
         throw InputError(obstacle->parameter("Adhesion"),
                          obstacle->law.adhesion,
@@ -220,7 +226,8 @@ namespace geocone
     constraints = std::make_unique<Constraints>(*scene, *mesh, *space);
     absorbing =
       std::make_unique<AbsorbingBoundary>(*scene, *mesh, *space, true);
-    obstacles = std::make_unique<ObstacleContact>(*scene, *mesh, *space, false);
+    obstacles =
+      std::make_unique<ObstacleContact>(*scene, *mesh, *space, nullptr);
     if (!scene->contacts.list.empty())
       bodies.emplace(*scene, *mesh, *space);
     check_contact(points);
@@ -577,6 +584,9 @@ namespace geocone
     const Multipliers::LightShare share =
       constraints->multipliers.light_share(v, lumped_mass, *space);
     report.newton.reason = objection(share);
+    if (const Stage &stage = scene->loading.stage_at(t + h / 2.);
+        stage.seeks_equilibrium() && report.newton.reason.empty())
+      report.newton.reason = stage.no_equilibrium(problem->unbalanced_share(v));
     if (report.newton.reason.empty())
       report.newton.reason = transfer(points, v_end, v, h, moved);
     if (!report.newton.reason.empty())

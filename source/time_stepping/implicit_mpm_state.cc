@@ -270,8 +270,9 @@ namespace geocone
                             report.contact.dissipation;
     report.works.of_memory =
       (step.h / step.solved_h) * problem->internal_forces().memory_work();
-    report.works.contact_dissipation = report.contact.dissipation;
-    report.works.of_ghosts           = (step.h / step.solved_h) * ghost_work;
+    report.works.contact_dissipation =
+      report.contact.dissipation - report.contact.of_rebound;
+    report.works.of_ghosts = (step.h / step.solved_h) * ghost_work;
   }
 
   double

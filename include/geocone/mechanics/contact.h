@@ -15,12 +15,17 @@
 #include <Eigen/Dense>
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace geocone
 {
   /** A gap that counts as none, over the size of a cell. */
   constexpr double closed_gap = 1e-9;
+
+  /** A node of which a support holds one direction touches along the other one, if its
+   *  cosine with the normal is larger (10 degrees). */
+  const double along_support = std::cos(radians(10.));
 
   /** A node that may touch an obstacle, or another body, in a step. */
   struct ContactNode
@@ -52,6 +57,9 @@ namespace geocone
      *  where the node rebounds (m/s). */
     double least    = 0.;
     bool   rebounds = false; ///< whether e > 0
+
+    /** Of a node that hits in this step and rebounds: its u_N at the beginning. */
+    double impact = 0.;
 
     /** Of a corner, where a node is in two contacts with other normals n and m: the part
      *  of its force that is this one's, n k' with k.n = 1, k.m = 0; else the identity. */

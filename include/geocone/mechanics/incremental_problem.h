@@ -9,6 +9,7 @@
 #include <geocone/mechanics/ghost_stiffness.h>
 #include <geocone/mechanics/inertia.h>
 #include <geocone/mechanics/internal_forces.h>
+#include <geocone/mechanics/nodal_rows.h>
 
 #include <memory>
 #include <optional>
@@ -173,6 +174,10 @@ namespace geocone
     SparseMatrix
     make_pattern(const bool one_triangle);
 
+    /** What the rows of the Jacobian stand for. Collective. */
+    NodalRows
+    nodal_rows() const;
+
     /** Whether other nodes meet in the step's Jacobian than in the last pattern.
      *  Collective where there is contact. */
     bool
@@ -185,6 +190,15 @@ namespace geocone
      */
     LowRank
     linearise(SparseMatrix &matrix, const double elastic_blend = 0.) const;
+
+    /**
+     * How far the step is from a static equilibrium: |M (v - vL)/h| over the free
+     * rows and the norm of the largest force of the last residual(), or the share of
+     * inertia in the forces of a free obstacle, if that is more; 0 without inertia.
+     * Collective. @param v with ghosts
+     */
+    double
+    unbalanced_share(const Vector &v);
 
     /** dst = (dR/dv) dv in all rows, at the last residual(). */
     void
@@ -342,6 +356,7 @@ namespace geocone
     Vector          part;             ///< of a term in residual()
     Vector          elastic_diagonal; ///< of the present h, or empty
     Eigen::VectorXd lambda;
+    double          force_norm = 0.; ///< of the last residual()
     JacobianPattern pattern;
 
     using Links = std::vector<std::vector<unsigned int>>;

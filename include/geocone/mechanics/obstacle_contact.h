@@ -30,6 +30,11 @@ namespace geocone
     double work        = 0.; ///< of the step, of the forces on the body (J/m)
     double dissipation = 0.; ///< of the step, of friction and impact (J/m)
 
+    /** What the force of an impact on a node that rebounds does at the mean of its
+     *  velocities before and after, over what it does at the last one, which work and
+     *  dissipation count (J/m, not positive). */
+    double of_rebound = 0.;
+
     void
     take_worse(const ContactReport &other)
     {
@@ -63,11 +68,13 @@ namespace geocone
   class ObstacleContact
   {
   public:
-    /** @throws InputError if the body overlaps with an obstacle. Collective. */
+    /** @param supports of a mesh that is the body, which has to stay; null where
+     *  particles are
+     *  @throws InputError if the body overlaps with an obstacle. Collective. */
     ObstacleContact(const Scene          &scene,
                     const BackgroundMesh &mesh,
                     const Space          &space,
-                    const bool            mesh_is_body);
+                    const Unknowns       *supports);
 
     /** Whether there are obstacles, or bodies that may touch each other. */
     bool
@@ -160,10 +167,17 @@ namespace geocone
     /** @} */
 
   private:
-    const Scene   &scene;
-    const Space   &space;
-    const MPI_Comm comm;
-    const bool     mesh_is_body;
+    const Scene    &scene;
+    const Space    &space;
+    const MPI_Comm  comm;
+    const bool      mesh_is_body;
+    const Unknowns *supports;
+
+    /** Whether boundary conditions hold a node of the mesh against something with this
+     *  normal. */
+    bool
+    is_held(const unsigned int            node,
+            const dealii::Tensor<1, dim> &normal) const;
 
     /** Where a node of the body is, or of the background mesh. */
     dealii::Point<dim>

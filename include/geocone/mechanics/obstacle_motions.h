@@ -22,7 +22,8 @@ namespace geocone
 
     std::array<bool, RigidMotion::n_components> is_free = {};
 
-    RigidMotion inertia; ///< M/h of what is free
+    RigidMotion inertia;    ///< M/h of what is free
+    RigidMotion velocity_n; ///< of what is free, at the start
 
     unsigned int
     n_free() const
@@ -111,6 +112,12 @@ namespace geocone
      *  forces of nodes: M/h (y - y_0). */
     void
     balance(Eigen::VectorXd &inertia, Eigen::VectorXd &lack) const;
+
+    /** The largest share of inertia in the forces of a free obstacle,
+     *  |M (y - y_n)/h| over |M (y_0 - y_n)/h|, its own loads, both in the metric of
+     *  M^-1, where forces and moments are alike. */
+    double
+    unbalanced_share() const;
 
     /** Changes the velocities from which the next find() begins. */
     void

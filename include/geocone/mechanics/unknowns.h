@@ -6,6 +6,8 @@
 
 #include <geocone/mechanics/multipliers.h>
 
+#include <deal.II/base/point.h>
+
 #include <vector>
 
 namespace geocone
@@ -63,6 +65,9 @@ namespace geocone
       double       n_x, n_y;
     };
     std::vector<TurnedNode> turned_nodes;
+
+    /** Where the local nodes are; null in a problem that is replayed. */
+    const std::vector<dealii::Point<dim>> *node_positions = nullptr;
   };
 } // namespace geocone
 

@@ -59,6 +59,19 @@ namespace geocone
     /** Whether the first step that cannot be solved ends the run as wanted. */
     bool until_failure = false;
 
+    /** Whether steps of implicit runs count only if they are in static equilibrium:
+     *  the strength is divided until failure. */
+    bool
+    seeks_equilibrium() const
+    {
+      return strength_factor > 0. && until_failure;
+    }
+
+    /** Why a step is no equilibrium: inertia is more than a part of the largest
+     *  forces. Empty: it is one. */
+    std::string
+    no_equilibrium(const double unbalanced_share) const;
+
     /** @name Loads that are raised: tractions by their names, and "weight". What they
      *  exert is multiplied by a factor that is unknown; given is the mean velocity at
      *  which they do their work (m/s) */

@@ -57,6 +57,18 @@ namespace geocone
             const RigidMotion            &moved,
             const dealii::Tensor<1, dim> &approach) const;
 
+    /**
+     * The same of a point of a body that slides little: its distance along the normal
+     * of the place that it had at the start (m), in the frame of the obstacle.
+     * @param start where the point was at the start
+     * @param step how far the obstacle may pass it in a step (m)
+     */
+    Nearest
+    nearest_to_start(const dealii::Point<dim>     &start,
+                     const dealii::Point<dim>     &x,
+                     const RigidMotion            &moved,
+                     const dealii::Tensor<1, dim> &step) const;
+
     /** Its velocity at time t where it is driven, else 0. */
     RigidMotion
     velocity(const double t) const;
@@ -83,6 +95,14 @@ namespace geocone
     /** The given forces at time t, without weight. */
     RigidMotion
     load(const double t) const;
+
+    /** Whether nodes keep the place on it that they first faced along its boundary: for
+     *  slips that are small beside it, as strains are. */
+    bool
+    slides_little() const
+    {
+      return sliding == Sliding::small;
+    }
 
     /** Its greatest width, infinite for a half-plane (m). */
     double
@@ -116,6 +136,15 @@ namespace geocone
     Choice<Shape> shape = {{{"half-plane", Shape::half_plane},
                             {"disc", Shape::disc},
                             {"polygon", Shape::polygon}}};
+
+    enum class Sliding
+    {
+      finite,
+      small
+    };
+
+    Choice<Sliding> sliding = {
+      {{"finite", Sliding::finite}, {"small", Sliding::small}}};
 
     dealii::Point<dim>              place;
     dealii::Tensor<1, dim>          normal = dealii::Point<dim>(0., 1.);

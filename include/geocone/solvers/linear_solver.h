@@ -6,6 +6,7 @@
 
 #include <geocone/base/choice.h>
 #include <geocone/base/sparse_matrix.h>
+#include <geocone/mechanics/nodal_rows.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
@@ -16,8 +17,8 @@
 namespace geocone
 {
   /**
-   * A sparse direct solver. analyse() once per pattern, factorise() once per
-   * matrix, solve() once per right-hand side.
+   * A solver of sparse linear systems. analyse() once per pattern, factorise() once
+   * per matrix, which is kept until the last solve() with it.
    */
   class LinearSolver
   {
@@ -43,6 +44,17 @@ namespace geocone
     virtual void
     solve(std::vector<double> &x, const unsigned int n_columns = 1) = 0;
 
+    /** Whether it wants set_nodal_rows() before analyse(). */
+    virtual bool
+    wants_nodal_rows() const
+    {
+      return false;
+    }
+
+    virtual void
+    set_nodal_rows(NodalRows)
+    {}
+
     /** Whether it takes the lower triangle of a symmetric matrix only. */
     virtual bool
     wants_one_triangle() const = 0;
@@ -66,12 +78,14 @@ namespace geocone
       automatic,
       cholmod,
       umfpack,
-      mumps
+      mumps,
+      multigrid
     };
     Choice<Name> name = {{{"automatic", Name::automatic},
                           {"Cholmod", Name::cholmod},
                           {"Umfpack", Name::umfpack},
-                          {"Mumps", Name::mumps}}};
+                          {"Mumps", Name::mumps},
+                          {"multigrid", Name::multigrid}}};
 
     /** Of the integers that count the entries of Cholmod's factors. */
     enum class IndexSize
@@ -88,18 +102,29 @@ namespace geocone
     bool        out_of_core = false;
     std::string folder      = "/tmp";
 
+    /** Of multigrid: the residual over the right-hand side, and how many
+     *  iterations it may take to get there. */
+    double       tolerance      = 1e-6;
+    unsigned int max_iterations = 200;
+
     /**
      * The solver for a kind of matrices:
      *  - Cholmod: supernodal Cholesky of SuiteSparse; one rank, symmetric
      *    positive definite matrices (associated flow);
      *  - Umfpack: unsymmetric multifrontal LU of SuiteSparse; one rank;
      *  - Mumps: distributed multifrontal LU, or Cholesky where symmetric;
+     *  - multigrid: Krylov's method with smoothed aggregation of Trilinos' ML, and
+     *    the direct solver of 'automatic' where it does not converge;
      *  - automatic: Cholmod for symmetric matrices on one rank that are kept in
      *    memory, otherwise Mumps, which is faster than Umfpack (doc/performance.md).
      * @throws InputError for what it cannot do
      */
     std::unique_ptr<LinearSolver>
     make(const MPI_Comm comm, const bool symmetric) const;
+
+  private:
+    std::unique_ptr<LinearSolver>
+    make_direct(Name chosen, const MPI_Comm comm, const bool symmetric) const;
   };
 
   /** @name The solvers */
@@ -117,6 +142,14 @@ namespace geocone
   make_mumps(const MPI_Comm     comm,
              const bool         symmetric,
              const std::string &folder);
+
+  /** @param direct solves what takes too many iterations */
+  std::unique_ptr<LinearSolver>
+  make_multigrid(const MPI_Comm                comm,
+                 const bool                    symmetric,
+                 const double                  tolerance,
+                 const unsigned int            max_iterations,
+                 std::unique_ptr<LinearSolver> direct);
   /** @} */
 } // namespace geocone
 
