@@ -117,10 +117,18 @@ namespace geocone
     void
     print_help(const std::vector<std::string> &overrides)
     {
+      // Of lists that are empty by default a name, to show what one of it has.
+      std::vector<std::string> with_names = {"Absorbing boundaries/Names = base",
+                                             "Obstacles/Names = wall",
+                                             "Contacts/Names = joint"};
+      with_names.insert(with_names.end(), overrides.begin(), overrides.end());
       // In one piece, for the reader of a pipe may have seen enough of it.
       std::ostringstream text;
-      print_defaults(text, overrides);
-      std::cout << usage << "\nAll parameters, with their defaults:\n\n"
+      print_defaults(text, with_names);
+      std::cout << usage
+                << "\nAll parameters, with their defaults; absorbing boundaries, "
+                   "obstacles and contacts are\nnamed to show theirs, and there "
+                   "are none by default:\n\n"
                 << text.str() << std::flush;
       if (!std::cout)
         std::_Exit(0); // or else libraries complain of the closed pipe

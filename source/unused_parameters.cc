@@ -85,7 +85,6 @@ namespace geocone
       {"Loading/*/Damping", method, {"explicit MPM"}},
       {"Loading/*/Kinetic damping", method, {"explicit MPM"}},
       {"Loading/*/Largest unbalanced force", method, {"explicit MPM"}},
-      {"Loading/*/Largest kinetic energy", method, {"explicit MPM"}},
       {"Observation/Component", method, {"FEM", "MPM"}},
       {"Observation/Factor", method, {"FEM", "MPM"}},
       {"Observation/Plateau tolerance", method, {"FEM", "MPM"}},

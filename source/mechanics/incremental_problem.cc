@@ -107,7 +107,7 @@ namespace geocone
         sums[square] = free_dot(dst, dst);
       }
     ResidualReport report;
-    report.force_norm = force_norm =
+    report.force_norm =
       std::sqrt(*std::max_element(sums.begin() + first_size, sums.end()));
     report.norm        = std::sqrt(sums[square]);
     report.n_cone      = sums[0];
@@ -226,20 +226,6 @@ namespace geocone
     for (const Term *term : terms)
       term->linearise(pattern, blend, matrix);
     return contact_term ? contact_term->linearise(pattern, matrix) : LowRank();
-  }
-
-  double
-  IncrementalProblem::unbalanced_share(const Vector &v)
-  {
-    double share = 0.;
-    if (inertia && force_norm > 0.)
-      {
-        inertia->residual(part, v, {});
-        share = std::sqrt(free_dot(part, part)) / force_norm;
-      }
-    return contact_term
-             ? std::max(share, contact_term->motions().unbalanced_share())
-             : share;
   }
 
   void

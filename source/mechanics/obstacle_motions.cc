@@ -142,21 +142,20 @@ namespace geocone
   }
 
   double
-  ObstacleMotions::unbalanced_share() const
+  ObstacleMotions::accelerating_share() const
   {
     double largest = 0.;
     for (unsigned int o = 0; o < bodies.size(); ++o)
       {
         const ObstacleBody &body    = bodies[o];
-        double              inertia = 0., loads = 0.;
+        double              kinetic = 0., work = 0.;
         for_free(o, [&](const unsigned int k, const unsigned int) {
-          const double change = motion[o][k] - body.velocity_n[k],
-                       free   = body.without_contact[k] - body.velocity_n[k];
-          inertia += body.inertia[k] * change * change;
-          loads += body.inertia[k] * free * free;
+          const double momentum = body.inertia[k] * motion[o][k];
+          kinetic += momentum * (motion[o][k] - body.velocity_n[k]);
+          work += momentum * (body.without_contact[k] - body.velocity_n[k]);
         });
-        if (loads > 0.)
-          largest = std::max(largest, std::sqrt(inertia / loads));
+        if (work != 0.)
+          largest = std::max(largest, kinetic / std::abs(work));
       }
     return largest;
   }

@@ -160,6 +160,8 @@ namespace geocone
           "Mesh/Type = from the bounds",
           "bounds are those of drained strength: take another mesh");
         auto [sizes, bracket] = sizes_of_scene(parameters, scene, comm, log);
+        if (scene.loading.reduces_strength())
+          bracket.name = "the factor of all loads at full strength";
         run_output.set_bracket(bracket);
         return sizes;
       },

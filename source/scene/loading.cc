@@ -69,15 +69,16 @@ namespace geocone
         stage.largest_unbalanced_force,
         "Explicit MPM: the stage must end in equilibrium, with no node's "
         "unbalanced force larger than this part of the weight of the body, "
-        "e.g. 1e-3; 0: not tested. FEM and MPM with a 'Strength factor' and "
-        "'Until failure' = true: a step is solved only if inertia takes at "
-        "most this part of the largest forces, as soil that accelerates is "
-        "no stable one; 0: 1e-3.");
+        "e.g. 1e-3; 0: not tested.");
       stage.add_parameter(
         "Largest kinetic energy",
         stage.largest_kinetic_energy,
         "Explicit MPM: the stage must end with a kinetic energy of at most "
-        "this part of the stress work of the stage, e.g. 1e-6; 0: not tested.");
+        "this part of the stress work of the stage, e.g. 1e-6; 0: not tested. "
+        "FEM and MPM with a 'Strength factor' and 'Until failure' = true: a "
+        "step in which more than this part of the plastic work becomes kinetic "
+        "energy is no equilibrium, as soil that flows ever faster is not "
+        "stable; 0: 3e-3.");
       stage.add_parameter("Reset velocity",
                           stage.reset_velocity,
                           "Explicit MPM: begin this stage at rest.");
@@ -370,17 +371,17 @@ namespace geocone
   }
 
   std::string
-  Stage::no_equilibrium(const double unbalanced_share) const
+  Stage::no_equilibrium(const double accelerating_share) const
   {
     const double most =
-      largest_unbalanced_force > 0. ? largest_unbalanced_force : 1e-3;
-    return unbalanced_share <= most
+      largest_kinetic_energy > 0. ? largest_kinetic_energy : 3e-3;
+    return accelerating_share <= most
              ? ""
              : format(
-                 "this is no equilibrium: inertia takes %.3g of the largest "
-                 "forces, more than %.3g ('Loading/%s/Largest unbalanced "
-                 "force')",
-                 unbalanced_share,
+                 "this is no equilibrium: %.3g of the plastic work becomes "
+                 "kinetic energy, more than %.3g ('Loading/%s/Largest "
+                 "kinetic energy')",
+                 accelerating_share,
                  most,
                  name.c_str());
   }

@@ -43,7 +43,7 @@ namespace geocone
         "0",
         "Names of the parts of the boundary that waves leave through "
         "(dashpots of Lysmer and Kuhlemeyer), comma-separated; each has a "
-        "subsection of that name. FEM with inertia.")
+        "subsection of that name. Runs with inertia.")
     , obstacles(file)
     , contacts(file)
     , loading(file)

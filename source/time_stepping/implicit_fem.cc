@@ -431,7 +431,8 @@ namespace geocone
     freezer.take(*problem, velocity_n, false, report.newton.converged);
     if (const Stage &stage = scene->loading.stage_at(t + h / 2.);
         stage.seeks_equilibrium() && report.newton.converged)
-      report.newton.reason = stage.no_equilibrium(problem->unbalanced_share(v));
+      report.newton.reason = stage.no_equilibrium(
+        accelerating_share(*problem, points, scene->materials, velocity_n, v));
     report.converged = report.newton.converged && report.newton.reason.empty();
     if (!report.converged)
       return report;

@@ -586,7 +586,8 @@ namespace geocone
     report.newton.reason = objection(share);
     if (const Stage &stage = scene->loading.stage_at(t + h / 2.);
         stage.seeks_equilibrium() && report.newton.reason.empty())
-      report.newton.reason = stage.no_equilibrium(problem->unbalanced_share(v));
+      report.newton.reason = stage.no_equilibrium(
+        accelerating_share(*problem, points, scene->materials, velocity_L, v));
     if (report.newton.reason.empty())
       report.newton.reason = transfer(points, v_end, v, h, moved);
     if (!report.newton.reason.empty())

@@ -174,6 +174,57 @@ namespace geocone
     return Utilities::MPI::max(largest, comm);
   }
 
+  namespace
+  {
+    /** Where the work of a step goes (J/m). */
+    struct PartsOfWork
+    {
+      double kinetic = 0., elastic = 0., plastic = 0.;
+
+      double kinetic_energy = 0., elastic_energy = 0.; ///< at its end
+    };
+
+    /** Of the last step that a problem solved. Collective. */
+    PartsOfWork
+    parts_of_work(const IncrementalProblem &problem,
+                  const MaterialPoints     &points,
+                  const Materials          &materials,
+                  const Vector             &velocity_L,
+                  const Vector             &v)
+    {
+      // Kinetic: (v + vL)'M(v - vL)/2 + |v - vL|_M^2/2 = v'M(v - vL), and alike
+      // for the elastic energy: no small differences of large numbers.
+      PartsOfWork parts;
+      if (problem.has_inertia())
+        {
+          Vector change = v, momentum = problem.make_vector();
+          change.update_ghost_values();
+          problem.inertia_term().apply_mass(momentum, change);
+          parts.kinetic_energy = v * momentum / 2.;
+          change -= velocity_L;
+          change.update_ghost_values();
+          problem.inertia_term().apply_mass(momentum, change);
+          parts.kinetic = v * momentum;
+        }
+      const InternalForces &internal = problem.internal_forces();
+      std::array<double, 3> sums     = {};
+      for (unsigned int p = 0; p < points.n_points(); ++p)
+        {
+          const Mandel              &s    = internal.trial_stress()[p];
+          const InternalForces::Work work = internal.work(p);
+          sums[0] += points.weight[p] * work.elastic;
+          sums[1] += points.weight[p] * work.plastic;
+          sums[2] += points.weight[p] / 2. *
+                     s.dot(elasticity_at_start(materials, points, p).strain(s));
+        }
+      sum_over_ranks(sums, v.get_mpi_communicator());
+      parts.elastic        = sums[0];
+      parts.plastic        = sums[1];
+      parts.elastic_energy = sums[2];
+      return parts;
+    }
+  } // namespace
+
   double
   energy_identity_error(const IncrementalProblem &problem,
                         const MaterialPoints     &points,
@@ -182,42 +233,37 @@ namespace geocone
                         const Vector             &v,
                         const double              work)
   {
-    // Kinetic: (v + vL)'M(v - vL)/2 + |v - vL|_M^2/2 = v'M(v - vL), and alike
-    // for the elastic energy: no small differences of large numbers.
-    double kinetic = 0., kinetic_energy = 0.;
-    if (problem.has_inertia())
-      {
-        Vector change = v, momentum = problem.make_vector();
-        change.update_ghost_values();
-        problem.inertia_term().apply_mass(momentum, change);
-        kinetic_energy = v * momentum / 2.;
-        change -= velocity_L;
-        change.update_ghost_values();
-        problem.inertia_term().apply_mass(momentum, change);
-        kinetic = v * momentum;
-      }
-    // The elastic and the plastic term, and the elastic energy.
-    const InternalForces &internal = problem.internal_forces();
-    std::array<double, 3> sums     = {};
-    for (unsigned int p = 0; p < points.n_points(); ++p)
-      {
-        const Mandel              &s    = internal.trial_stress()[p];
-        const InternalForces::Work work = internal.work(p);
-        sums[0] += points.weight[p] * work.elastic;
-        sums[1] += points.weight[p] * work.plastic;
-        sums[2] += points.weight[p] / 2. *
-                   s.dot(elasticity_at_start(materials, points, p).strain(s));
-      }
-    sum_over_ranks(sums, v.get_mpi_communicator());
+    const PartsOfWork parts =
+      parts_of_work(problem, points, materials, velocity_L, v);
     // Steps in which next to nothing happens are rounding of the energies.
-    const double largest = std::max({1e-4 * kinetic_energy,
-                                     1e-4 * sums[2],
-                                     std::abs(kinetic),
-                                     std::abs(sums[0]),
-                                     std::abs(sums[1]),
+    const double largest = std::max({1e-4 * parts.kinetic_energy,
+                                     1e-4 * parts.elastic_energy,
+                                     std::abs(parts.kinetic),
+                                     std::abs(parts.elastic),
+                                     std::abs(parts.plastic),
                                      std::abs(work),
                                      std::numeric_limits<double>::min()});
-    return std::abs(kinetic + sums[0] + sums[1] - work) / largest;
+    return std::abs(parts.kinetic + parts.elastic + parts.plastic - work) /
+           largest;
+  }
+
+  double
+  accelerating_share(const IncrementalProblem &problem,
+                     const MaterialPoints     &points,
+                     const Materials          &materials,
+                     const Vector             &velocity_L,
+                     const Vector             &v)
+  {
+    const PartsOfWork parts =
+      parts_of_work(problem, points, materials, velocity_L, v);
+    const double of_obstacles =
+      problem.has_contact() ? problem.contact().motions().accelerating_share()
+                            : 0.;
+    // Waves that die away, and creep, are next to nothing of the elastic energy.
+    const bool flows =
+      parts.plastic > 0. && parts.kinetic_energy > 1e-4 * parts.elastic_energy;
+    return flows ? std::max(of_obstacles, parts.kinetic / parts.plastic)
+                 : of_obstacles;
   }
 
   void

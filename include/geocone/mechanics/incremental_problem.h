@@ -191,15 +191,6 @@ namespace geocone
     LowRank
     linearise(SparseMatrix &matrix, const double elastic_blend = 0.) const;
 
-    /**
-     * How far the step is from a static equilibrium: |M (v - vL)/h| over the free
-     * rows and the norm of the largest force of the last residual(), or the share of
-     * inertia in the forces of a free obstacle, if that is more; 0 without inertia.
-     * Collective. @param v with ghosts
-     */
-    double
-    unbalanced_share(const Vector &v);
-
     /** dst = (dR/dv) dv in all rows, at the last residual(). */
     void
     apply_tangent(Vector &dst, const Vector &dv) const;
@@ -356,7 +347,6 @@ namespace geocone
     Vector          part;             ///< of a term in residual()
     Vector          elastic_diagonal; ///< of the present h, or empty
     Eigen::VectorXd lambda;
-    double          force_norm = 0.; ///< of the last residual()
     JacobianPattern pattern;
 
     using Links = std::vector<std::vector<unsigned int>>;

@@ -113,11 +113,10 @@ namespace geocone
     void
     balance(Eigen::VectorXd &inertia, Eigen::VectorXd &lack) const;
 
-    /** The largest share of inertia in the forces of a free obstacle,
-     *  |M (y - y_n)/h| over |M (y_0 - y_n)/h|, its own loads, both in the metric of
-     *  M^-1, where forces and moments are alike. */
+    /** The largest share of the work of a free obstacle's own loads that becomes its
+     *  kinetic energy, y'M (y - y_n) over |y'M (y_0 - y_n)|. */
     double
-    unbalanced_share() const;
+    accelerating_share() const;
 
     /** Changes the velocities from which the next find() begins. */
     void

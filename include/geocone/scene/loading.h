@@ -67,10 +67,9 @@ namespace geocone
       return strength_factor > 0. && until_failure;
     }
 
-    /** Why a step is no equilibrium: inertia is more than a part of the largest
-     *  forces. Empty: it is one. */
+    /** Why a step is no equilibrium: see accelerating_share(). Empty: it is one. */
     std::string
-    no_equilibrium(const double unbalanced_share) const;
+    no_equilibrium(const double accelerating_share) const;
 
     /** @name Loads that are raised: tractions by their names, and "weight". What they
      *  exert is multiplied by a factor that is unknown; given is the mean velocity at

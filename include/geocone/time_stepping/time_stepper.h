@@ -177,6 +177,19 @@ namespace geocone
                         const double              work);
 
   /**
+   * The part of the plastic work of the last step that a problem solved which becomes
+   * kinetic energy, v'M(v - vL)/sum V s:de^p, or of the work of a free obstacle's loads,
+   * if that is more. In creep towards a new equilibrium it is next to nothing; of a slope
+   * that flows it is what its factor of safety lacks, 1 - F. Collective.
+   */
+  double
+  accelerating_share(const IncrementalProblem &problem,
+                     const MaterialPoints     &points,
+                     const Materials          &materials,
+                     const Vector             &velocity_L,
+                     const Vector             &v);
+
+  /**
    * Advances a scene in time, for one of the methods. The only place where state
    * changes, and only when a step is accepted.
    */
