@@ -141,23 +141,17 @@ namespace geocone
       });
   }
 
-  double
-  ObstacleMotions::accelerating_share() const
+  ObstacleMotions::Kinetic
+  ObstacleMotions::kinetic() const
   {
-    double largest = 0.;
+    Kinetic sum;
     for (unsigned int o = 0; o < bodies.size(); ++o)
-      {
-        const ObstacleBody &body    = bodies[o];
-        double              kinetic = 0., work = 0.;
-        for_free(o, [&](const unsigned int k, const unsigned int) {
-          const double momentum = body.inertia[k] * motion[o][k];
-          kinetic += momentum * (motion[o][k] - body.velocity_n[k]);
-          work += momentum * (body.without_contact[k] - body.velocity_n[k]);
-        });
-        if (work != 0.)
-          largest = std::max(largest, kinetic / std::abs(work));
-      }
-    return largest;
+      for_free(o, [&](const unsigned int k, const unsigned int) {
+        const double y = motion[o][k], momentum = bodies[o].inertia[k] * y;
+        sum.change += momentum * (y - bodies[o].velocity_n[k]);
+        sum.energy += momentum * y / 2.;
+      });
+    return sum;
   }
 
   void

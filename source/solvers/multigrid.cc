@@ -207,12 +207,10 @@ namespace geocone
         list.set("ML output", 0);
         list.set("PDE equations", int(dim));
         list.set("aggregation: type", "Uncoupled");
-        list.set("aggregation: threshold",
-                 (getenv("MG_T") ? atof(getenv("MG_T")) : 0.01));
+        list.set("aggregation: threshold", 0.01);
         list.set("smoother: type",
                  symmetric ? "Chebyshev" : "symmetric Gauss-Seidel");
-        list.set("smoother: sweeps",
-                 (getenv("MG_S") ? atoi(getenv("MG_S")) : 3));
+        list.set("smoother: sweeps", 3); // of Chebyshev: its degree
         list.set("coarse: type", "Amesos-KLU");
         list.set("coarse: max size", 1000);
         motions.clear();
@@ -255,13 +253,8 @@ namespace geocone
           }
         catch (const dealii::SolverControl::NoConvergence &)
           {
-            if (getenv("MGV"))
-              std::cerr << "mg failed " << control.last_step() << " "
-                        << control.last_value() / norm << "\n";
             return false;
           }
-        if (getenv("MGV"))
-          std::cerr << "mg " << control.last_step() << "\n";
         const double *found = solution.trilinos_vector()[0];
         for (int i = 0; i < last->n_owned; ++i)
           x[i] = found[rows.dof[i] - first];

@@ -254,16 +254,20 @@ namespace geocone
                      const Vector             &velocity_L,
                      const Vector             &v)
   {
-    const PartsOfWork parts =
+    PartsOfWork parts =
       parts_of_work(problem, points, materials, velocity_L, v);
-    const double of_obstacles =
-      problem.has_contact() ? problem.contact().motions().accelerating_share()
-                            : 0.;
+    if (problem.has_contact())
+      {
+        const double                   h = problem.time_step();
+        const ObstacleMotions::Kinetic of_obstacles =
+          problem.contact().motions().kinetic();
+        parts.kinetic += h * of_obstacles.change;
+        parts.kinetic_energy += h * of_obstacles.energy;
+      }
     // Waves that die away, and creep, are next to nothing of the elastic energy.
     const bool flows =
       parts.plastic > 0. && parts.kinetic_energy > 1e-4 * parts.elastic_energy;
-    return flows ? std::max(of_obstacles, parts.kinetic / parts.plastic)
-                 : of_obstacles;
+    return flows ? parts.kinetic / parts.plastic : 0.;
   }
 
   void

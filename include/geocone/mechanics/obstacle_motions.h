@@ -113,10 +113,13 @@ namespace geocone
     void
     balance(Eigen::VectorXd &inertia, Eigen::VectorXd &lack) const;
 
-    /** The largest share of the work of a free obstacle's own loads that becomes its
-     *  kinetic energy, y'M (y - y_n) over |y'M (y_0 - y_n)|. */
-    double
-    accelerating_share() const;
+    /** y'M (y - y_n) and y'M y/2 of the free motions, over h (W/m). */
+    struct Kinetic
+    {
+      double change = 0., energy = 0.;
+    };
+    Kinetic
+    kinetic() const;
 
     /** Changes the velocities from which the next find() begins. */
     void

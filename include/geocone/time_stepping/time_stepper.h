@@ -178,8 +178,7 @@ namespace geocone
 
   /**
    * The part of the plastic work of the last step that a problem solved which becomes
-   * kinetic energy, v'M(v - vL)/sum V s:de^p, or of the work of a free obstacle's loads,
-   * if that is more. In creep towards a new equilibrium it is next to nothing; of a slope
+   * kinetic energy, v'M(v - vL)/sum V s:de^p, also of free obstacles. In creep towards a new equilibrium it is next to nothing; of a slope
    * that flows it is what its factor of safety lacks, 1 - F. Collective.
    */
   double
