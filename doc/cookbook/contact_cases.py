@@ -2,8 +2,8 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Draws doc/cookbook/contact_cases.png of runs of prm/contact/incline.prm, hertz.prm, cattaneo.prm
-(with 'Mesh/Smallest size = 0.0025') and trapdoor.prm, in this order, beside the exact solutions
-that are told in these files, and prints how far the computed values are from them:
+(graded as contact.md has it) and trapdoor.prm, in this order, beside the exact solutions that
+are told in these files, and prints how far the computed values are from them:
 
     contact_cases.py INCLINE HERTZ CATTANEO TRAPDOOR
 
@@ -60,8 +60,9 @@ def draw_pressure(axes, run):
     axes.legend()
     inside = x < 0.9 * A
     error = -p[inside] - P0 * ellipse(x[inside], A)
-    print(f"hertz: pressure within 0.9 a: root mean square error {100. * np.sqrt(np.mean(error**2)) / P0:.2f} % "
-          f"of the greatest; half-width {run.value('contact/width_m')} m")
+    print(f"hertz: pressure within 0.9 a: root mean square error "
+          f"{100. * np.sqrt(np.mean(error**2)) / P0:.2f} % of the greatest; "
+          f"half-width {run.value('contact/width_m')} m")
 
 
 def draw_shear(axes, run):
@@ -105,4 +106,5 @@ def main():
     figure.savefig(ROOT / "doc" / "cookbook" / "contact_cases.png", dpi=95)
 
 
-main()
+if __name__ == "__main__":
+    main()
