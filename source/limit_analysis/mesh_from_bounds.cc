@@ -70,7 +70,7 @@ namespace geocone
             else
               {
                 next = sizes_by_gap(triangles, bounds.uneven, n_asked);
-                gap  = upper / lower - 1.;
+                gap  = (upper - lower) / std::abs(lower);
                 bracket.take(proven(bounds.lower.bound, load.value_of_unit()),
                              proven(bounds.upper.bound, load.value_of_unit()));
                 bracket.cells = triangles.cells.size();

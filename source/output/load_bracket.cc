@@ -84,6 +84,9 @@ namespace geocone
       format("incremental %s %.6g", name.c_str(), incremental) +
       (unit.empty() ? "" : " " + unit);
     const auto against = [&](const double other, const char *what) {
+      // A reaction that is observed with the other sign is no part of it.
+      if (other * incremental <= 0.)
+        return;
       line +=
         format(", %+.2f %% against ", 100. * (incremental / other - 1.)) + what;
     };

@@ -127,9 +127,11 @@ namespace geocone
               n_in_a_row = std::min(2 * n_in_a_row + 1, 15U);
               n_to_skip  = n_in_a_row;
               is_direct  = true;
-              if (!factorise_directly())
-                fail("multigrid: a system that it does not solve is singular");
-              direct->solve(rest, n_columns - c);
+              if (factorise_directly())
+                direct->solve(rest, n_columns - c);
+              else
+                // Singular, which is too late to say: no direction at all.
+                std::fill(rest.begin(), rest.end(), 0.);
               std::copy(rest.begin(), rest.end(), x.begin() + n * c);
               return;
             }
