@@ -125,7 +125,8 @@ namespace geocone
   void
   Checkpoint::read(const std::string                          &folder,
                    Log                                        &log,
-                   const std::function<void(const Archive &)> &load)
+                   const std::function<void(const Archive &)> &load,
+                   const std::string                          &parameter)
   {
     const std::vector<std::string> names =
       dealii::Utilities::MPI::broadcast(comm, checkpoints_in(folder));
@@ -140,7 +141,7 @@ namespace geocone
                  "' is left out: " + why_not.substr(0, why_not.find('\n')));
       }
     throw InputError(
-      "--resume",
+      parameter,
       folder,
       "the folder of a run with a checkpoint-NNNNNN.h5",
       names.empty() ? "there is none: set 'Checkpoint/Every steps' or 'Every "

@@ -116,6 +116,19 @@ namespace geocone
                        "9 is usual");
   }
 
+  StartOfRun::StartOfRun()
+    : ParameterAcceptor("/Initial stress")
+  {
+    add_parameter(
+      "Run",
+      folder,
+      "FEM and MPM: folder of another run of the same mesh and the same "
+      "materials in their order (whose parameters may differ), with a "
+      "checkpoint ('Checkpoint/Every steps'). The points begin as they were "
+      "at its last one, at rest, in place of 'Type': where they are, their "
+      "stress and history. What moved them begins as this file says.");
+  }
+
   ImplicitSimulation::ImplicitSimulation(const MPI_Comm       comm,
                                          const ParameterFile &file,
                                          Log                 &log,
@@ -176,8 +189,16 @@ namespace geocone
     else
       stepper = &implicit_fem;
     std::vector<std::string> warnings = {
-      stepper->prepare(scene, mesh, space, newton, timer, kinematics, points),
-      outside_strength(points, scene.materials, comm)};
+      stepper->prepare(scene, mesh, space, newton, timer, kinematics, points)};
+    if (!start_of_run.folder.empty() && !options.resumes)
+      checkpoint.read(
+        start_of_run.folder,
+        log,
+        [&](const Archive &archive) {
+          stepper->begin_from(archive, kinematics, points);
+        },
+        "Initial stress/Run");
+    warnings.push_back(outside_strength(points, scene.materials, comm));
     warnings.erase(std::remove(warnings.begin(), warnings.end(), ""),
                    warnings.end());
     if (scene.materials.are_undrained() && !space.has_b_bar() &&

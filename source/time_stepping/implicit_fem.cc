@@ -10,6 +10,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+
 namespace geocone
 {
   using dealii::TimerOutput;
@@ -500,14 +502,36 @@ namespace geocone
   void
   ImplicitFEM::load(const Archive &archive, MaterialPoints &points)
   {
-    const PointRecord record(archive, points);
+    take_points(archive, points);
     if (scene->loading.changes_body())
+      fading.load(archive, *mesh, *space);
+    if (obstacles->exists())
+      {
+        StateRow moved = archive.read_row("obstacles");
+        obstacles->state(moved);
+        load_nodes(
+          archive, "path", *mesh, *space, obstacles->displacement_of_nodes());
+        obstacles->displacement_of_nodes().update_ghost_values();
+      }
+  }
+
+  void
+  ImplicitFEM::take_points(const Archive &archive, MaterialPoints &points)
+  {
+    const PointRecord record(archive, points);
+    const bool        has_all =
+      std::all_of(points.cells.begin(),
+                  points.cells.end(),
+                  [&](const auto &cell) { return record.has(cell); });
+    const bool is_other_body = dealii::Utilities::MPI::logical_or(
+      scene->loading.changes_body() || !has_all,
+      velocity_n.get_mpi_communicator());
+    if (is_other_body)
       {
         points = quadrature_points_of(
           *scene, *mesh, *space, {}, [&](const BackgroundMesh::Cell &cell) {
             return record.has(cell);
           });
-        fading.load(archive, *mesh, *space);
         begun = false;
       }
     for (unsigned int c = 0; c < points.n_cells(); ++c)
@@ -518,14 +542,6 @@ namespace geocone
           throw RunError("the checkpoint has other points");
         for (const double *row : rows)
           points.set(first++, row);
-      }
-    if (obstacles->exists())
-      {
-        StateRow moved = archive.read_row("obstacles");
-        obstacles->state(moved);
-        load_nodes(
-          archive, "path", *mesh, *space, obstacles->displacement_of_nodes());
-        obstacles->displacement_of_nodes().update_ghost_values();
       }
   }
 } // namespace geocone

@@ -109,6 +109,14 @@ namespace geocone
   }
 
   void
+  ImplicitMPM::take_points(const Archive &archive, MaterialPoints &points)
+  {
+    particles.load(archive, points);
+    particles.forget_lost();
+    begun = false;
+  }
+
+  void
   ImplicitMPM::load(const Archive &archive, MaterialPoints &points)
   {
     if (scene->loading.changes_body())

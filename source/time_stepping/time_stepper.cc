@@ -271,6 +271,19 @@ namespace geocone
   }
 
   void
+  TimeStepper::begin_from(const Archive  &archive,
+                          Kinematics     &kinematics,
+                          MaterialPoints &points)
+  {
+    take_points(archive, points);
+    for (auto &velocity : points.velocity)
+      velocity = 0.;
+    for (auto &affine : points.affine)
+      affine = 0.;
+    reset(kinematics, points);
+  }
+
+  void
   TimeStepper::reset(Kinematics &kinematics, MaterialPoints &points) const
   {
     if (kinematics.displacement.size() > 0)

@@ -72,6 +72,13 @@ namespace geocone
     /** In place of what is there. */
     void
     load(const Archive &archive, MaterialPoints &points);
+
+    /** Counts those that are lost from here on. */
+    void
+    forget_lost()
+    {
+      n_lost_all = 0;
+    }
     /** @} */
 
     /** After the mesh has moved, before sort(). */

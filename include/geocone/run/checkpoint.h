@@ -42,12 +42,14 @@ namespace geocone
 
     /**
      * Reads the last one of a folder that is good; of others it warns. Collective.
+     * @param parameter what names the folder
      * @throws InputError if there is none
      */
     void
     read(const std::string                          &folder,
          Log                                        &log,
-         const std::function<void(const Archive &)> &load);
+         const std::function<void(const Archive &)> &load,
+         const std::string                          &parameter = "--resume");
 
   private:
     unsigned int every_steps   = 0;

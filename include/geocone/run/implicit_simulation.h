@@ -32,6 +32,15 @@ namespace geocone
     unsigned int easy_iterations = 12;
   };
 
+  /** The points of another run as a start, beside InitialStress. */
+  class StartOfRun : public dealii::ParameterAcceptor
+  {
+  public:
+    StartOfRun();
+
+    std::string folder; ///< of the other run, or empty
+  };
+
   /**
    * A run of the finite element method or the implicit material point method. A
    * step of the loading programme is reached in substeps (StepControl).
@@ -121,6 +130,7 @@ namespace geocone
     ImplicitMPM     implicit_mpm;
     TimeStepper    *stepper = nullptr; ///< the one of the method
     StepControl     step_control;
+    StartOfRun      start_of_run;
     Freezer         freezer;
     ExactSolution   exact_solution;
     RunOutput       run_output;

@@ -84,6 +84,9 @@ namespace geocone
     }
 
   private:
+    void
+    take_points(const Archive &archive, MaterialPoints &points) override;
+
     /** Refuses a scene in which no stress can arise. Collective. */
     void
     check_resistance(const MaterialPoints &points, const MPI_Comm comm) const;

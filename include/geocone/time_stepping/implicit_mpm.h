@@ -124,6 +124,9 @@ namespace geocone
     }
 
   private:
+    void
+    take_points(const Archive &archive, MaterialPoints &points) override;
+
     /** Where Newton's method may start. */
     enum class Start
     {

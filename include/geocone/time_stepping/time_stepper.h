@@ -256,6 +256,14 @@ namespace geocone
     load(const Archive &archive, MaterialPoints &points) = 0;
     /** @} */
 
+    /** Takes the points of another run's checkpoint, at rest, in place of what prepare()
+     *  has made; not what moved them, nor their displacements and plastic strains.
+     *  Collective. @throws RunError if it does not fit */
+    void
+    begin_from(const Archive  &archive,
+               Kinematics     &kinematics,
+               MaterialPoints &points);
+
     virtual unsigned int
     n_unknowns() const = 0;
 
@@ -286,6 +294,11 @@ namespace geocone
     {
       return 0;
     }
+
+  private:
+    /** Takes the points of a checkpoint of any run. Collective. */
+    virtual void
+    take_points(const Archive &archive, MaterialPoints &points) = 0;
   };
 } // namespace geocone
 
