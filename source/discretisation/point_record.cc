@@ -4,6 +4,8 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/discretisation/point_record.h>
 
+#include <deal.II/base/mpi.h>
+
 namespace geocone
 {
   void
@@ -12,6 +14,23 @@ namespace geocone
     if (written != here)
       throw RunError("the checkpoint has other variables of points (" +
                      written + ") than this run (" + here + ")");
+  }
+
+  void
+  check_places(const MaterialPoints &points, const MPI_Comm comm)
+  {
+    bool is_outside = false;
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      {
+        const auto box = points.cells[c]->bounding_box();
+        for (unsigned int p = points.first_point[c];
+             p < points.first_point[c + 1];
+             ++p)
+          is_outside =
+            is_outside || !box.point_inside(points.position[p], 1e-6);
+      }
+    if (dealii::Utilities::MPI::logical_or(is_outside, comm))
+      throw RunError("the checkpoint has points of another mesh");
   }
 
   void

@@ -7,6 +7,7 @@
 #include <geocone/discretisation/cell_record.h>
 #include <geocone/discretisation/history_start.h>
 #include <geocone/discretisation/point_elasticity.h>
+#include <geocone/discretisation/point_record.h>
 #include <geocone/time_stepping/time_stepper.h>
 
 #include <deal.II/base/mpi.h>
@@ -276,6 +277,7 @@ namespace geocone
                           MaterialPoints &points)
   {
     take_points(archive, points);
+    check_places(points, kinematics.velocity.get_mpi_communicator());
     for (auto &velocity : points.velocity)
       velocity = 0.;
     for (auto &affine : points.affine)

@@ -19,6 +19,11 @@ namespace geocone
   void
   check_variables(const std::string &written, const std::string &here);
 
+  /** @throws RunError if points are not in their cells, as those of a checkpoint are that
+   *  is of another mesh. Collective. */
+  void
+  check_places(const MaterialPoints &points, const MPI_Comm comm);
+
   /** The points as part of a checkpoint, by cell. Collective. */
   void
   save_points(Archive &archive, const MaterialPoints &points);
