@@ -92,7 +92,8 @@ def find_program(name="geocone"):
         places = [Path(name)]
     else:
         found = shutil.which(name)
-        places = [ROOT / "build" / "release" / name, ROOT.parents[1] / "bin" / name,
+        places = [ROOT / "build" / "release" / name,
+                  *(parent / "bin" / name for parent in ROOT.parents[1:2]),
                   *([Path(found)] if found else [])]
     for place in places:
         if place.is_file():

@@ -67,7 +67,7 @@ DAMAGES = {  # what is done to the file, and a part of the message
     "velocity": (lambda f: changed(f, "dofs/velocity_L", 3, np.inf), "not finite"),
     "stress": (lambda f: changed(f, "points/stress", 3, 1e300), "not finite"),
     "weight": (lambda f: changed(f, "points/weight", 0, -1.), "without a volume"),
-    "wide": (lambda f: replaced(f, "dofs/kind", f["dofs/kind"][:] + 2**40), "no int"),
+    "wide": (lambda f: replaced(f, "dofs/kind", f["dofs/kind"][:].astype(np.int64) + 2**40), "no int"),
     "floats": (lambda f: replaced(f, "dofs/kind", f["dofs/kind"][:] + 0.5),
                "does not hold integers"),
     "strings": (lambda f: replaced(f, "dofs/mass", np.array([b"one"])),

@@ -81,7 +81,8 @@ def view_of(series, field, choices):
         elif series == "cells" and np.any(field.data.get("displacement", 0.)):
             most = magnitude(field.data["displacement"]).max()
             size = np.ptp(field.points, axis=0).max()
-            view["warp"], view["factor"] = "displacement", max(WARPED * size / most, 1.)
+            view["warp"] = "displacement"
+            view["factor"] = float(max(WARPED * size / most, 1.))
         return view
     return None
 
