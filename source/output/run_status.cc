@@ -9,6 +9,7 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -20,6 +21,26 @@ namespace geocone
   {
     /** The program's end of the pipe to its watcher. */
     int to_watcher = -1;
+
+    /** When a process of this machine began, in ticks since the machine did; numbers of
+     *  processes come again. Empty where that is not known. */
+    std::string
+    start_of(const long pid)
+    {
+      std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
+      std::string   text;
+      std::getline(file, text);
+      // The second field is a name in parentheses, this is the twenty-second.
+      const std::size_t after_name = text.rfind(')');
+      if (after_name == std::string::npos)
+        return "";
+      std::istringstream fields(text.substr(after_name + 1));
+      std::string        field;
+      for (unsigned int i = 3; i <= 22; ++i)
+        if (!(fields >> field))
+          return "";
+      return field;
+    }
 
     std::string
     time_now()
@@ -159,6 +180,7 @@ namespace geocone
   {
     static const std::string started = time_now();
     return {{"pid", getpid()},
+            {"pid_start", start_of(getpid())},
             {"host", host_name()},
             {"started", started},
             {"last_sign_of_life", time_now()}};
@@ -214,7 +236,9 @@ namespace geocone
       return "";
     const Json pid = summary["run"].value("pid", Json());
     if (!pid.is_number_integer() || pid.get<long>() <= 0 ||
-        kill(pid.get<pid_t>(), 0) != 0)
+        kill(pid.get<pid_t>(), 0) != 0 ||
+        summary["run"].value("pid_start", Json()) !=
+          Json(start_of(pid.get<long>())))
       return "";
     return "the run of process " + std::to_string(pid.get<long>()) +
            " goes on in it";
