@@ -35,6 +35,7 @@ PYTHON
 # another one has now is not.
 claim() {  # PID_START
   mkdir -p claimed
+  echo summary.json >claimed/files.txt
   /usr/bin/python3 - "$1" $$ <<'PYTHON'
 import json, socket, sys
 run = {"pid": int(sys.argv[2]), "pid_start": sys.argv[1], "host": socket.gethostname(),

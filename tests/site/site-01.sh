@@ -37,7 +37,7 @@ cat >> broken/doc/cookbook/bar.md <<'TEXT'
 TEXT
 fails broken/scripts/site "$folder/refused" > said 2>&1
 [ ! -e refused ]
-for name in none.md none.prm "[#']none'" none.png; do
+for name in none.md none.prm "[#']none\>" none.png; do
   grep -q "bar.md.*$name" said
 done
 # What is no site is not overwritten.

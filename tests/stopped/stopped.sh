@@ -12,7 +12,8 @@ else
 fi
 code=$?
 # What mpirun prints around the message is not ours.
-sed -n -e '/^error: /,$p' stderr | sed -e '/^---/,$d' -e '/^Primary job/,$d' >report
+sed -n -e '/^error: /,$p' stderr |
+  sed -e '/^---/,$d' -e '/^Primary job/,$d' -e '/^\[[^ ]*:[0-9]*\]/d' >report
 if [ $code -ne 1 ]; then
   echo "exit code $code instead of 1"
   cat stdout stderr
