@@ -108,10 +108,13 @@ namespace geocone
               return !symmetric || id.infog[11] == 0;
             if (error == -10)
               return false; // singular
-            if ((error == -8 || error == -9) && attempt < 5)
-              icntl(14) *= 2; // workspace too small
-            else
+            if (error != -8 && error != -9)
               check("factorisation");
+            // The workspace is too small. Where much more does not help, nearly all
+            // pivots are put off, as they are next to zero: it is singular.
+            if (attempt == 7)
+              return false;
+            icntl(14) *= 2;
           }
       }
 
