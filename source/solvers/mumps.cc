@@ -38,8 +38,8 @@ namespace geocone
         call(-1);
         for (int i = 1; i <= 4; ++i)
           icntl(i) = i == 4 ? 0 : -1; // silent
-        icntl(14) = 40;               // per cent of extra workspace
-        icntl(18) = 3;                // distributed assembled entries
+        icntl(14) = usual_workspace;
+        icntl(18) = 3; // distributed assembled entries
         if (!serial)
           {
             icntl(20) = 10; // distributed right-hand sides,
@@ -112,9 +112,9 @@ namespace geocone
               check("factorisation");
             // The workspace is too small. Where much more does not help, nearly all
             // pivots are put off, as they are next to zero: it is singular.
+            icntl(14) = attempt == 7 ? usual_workspace : 2 * icntl(14);
             if (attempt == 7)
               return false;
-            icntl(14) *= 2;
           }
       }
 
@@ -236,6 +236,8 @@ namespace geocone
               x[n_own * c + row] = taken[k + 1 + c];
           }
       }
+
+      static constexpr MUMPS_INT usual_workspace = 40; ///< more, in per cent
 
       const MPI_Comm   comm;
       const bool       symmetric, serial;
