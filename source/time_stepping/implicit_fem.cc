@@ -429,13 +429,16 @@ namespace geocone
     StepReport report;
     Vector     residual = problem->make_vector();
     Vector     v        = velocity_n;
-    report.newton = newton.solve(*problem, *system, timer, v, residual, {});
-    freezer.take(*problem, velocity_n, false, report.newton.converged);
+    report.newton    = newton.solve(*problem, *system, timer, v, residual, {});
+    report.converged = report.newton.converged;
+    freezer.take(*problem, velocity_n, false, report.converged);
     if (const Stage &stage = scene->loading.stage_at(t + h / 2.);
-        stage.seeks_equilibrium() && report.newton.converged)
-      report.newton.reason = stage.no_equilibrium(
-        accelerating_share(*problem, points, scene->materials, velocity_n, v));
-    report.converged = report.newton.converged && report.newton.reason.empty();
+        stage.seeks_equilibrium() && report.converged)
+      {
+        report.newton.reason = stage.no_equilibrium(accelerating_share(
+          *problem, points, scene->materials, velocity_n, v));
+        report.converged     = report.newton.reason.empty();
+      }
     if (!report.converged)
       return report;
 

@@ -122,17 +122,18 @@ namespace geocone
                        "the midpoint rule would let bodies enter what they "
                        "touch");
     for (const auto &obstacle : scene->obstacles.list)
-      if (obstacle->slides_little())
-        throw InputError(obstacle->parameter("Sliding"),
-                         "small",
-                         "finite with MPM",
-                         "particles are where they are: leave it out");
-    for (const auto &obstacle : scene->obstacles.list)
-      if (obstacle->law.adhesion > 0.)
-        throw InputError(obstacle->parameter("Adhesion"),
-                         obstacle->law.adhesion,
-                         "0 with MPM",
-                         "the surface of particles has no area; take FEM");
+      {
+        if (obstacle->slides_little())
+          throw InputError(obstacle->parameter("Sliding"),
+                           "small",
+                           "finite with MPM",
+                           "particles are where they are: leave it out");
+        if (obstacle->law.adhesion > 0.)
+          throw InputError(obstacle->parameter("Adhesion"),
+                           obstacle->law.adhesion,
+                           "0 with MPM",
+                           "the surface of particles has no area; take FEM");
+      }
     check_particles_outside(
       points, scene->obstacles, mesh->triangulation().get_communicator());
     if (bodies)
