@@ -435,14 +435,18 @@ namespace geocone
   }
 
   double
-  ObstacleContact::settle(const Contact &contact,
-                          const Vector  &v,
-                          const Vector  &mass,
-                          Vector        &v_end) const
+  ObstacleContact::settle(const Contact  &contact,
+                          const Unknowns &unknowns,
+                          const Vector   &v,
+                          const Vector   &mass,
+                          Vector         &v_end) const
   {
     const auto &nodes = contact.nodes();
     // What touches, and the masses, of other ranks too: all of them settle alike.
-    Vector closed_nodes(space.partitioner()), inertia = mass;
+    Vector closed_nodes(space.partitioner()), of_impulse(space.partitioner());
+    for (unsigned int dof = 0; dof < of_impulse.locally_owned_size(); ++dof)
+      if (unknowns.is_free(dof))
+        of_impulse.local_element(dof) = 1. / mass.local_element(dof);
     for (unsigned int i = 0; i < nodes.size(); ++i)
       if (nodes[i].node < space.n_owned_nodes())
         closed_nodes.local_element(dim * nodes[i].node + nodes[i].is_second) =
@@ -450,7 +454,7 @@ namespace geocone
           : contact.touches()[i].state == Contact::State::stick ? 2.
                                                                 : 1.;
     closed_nodes.update_ghost_values();
-    inertia.update_ghost_values();
+    of_impulse.update_ghost_values();
     v.update_ghost_values();
     v_end.update_ghost_values();
 
@@ -475,29 +479,29 @@ namespace geocone
                 const unsigned int dof = dim * at.node + d;
                 solved += (v.local_element(dof) - at.velocity[d]) * along[d];
                 end += v_end.local_element(dof) * along[d];
-                mobility += along[d] * along[d] / inertia.local_element(dof);
+                mobility += along[d] * along[d] * of_impulse.local_element(dof);
                 if (!at.touches_body())
                   end -= at.velocity[d] * along[d];
                 for (const ContactNode::Partner &other : at.partners)
                   {
                     const unsigned int its = dim * other.node + d;
                     end -= other.part * v_end.local_element(its) * along[d];
-                    mobility += std::pow(other.part * along[d], 2) /
-                                inertia.local_element(its);
+                    mobility += std::pow(other.part * along[d], 2) *
+                                of_impulse.local_element(its);
                   }
               }
-            if (std::abs(end) <= std::abs(solved))
+            if (std::abs(end) <= std::abs(solved) || mobility == 0.)
               continue;
             const double impulse = (solved - end) / mobility;
             for (unsigned int d = 0; d < dim; ++d)
               {
                 const unsigned int dof = dim * at.node + d;
                 v_end.local_element(dof) +=
-                  impulse * along[d] / inertia.local_element(dof);
+                  impulse * along[d] * of_impulse.local_element(dof);
                 for (const ContactNode::Partner &other : at.partners)
                   v_end.local_element(dim * other.node + d) -=
-                    impulse * other.part * along[d] /
-                    inertia.local_element(dim * other.node + d);
+                    impulse * other.part * along[d] *
+                    of_impulse.local_element(dim * other.node + d);
               }
             if (at.node < space.n_owned_nodes())
               lost -= impulse * (solved + end) / 2.;

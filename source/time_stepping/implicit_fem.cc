@@ -56,21 +56,6 @@ namespace geocone
                        "backward Euler without inertia",
                        "set Time stepping/Inertia = true: without it there is "
                        "nothing to be kept");
-    for (const auto &obstacle : scene->obstacles.list)
-      if (integration == Integration::midpoint &&
-          obstacle->law.restitution > 0.)
-        throw InputError(obstacle->parameter("Restitution"),
-                         obstacle->law.restitution,
-                         "0 with Integration = midpoint",
-                         "by the midpoint rule a node that hits an obstacle "
-                         "rebounds elastically as it is");
-    for (const auto &pair : scene->contacts.list)
-      if (integration == Integration::midpoint && pair->law.restitution > 0.)
-        throw InputError("Contacts/" + pair->name + "/Restitution",
-                         pair->law.restitution,
-                         "0 with Integration = midpoint",
-                         "by the midpoint rule what hits rebounds elastically "
-                         "as it is");
     if (!inertia)
       scene->absorbing.refuse(
         "Time stepping/Inertia = false",
@@ -82,7 +67,7 @@ namespace geocone
                        "set Time stepping/Inertia = true");
     RaisedLoads::check(*scene);
     check_round_body(*scene, space_);
-    check_midpoint(integration, scene->materials, "Time stepping/Integration");
+    check_midpoint(integration, *scene, "Time stepping/Integration");
     points = make_quadrature_points(*scene, mesh_, space_);
     if (scene->loading.changes_body())
       {
@@ -394,8 +379,11 @@ namespace geocone
       {
         kinematics.velocity.sadd(-1., 2., v);
         if (obstacles->exists())
-          settled = obstacles->settle(
-            problem->contact(), v, lumped_mass, kinematics.velocity);
+          settled = obstacles->settle(problem->contact(),
+                                      *constraints,
+                                      v,
+                                      lumped_mass,
+                                      kinematics.velocity);
       }
     else
       kinematics.velocity = v;

@@ -59,14 +59,29 @@ namespace geocone
 
   void
   check_midpoint(const Choice<Integration> &integration,
-                 const Materials           &materials,
+                 const Scene               &scene,
                  const std::string         &name)
   {
-    if (integration == Integration::midpoint && materials.are_spatial())
+    if (integration != Integration::midpoint)
+      return;
+    if (scene.materials.are_spatial())
       throw InputError(name,
                        integration.word(),
                        "backward Euler with laws that are spatial",
                        "they do not say which stress their strength allows is "
                        "nearest to another");
+    const auto check = [](const std::string &parameter, const double e) {
+      if (e > 0.)
+        throw InputError(parameter,
+                         e,
+                         "0 with Integration = midpoint",
+                         "by the midpoint rule bodies rebound by their "
+                         "elasticity alone: leave it out, or take backward "
+                         "Euler");
+    };
+    for (const auto &obstacle : scene.obstacles.list)
+      check(obstacle->parameter("Restitution"), obstacle->law.restitution);
+    for (const auto &pair : scene.contacts.list)
+      check("Contacts/" + pair->name + "/Restitution", pair->law.restitution);
   }
 } // namespace geocone

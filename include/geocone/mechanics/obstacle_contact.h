@@ -125,14 +125,16 @@ namespace geocone
      * For the midpoint rule: nodes that touch keep the velocity against the obstacle
      * that was solved for, where the one at the end of the step is larger. Doubled
      * like others they would rebound in each step, and their forces alternate.
-     * @param v solved for @param mass of the nodes @param[in,out] v_end
+     * @param unknowns what is held stays as it is @param v solved for @param mass of the
+     *  nodes @param[in,out] v_end
      * @return the kinetic energy that this takes (J/m), >= 0. Collective.
      */
     double
-    settle(const Contact &contact,
-           const Vector  &v,
-           const Vector  &mass,
-           Vector        &v_end) const;
+    settle(const Contact  &contact,
+           const Unknowns &unknowns,
+           const Vector   &v,
+           const Vector   &mass,
+           Vector         &v_end) const;
 
     /** Takes the velocities of the obstacles, and moves them and, where the mesh is
      *  the body, its nodes.

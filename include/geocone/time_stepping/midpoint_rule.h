@@ -7,6 +7,7 @@
 #include <geocone/base/choice.h>
 #include <geocone/materials/material.h>
 #include <geocone/mechanics/internal_forces.h>
+#include <geocone/scene/scene.h>
 
 #include <vector>
 
@@ -65,10 +66,11 @@ namespace geocone
            const Materials      &materials,
            MaterialPoints       &points);
 
-  /** @throws InputError for laws that it does not know @param name of the parameter */
+  /** @throws InputError for laws that it does not know, and for restitution @param name
+   *  of the parameter */
   void
   check_midpoint(const Choice<Integration> &integration,
-                 const Materials           &materials,
+                 const Scene               &scene,
                  const std::string         &name);
 } // namespace geocone
 
