@@ -24,9 +24,6 @@ namespace geocone
      *  squares breathe with their volume. */
     constexpr double nearly_closed = 1e-3;
 
-    /** Normals with a larger cosine between them count as one (10 degrees). */
-    const double parallel = std::cos(radians(10.));
-
     constexpr char of_corner[] = "\n  remedy:  hold one of the sides by a "
                                  "boundary condition, or leave the "
                                  "corner out of the body";
@@ -211,7 +208,14 @@ namespace geocone
                              const NearBodies          &bodies,
                              ContactStep               &step) const
   {
-    const auto &list = scene.obstacles.list;
+    const auto             &list = scene.obstacles.list;
+    std::vector<Neighbours> beside;
+    for (unsigned int o = 0; o < list.size(); ++o)
+      beside.emplace_back(list,
+                          o,
+                          list[o]->slides_little() ? std::vector<RigidMotion>()
+                                                   : displacement,
+                          margin());
     std::string refusal;
     for (const unsigned int node : candidates)
       {
@@ -222,13 +226,16 @@ namespace geocone
           {
             const Tensor<1, dim>    arm = x - centre(o);
             const Tensor<1, dim>    V = step.bodies[o].without_contact.at(arm);
+            const Neighbours *const others =
+              list.size() > 1 ? &beside[o] : nullptr;
             const Obstacle::Nearest at =
               list[o]->slides_little()
                 ? list[o]->nearest_to_start(space.node_positions()[node],
                                             x,
                                             displacement[o],
-                                            h * (V - v))
-                : list[o]->nearest(x, displacement[o], V - v);
+                                            h * (V - v),
+                                            others)
+                : list[o]->nearest(x, displacement[o], V - v, others);
             if (mesh_is_body && at.distance < -closed_gap * size &&
                 is_held(node, at.normal))
               refusal =

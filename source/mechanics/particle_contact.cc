@@ -30,6 +30,32 @@ namespace geocone
      *  Gauss points, too. */
     constexpr double beside = 0.4;
 
+    /** Surfaces that differ by less than this part of half a particle are one. */
+    constexpr double beside_part = 0.2;
+
+    /**
+     * How far a particle is from obstacles that go on where another one ends, whose node
+     * moves the particle, too; infinite without any.
+     * @param near from the particle, by obstacle @param own the obstacle of the node
+     * @param of_node from the node to it @param arm from the node to the particle
+     * @param tolerance by which both surfaces may differ there
+     */
+    double
+    along_others(const std::vector<Obstacle::Nearest> &near,
+                 const unsigned int                    own,
+                 const Obstacle::Nearest              &of_node,
+                 const Tensor<1, dim>                 &arm,
+                 const double                          tolerance)
+    {
+      const double expected = of_node.distance + arm * of_node.normal;
+      double       least    = 1e300;
+      for (unsigned int o = 0; o < near.size(); ++o)
+        if (o != own && near[o].normal * of_node.normal > parallel &&
+            std::abs(near[o].distance - expected) < tolerance)
+          least = std::min(least, near[o].distance);
+      return least;
+    }
+
     /** Where a particle is for those that it touches: what stays in the mesh of soil
      *  that moves has been displaced. */
     Point<dim>
@@ -47,35 +73,58 @@ namespace geocone
   gaps_of_particles(const MaterialPoints           &points,
                     const Scene                    &scene,
                     const std::vector<RigidMotion> &moved,
-                    const Space                    &space)
+                    const Space                    &space,
+                    const double                    margin)
   {
-    const auto         &obstacles = scene.obstacles;
-    std::vector<Vector> all(obstacles.list.size());
-    for (unsigned int o = 0; o < all.size(); ++o)
+    const auto        &list = scene.obstacles.list;
+    const unsigned int n    = list.size();
+    // Where nodes are in an obstacle that has others beside it.
+    std::vector<std::vector<Obstacle::Nearest>> of_node(n);
+    std::vector<Neighbours>                     beside;
+    for (unsigned int o = 0; o < n; ++o)
+      beside.emplace_back(list, o, moved, margin);
+    for (unsigned int o = 0; o < n && n > 1; ++o)
+      for (const Point<dim> &x : space.node_positions())
+        of_node[o].push_back(list[o]->nearest(x, moved[o], {}, &beside[o]));
+
+    std::vector<Vector> all(n);
+    for (Vector &of_obstacle : all)
       {
-        all[o].reinit(space.partitioner());
+        of_obstacle.reinit(space.partitioner());
         for (unsigned int node = 0; node < space.n_local_nodes(); ++node)
-          all[o].local_element(dim * node) = 1e300;
-        for_each_point(
-          points,
-          [&](const unsigned int p,
-              const unsigned int /* cell */,
-              const PointFunctions &at) {
-            const double half = length_of(points.weight[p]) / 2.;
-            const double gap =
-              obstacles.list[o]
-                ->nearest(position_of(scene, points, p), moved[o], {})
-                .distance -
-              half;
-            for (unsigned int i = 0; i < at.n; ++i)
-              if (at.N[i] > least_share)
-                {
-                  double &least = all[o].local_element(dim * at.nodes[i]);
-                  least         = std::min(least, gap);
-                }
-          });
-        all[o].compress(VectorOperation::min);
-        all[o].update_ghost_values();
+          of_obstacle.local_element(dim * node) = 1e300;
+      }
+    std::vector<Obstacle::Nearest> near(n);
+    for_each_point(points,
+                   [&](const unsigned int p,
+                       const unsigned int /* cell */,
+                       const PointFunctions &at) {
+                     const double     half = length_of(points.weight[p]) / 2.;
+                     const Point<dim> x    = position_of(scene, points, p);
+                     for (unsigned int o = 0; o < n; ++o)
+                       near[o] = list[o]->nearest(x, moved[o], {});
+                     for (unsigned int o = 0; o < n; ++o)
+                       for (unsigned int i = 0; i < at.n; ++i)
+                         if (at.N[i] > least_share)
+                           {
+                             const unsigned int node     = at.nodes[i];
+                             double             distance = near[o].distance;
+                             if (n > 1 && of_node[o][node].distance < margin)
+                               distance = std::min(
+                                 distance,
+                                 along_others(near,
+                                              o,
+                                              of_node[o][node],
+                                              x - space.node_positions()[node],
+                                              beside_part * half));
+                             double &least = all[o].local_element(dim * node);
+                             least         = std::min(least, distance - half);
+                           }
+                   });
+    for (Vector &of_obstacle : all)
+      {
+        of_obstacle.compress(VectorOperation::min);
+        of_obstacle.update_ghost_values();
       }
     return all;
   }

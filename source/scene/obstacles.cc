@@ -216,15 +216,22 @@ namespace geocone
   Obstacle::nearest_to_start(const Point<dim>     &start,
                              const Point<dim>     &x,
                              const RigidMotion    &moved,
-                             const Tensor<1, dim> &step) const
+                             const Tensor<1, dim> &step,
+                             const Neighbours     *beside) const
   {
     const Point<dim> X = centre();
     const Point<dim> now(X + turned(x - X - moved.centre, -moved.angle));
     // At a vertex it faces the side that has come, or comes, against it.
     const Tensor<1, dim> approach = start - now + turned(step, -moved.angle);
-    const Tensor<1, dim> normal   = nearest(start, {}, approach).normal;
-    Nearest              found    = nearest(
-      Point<dim>(start + ((now - start) * normal) * normal), {}, approach);
+    const Nearest        first    = nearest(start, {}, approach, beside);
+    if (std::isinf(first.distance))
+      return first;
+    const Tensor<1, dim> normal = first.normal;
+    Nearest              found =
+      nearest(Point<dim>(start + ((now - start) * normal) * normal),
+              {},
+              approach,
+              beside);
     found.normal = turned(found.normal, moved.angle);
     return found;
   }
@@ -232,56 +239,154 @@ namespace geocone
   Obstacle::Nearest
   Obstacle::nearest(const Point<dim>     &x,
                     const RigidMotion    &moved,
-                    const Tensor<1, dim> &approach) const
+                    const Tensor<1, dim> &approach,
+                    const Neighbours     *beside) const
   {
-    if (moved.angle != 0.)
-      {
-        // In the frame that turns with it.
-        const Point<dim> X = centre();
-        Nearest          found =
-          nearest(Point<dim>(X + turned(x - X - moved.centre, -moved.angle)),
-                  {},
-                  turned(approach, -moved.angle));
-        found.normal = turned(found.normal, moved.angle);
-        return found;
-      }
-    const Point<dim> at = x - moved.centre;
+    const Point<dim> X     = centre();
+    const bool       turns = moved.angle != 0.;
+    Cover            cover;
+    if (beside != nullptr)
+      cover = [&](const Point<dim> &place) {
+        return beside->cover(turns ? X + moved.centre +
+                                       turned(place - X, moved.angle)
+                                   : place + moved.centre);
+      };
+    const double margin = beside != nullptr ? beside->margin : 0.;
+    OnBoundary   found =
+      turns ? nearest_of_shape(
+                Point<dim>(X + turned(x - X - moved.centre, -moved.angle)),
+                turned(approach, -moved.angle),
+                cover,
+                margin)
+              : nearest_of_shape(x - moved.centre, approach, cover, margin);
+    if (turns)
+      found.normal = turned(found.normal, moved.angle);
+    if (found.is_vertex && beside != nullptr &&
+        beside->go_on_from(x - found.distance * found.normal, x))
+      found.distance = std::numeric_limits<double>::infinity();
+    return found;
+  }
+
+  Obstacle::OnBoundary
+  Obstacle::nearest_of_shape(const Point<dim>     &x,
+                             const Tensor<1, dim> &approach,
+                             const Cover          &cover,
+                             const double          margin) const
+  {
+    if (shape == Shape::polygon)
+      return nearest_of_polygon(x, approach, cover, margin);
     if (shape == Shape::half_plane)
-      return {(at - place) * normal, normal};
-    if (shape == Shape::disc)
-      {
-        const Tensor<1, dim> from = at - place;
-        const double         r    = from.norm();
-        return {r - radius, r > 0. ? from / r : Point<dim>(0., 1.)};
-      }
+      return {{(x - place) * normal, normal}};
+    const Tensor<1, dim> from = x - place;
+    const double         r    = from.norm();
+    return {{r - radius, r > 0. ? from / r : Point<dim>(0., 1.)}};
+  }
+
+  Obstacle::OnBoundary
+  Obstacle::nearest_of_polygon(const Point<dim>     &x,
+                               const Tensor<1, dim> &approach,
+                               const Cover          &cover,
+                               const double          margin) const
+  {
     // Inside and on the border the nearest side, outside it or a vertex.
+    constexpr double   infinity  = std::numeric_limits<double>::infinity();
     const unsigned int n         = vertices.size();
     const double       tolerance = 1e-9 * width();
-    Nearest            best{-std::numeric_limits<double>::infinity(), {}};
-    double             least = std::numeric_limits<double>::infinity();
-    Tensor<1, dim>     to_border;
+    double             outmost   = -infinity;
+    Nearest            best{-infinity, {}};
+    OnBoundary         border{{infinity, {}}};
     for (unsigned int i = 0; i < n; ++i)
       {
         const Point<dim>    &a = vertices[i], &b = vertices[(i + 1) % n];
         const Tensor<1, dim> edge     = b - a;
-        const Tensor<1, dim> N        = edge_normal(a, b) / edge.norm();
-        const double         distance = (at - a) * N;
+        const double         l        = edge.norm();
+        const Tensor<1, dim> N        = edge_normal(a, b) / l;
+        double               distance = (x - a) * N;
+        outmost                       = std::max(outmost, distance);
+        const double part             = ((x - a) * edge) / edge.norm_square();
+        const double along            = std::clamp(part, 0., 1.);
+        if (cover)
+          {
+            const auto is_covered = [&](const double s) {
+              const double inset = std::min(margin / l, 0.5);
+              return cover(a + std::clamp(s, inset, 1. - inset) * edge +
+                           margin * N);
+            };
+            if (is_covered(along))
+              {
+                // What is deep inside is pushed out through what is bare of the side.
+                if (distance > -margin)
+                  continue;
+                double to_bare = infinity;
+                for (const double end : {0., 1.})
+                  if (!is_covered(end))
+                    {
+                      double from = along, to = end;
+                      while (std::abs(to - from) * l > margin / 2.)
+                        (is_covered((from + to) / 2.) ? from : to) =
+                          (from + to) / 2.;
+                      to_bare = std::min(to_bare, std::abs(to - along) * l);
+                    }
+                if (std::isinf(to_bare))
+                  continue;
+                distance = -std::hypot(distance, to_bare);
+              }
+          }
         if (distance > best.distance + tolerance ||
             (distance > best.distance - tolerance &&
              N * approach > best.normal * approach))
           best = {distance, N};
-        const double along =
-          std::clamp(((at - a) * edge) / edge.norm_square(), 0., 1.);
-        const Tensor<1, dim> from = at - (a + along * edge);
-        if (from.norm() < least)
-          {
-            least     = from.norm();
-            to_border = from;
-          }
+        const Tensor<1, dim> from = x - (a + along * edge);
+        if (from.norm() < border.distance)
+          border = {{from.norm(), from}, std::abs(part - along) * l > margin};
       }
-    if (best.distance > tolerance)
-      best = {least, to_border / least};
-    return best;
+    if (outmost > tolerance)
+      {
+        if (std::isfinite(border.distance))
+          border.normal /= border.distance;
+        return border;
+      }
+    if (std::isinf(best.distance))
+      best.distance = infinity;
+    return {best};
+  }
+
+  Neighbours::Neighbours(const std::vector<std::unique_ptr<Obstacle>> &list,
+                         const unsigned int                            own,
+                         const std::vector<RigidMotion>               &moved,
+                         const double                                  margin)
+    : margin(margin)
+    , list(list)
+    , own(own)
+    , moved(moved)
+  {}
+
+  double
+  Neighbours::distance(const unsigned int o, const Point<dim> &x) const
+  {
+    return list[o]
+      ->nearest(x, moved.empty() ? RigidMotion() : moved[o], {})
+      .distance;
+  }
+
+  bool
+  Neighbours::cover(const Point<dim> &place) const
+  {
+    for (unsigned int o = 0; o < list.size(); ++o)
+      if (o != own && distance(o, place) < -margin / 2.)
+        return true;
+    return false;
+  }
+
+  bool
+  Neighbours::go_on_from(const Point<dim> &vertex, const Point<dim> &x) const
+  {
+    const double own_distance = vertex.distance(x);
+    for (unsigned int o = 0; o < list.size(); ++o)
+      if (o != own && distance(o, vertex) < margin &&
+          distance(o, x) < (1. - 1e-9) * own_distance)
+        return true;
+    return false;
   }
 
   Obstacles::Obstacles(const ParameterFile &file)

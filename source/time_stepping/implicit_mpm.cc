@@ -536,7 +536,8 @@ namespace geocone
         step.t,
         step.h,
         step.solved_h,
-        gaps_of_particles(points, *scene, obstacles->moved(), *space),
+        gaps_of_particles(
+          points, *scene, obstacles->moved(), *space, obstacles->margin()),
         bodies ? bodies->find(points, *constraints)
                : std::vector<FacingNode>());
     problem->begin_step(

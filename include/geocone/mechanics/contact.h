@@ -23,6 +23,12 @@ namespace geocone
   /** A gap that counts as none, over the size of a cell. */
   constexpr double closed_gap = 1e-9;
 
+  /** Boundaries of obstacles that are nearer than this part of a cell meet. */
+  constexpr double meeting = 1e-3;
+
+  /** Normals with a larger cosine between them count as one (10 degrees). */
+  const double parallel = std::cos(radians(10.));
+
   /** A node of which a support holds one direction touches along the other one, if its
    *  cosine with the normal is larger (10 degrees). */
   const double along_support = std::cos(radians(10.));

@@ -146,6 +146,13 @@ namespace geocone
            const double   solved_h,
            const bool     moves);
 
+    /** Up to which distance boundaries of obstacles meet, see Neighbours (m). */
+    double
+    margin() const
+    {
+      return meeting * size;
+    }
+
     /** What the obstacles have moved. */
     const std::vector<RigidMotion> &
     moved() const

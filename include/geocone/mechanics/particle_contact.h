@@ -18,13 +18,16 @@ namespace geocone
    * Per obstacle the gap to it of the nearest particle that a node moves (m), by the
    * node's first dof, for ObstacleContact::begin(). A particle is a square of its
    * volume. Collective.
+   * Where one obstacle ends and another one goes on, the particles before both count.
    * @param moved what the obstacles have moved since the start
+   * @param margin see Neighbours
    */
   std::vector<Vector>
   gaps_of_particles(const MaterialPoints           &points,
                     const Scene                    &scene,
                     const std::vector<RigidMotion> &moved,
-                    const Space                    &space);
+                    const Space                    &space,
+                    const double                    margin);
 
   /** @throws InputError if a particle is in an obstacle at the start. Collective. */
   void

@@ -14,12 +14,50 @@
 #include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/point.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace geocone
 {
+  class Obstacle;
+
+  /** The obstacles beside one, which cover parts of its boundary: several convex ones
+   *  that meet have one surface, without the sides that they share. */
+  class Neighbours
+  {
+  public:
+    /**
+     * @param list all obstacles @param own the one that they are beside
+     * @param moved what all have moved since the start; empty: nothing
+     * @param margin distance up to which boundaries meet (m)
+     */
+    Neighbours(const std::vector<std::unique_ptr<Obstacle>> &list,
+               const unsigned int                            own,
+               const std::vector<RigidMotion>               &moved,
+               const double                                  margin);
+
+    /** Whether a place is inside one of them. */
+    bool
+    cover(const dealii::Point<dim> &place) const;
+
+    /** Whether one of them reaches a vertex, and is nearer to x than that. */
+    bool
+    go_on_from(const dealii::Point<dim> &vertex,
+               const dealii::Point<dim> &x) const;
+
+    const double margin;
+
+  private:
+    double
+    distance(const unsigned int o, const dealii::Point<dim> &x) const;
+
+    const std::vector<std::unique_ptr<Obstacle>> &list;
+    const unsigned int                            own;
+    const std::vector<RigidMotion>                moved;
+  };
+
   /**
    * A rigid body that the soil may touch, rub on and leave, but not enter: a
    * half-plane, a disc or a convex polygon, at rest, driven or free. Where they touch
@@ -40,8 +78,8 @@ namespace geocone
     /** Where a place is beside it. */
     struct Nearest
     {
-      double                 distance; ///< negative inside (m)
-      dealii::Tensor<1, dim> normal;   ///< out of the obstacle, unit length
+      double distance;               ///< negative inside (m); infinite: hidden
+      dealii::Tensor<1, dim> normal; ///< out of the obstacle, unit length
     };
 
     /**
@@ -51,23 +89,27 @@ namespace geocone
      * @param moved what the obstacle has moved since the start
      * @param approach direction in which it moves past x: at a corner of a polygon
      * the side that comes nearer
+     * @param beside others that hide parts of its boundary; none: it is alone
      */
     Nearest
     nearest(const dealii::Point<dim>     &x,
             const RigidMotion            &moved,
-            const dealii::Tensor<1, dim> &approach) const;
+            const dealii::Tensor<1, dim> &approach,
+            const Neighbours             *beside = nullptr) const;
 
     /**
      * The same of a point of a body that slides little: its distance along the normal
      * of the place that it had at the start (m), in the frame of the obstacle.
      * @param start where the point was at the start
      * @param step how far the obstacle may pass it in a step (m)
+     * @param beside others, where they were at the start
      */
     Nearest
     nearest_to_start(const dealii::Point<dim>     &start,
                      const dealii::Point<dim>     &x,
                      const RigidMotion            &moved,
-                     const dealii::Tensor<1, dim> &step) const;
+                     const dealii::Tensor<1, dim> &step,
+                     const Neighbours             *beside = nullptr) const;
 
     /** Its velocity at time t where it is driven, else 0. */
     RigidMotion
@@ -126,6 +168,27 @@ namespace geocone
     InterfaceLaw      law;
 
   private:
+    /** A place on its boundary, and whether it is beyond the end of a side. */
+    struct OnBoundary : Nearest
+    {
+      bool is_vertex = false;
+    };
+
+    /** Whether a place is in another obstacle; empty: none is. */
+    using Cover = std::function<bool(const dealii::Point<dim> &)>;
+
+    /** The nearest place in the frame of the obstacle. @param margin see Neighbours */
+    OnBoundary
+    nearest_of_shape(const dealii::Point<dim>     &x,
+                     const dealii::Tensor<1, dim> &approach,
+                     const Cover                  &cover,
+                     const double                  margin) const;
+    OnBoundary
+    nearest_of_polygon(const dealii::Point<dim>     &x,
+                       const dealii::Tensor<1, dim> &approach,
+                       const Cover                  &cover,
+                       const double                  margin) const;
+
     enum class Shape
     {
       half_plane,
