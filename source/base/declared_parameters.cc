@@ -104,8 +104,13 @@ namespace geocone
       if (begins("[List"))
         {
           const bool doubles = pattern.find("[Double") != std::string::npos;
+          const bool spatial =
+            pattern.find("length 3...3 ") != std::string::npos;
           if (pattern.find("[List", 5) != std::string::npos)
-            return "points x, y; x, y; ... of numbers";
+            return spatial ? "points x, y, z; x, y, z; ... of numbers"
+                           : "points x, y; x, y; ... of numbers";
+          if (spatial)
+            return "three numbers x, y, z";
           if (pattern.find("length 2...2 ") != std::string::npos)
             return "two numbers x, y";
           return doubles ? "numbers, separated by commas"

@@ -111,6 +111,15 @@ namespace geocone
     };
     if (type == Type::from_bounds)
       {
+        const std::string remedy = "strict bounds are of plane scenes: set "
+                                   "Mesh/Type = unstructured";
+        if (dim == 3)
+          throw InputError("Mesh/Type",
+                           type.word(),
+                           "another type with Geometry/Dimension = 3",
+                           remedy);
+        geometry.refuse_axis("'Mesh/Type' = " + std::string(type.word()),
+                             remedy);
         if (geometry.outline.empty() || method.is_explicit() ||
             (method.is_mpm() && !box.empty()))
           throw InputError("Mesh/Type",

@@ -167,6 +167,19 @@ namespace geocone
   }
 
   bool
+  Materials::have_cone() const
+  {
+    return std::any_of(
+      in_closed_form.begin(), in_closed_form.end(), [](const Material *law) {
+        if (law == nullptr)
+          return false;
+        const std::vector<double> history(law->n_history(), 0.);
+        return law->flow_cone(history.data()).has_value() ||
+               law->spatial_cone(SpatialMandel::Zero(), {}).has_value();
+      });
+  }
+
+  bool
   Materials::are_undrained() const
   {
     return std::any_of(list.begin(), list.end(), [](const auto &law) {

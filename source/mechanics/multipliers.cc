@@ -443,23 +443,20 @@ namespace geocone
     return sum;
   }
 
-  double
+  Tensor<1, n_rotations>
   Multipliers::moment(const VectorXd    &lambda,
                       const unsigned int condition,
                       const Point<dim>  &centre,
                       const Space       &space) const
   {
-    double sum = 0.;
+    Reaction sum;
     for (unsigned int j = 0; j < touched.size(); ++j)
-      {
-        const Tensor<1, dim> r =
-          space.node_positions()[touched[j] / dim] - centre;
-        const double arm = touched[j] % dim == 0 ? -r[1] : r[0];
-        for (unsigned int k = 0; k < n_rows(); ++k)
-          if (keys[k].condition == condition)
-            sum += arm * lambda[k] * H(k, j);
-      }
-    return Utilities::MPI::sum(sum, comm);
+      for (unsigned int k = 0; k < n_rows(); ++k)
+        if (keys[k].condition == condition)
+          sum.add(space.node_positions()[touched[j] / dim] - centre,
+                  touched[j] % dim,
+                  lambda[k] * H(k, j));
+    return Utilities::MPI::sum(sum.moment, comm);
   }
 
   Multipliers::LightShare

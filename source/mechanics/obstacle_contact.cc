@@ -434,9 +434,9 @@ namespace geocone
     std::vector<Reaction> result(n);
     for (unsigned int o = 0; o < n; ++o)
       {
-        result[o].force[0] = sums[3 * o];
-        result[o].force[1] = sums[3 * o + 1];
-        result[o].moment   = sums[3 * o + 2];
+        result[o].force[0]  = sums[3 * o];
+        result[o].force[1]  = sums[3 * o + 1];
+        result[o].moment[0] = sums[3 * o + 2];
       }
     return result;
   }

@@ -28,8 +28,10 @@ namespace geocone
       table,
       scene->observation,
       scene->supports(),
-      [this](const Record &r, const unsigned int i) {
-        return r.report.reactions[scene->observation.conditions[i]].moment;
+      scene->geometry,
+      [this](const Record &r, const unsigned int i, const unsigned int axis) {
+        return r.report.reactions[scene->observation.conditions[i]]
+          .moment[axis];
       },
       [](const Record &r, const unsigned int i, const unsigned int d) {
         return r.displacements[i][d];

@@ -66,6 +66,22 @@ namespace geocone
         }
       return length > 0. ? sum / length : 0.;
     }
+
+    /** A step that covers more than this part of a plateau is all of it. */
+    constexpr double nearly_all = 0.9;
+
+    /** The step that covers nearly all from begin to the end; 0: there is none. */
+    std::size_t
+    only_step(const std::vector<LoadPoint> &branch, const double begin)
+    {
+      const double end = branch.back().displacement;
+      for (std::size_t i = branch.size() - 1; i > 0; --i)
+        if (branch[i].displacement -
+              std::max(branch[i - 1].displacement, begin) >
+            nearly_all * (end - begin))
+          return i;
+      return 0;
+    }
   } // namespace
 
   LimitLoad
@@ -87,19 +103,19 @@ namespace geocone
     const double end = branch.back().displacement;
     for (const double fraction : {0.5, 0.25, 0.125})
       {
-        const double begin    = end * (1. - fraction);
-        const double mean     = mean_load(branch, begin, end);
-        const bool   one_step = branch[branch.size() - 2].displacement <= begin;
-        const double change =
-          one_step ? branch.back().load - branch[branch.size() - 2].load
-                   : mean_load(branch, (begin + end) / 2., end) -
-                       mean_load(branch, begin, (begin + end) / 2.);
+        const double      begin  = end * (1. - fraction);
+        const double      mean   = mean_load(branch, begin, end);
+        const std::size_t single = only_step(branch, begin);
+        const double      change =
+          single > 0 ? branch[single].load - branch[single - 1].load
+                          : mean_load(branch, (begin + end) / 2., end) -
+                         mean_load(branch, begin, (begin + end) / 2.);
         limit.drift     = mean != 0. ? change / mean : 0.;
         limit.value     = mean;
         limit.begins_at = begin;
         if (mean == 0. || std::abs(limit.drift) > tolerance)
           {
-            if (one_step)
+            if (single == branch.size() - 1)
               break;
             continue;
           }

@@ -99,10 +99,13 @@ namespace geocone
     table.add("friction lag (-)",
               [](const Record &r) { return r.last.newton.friction_lag; });
     add_quality("cone excess (Pa)", &Quality::cone_excess);
-    add_quality("natural-map error (-)", &Quality::natural_map);
-    add_quality("cone violation (-)", &Quality::cone_violation);
-    add_quality("dual-cone violation (-)", &Quality::dual_violation);
-    add_quality("complementarity (-)", &Quality::complementarity);
+    if (scene->materials.have_cone())
+      {
+        add_quality("natural-map error (-)", &Quality::natural_map);
+        add_quality("cone violation (-)", &Quality::cone_violation);
+        add_quality("dual-cone violation (-)", &Quality::dual_violation);
+        add_quality("complementarity (-)", &Quality::complementarity);
+      }
     table.add("plastic points (-)", [](const Record &r) {
       const NewtonIteration &end = r.last.newton.table.back();
       return end.n_cone + end.n_apex;
@@ -174,7 +177,10 @@ namespace geocone
       table,
       scene->observation,
       scene->supports(),
-      [](const Record &r, const unsigned int i) { return r.moments[i]; },
+      scene->geometry,
+      [](const Record &r, const unsigned int i, const unsigned int axis) {
+        return r.moments[n_rotations * i + axis];
+      },
       [](const Record &r, const unsigned int i, const unsigned int d) {
         return r.displacements[i][d];
       });

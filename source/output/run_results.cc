@@ -229,11 +229,15 @@ namespace geocone
       json["contact"] = contact();
     if (points_move)
       json["motion"] = motion();
-    json["quality"] = {{"natural_map_error_max", quality.natural_map},
-                       {"complementarity_max", quality.complementarity},
-                       {"cone_violation_max", quality.cone_violation},
-                       {"dual_cone_violation_max", quality.dual_violation},
-                       {"cone_excess_max_Pa", quality.cone_excess}};
+    const auto of_cones = [this](const double error) {
+      return scene->materials.have_cone() ? Json(error) : Json();
+    };
+    json["quality"] = {
+      {"natural_map_error_max", of_cones(quality.natural_map)},
+      {"complementarity_max", of_cones(quality.complementarity)},
+      {"cone_violation_max", of_cones(quality.cone_violation)},
+      {"dual_cone_violation_max", of_cones(quality.dual_violation)},
+      {"cone_excess_max_Pa", quality.cone_excess}};
     if (!records.empty())
       {
         json["state"]  = {{"largest_plastic_strain",
@@ -318,11 +322,13 @@ namespace geocone
                      newton_part["iterations_mean"].get<double>(),
                      newton_part["iterations_max"].get<unsigned int>(),
                      newton_part["failures"].get<unsigned int>()));
-    log.print(format("natural-map error <= %.1e, complementarity <= %.1e, cone "
-                     "violation <= %.1e",
-                     summary["quality"]["natural_map_error_max"].get<double>(),
-                     summary["quality"]["complementarity_max"].get<double>(),
-                     summary["quality"]["cone_violation_max"].get<double>()));
+    if (scene->materials.have_cone())
+      log.print(
+        format("natural-map error <= %.1e, complementarity <= %.1e, cone "
+               "violation <= %.1e",
+               summary["quality"]["natural_map_error_max"].get<double>(),
+               summary["quality"]["complementarity_max"].get<double>(),
+               summary["quality"]["cone_violation_max"].get<double>()));
     if (const auto n = newton_part["steps_at_rounding_floor"].get<unsigned>())
       log.print(format("%u of %zu steps are solved up to rounding, which is "
                        "above 'Newton/Tolerance' (residual <= %.1e)",
@@ -366,20 +372,27 @@ namespace geocone
   void
   RunOutput::print_limit_load() const
   {
-    const Json       &limit   = summary["limit_load"];
-    const std::string of_load = unit("N/m");
+    const Json &limit = summary["limit_load"];
+    // Of raised loads that 'Factor' does not turn into a force it is a number.
+    const bool is_number = scene->observation.of_raised_loads &&
+                           std::abs(scene->observation.factor) == 1.;
+    const std::string of_load = is_number ? "" : " " + unit("N/m");
     if (limit["value"].is_null())
       log.print("limit load: none, " + limit["reason"].get<std::string>());
     else
       {
         std::string line =
-          format("limit load %.2f ", limit["value"].get<double>()) + of_load;
+          format(is_number ? "limit load factor %.4f" : "limit load %.2f",
+                 limit["value"].get<double>()) +
+          of_load;
         if (limit["band_high"] != limit["band_low"])
-          line += format(" (band %.2f to %.2f)",
-                         limit["band_low"].get<double>(),
-                         limit["band_high"].get<double>());
+          line +=
+            format(is_number ? " (band %.4f to %.4f)" : " (band %.2f to %.2f)",
+                   limit["band_low"].get<double>(),
+                   limit["band_high"].get<double>());
         if (!limit["reference"].is_null())
-          line += format(", %s %.2f %s, error %+.3f %%",
+          line += format(is_number ? ", %s %.4f%s, error %+.3f %%"
+                                   : ", %s %.2f%s, error %+.3f %%",
                          limit["reference_name"].get<std::string>().c_str(),
                          limit["reference"].get<double>(),
                          of_load.c_str(),

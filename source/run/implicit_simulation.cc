@@ -460,7 +460,8 @@ namespace geocone
         const Reaction &reaction = present.last.reactions[c];
         for (unsigned int d = 0; d < dim; ++d)
           present.reactions.push_back(reaction.force[d]);
-        present.moments.push_back(reaction.moment);
+        for (unsigned int axis = 0; axis < n_rotations; ++axis)
+          present.moments.push_back(reaction.moment[axis]);
       }
     present.displacements =
       observed_points.displacements(points, kinematics.displacement);

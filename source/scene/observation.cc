@@ -69,7 +69,8 @@ namespace geocone
       "Moment centre",
       centre,
       "Point (m) that the moments of the reactions are about, around "
-      "z, counterclockwise positive. Empty: for each condition the "
+      "z, counterclockwise positive, in three dimensions around x, y and z. "
+      "Empty: for each condition the "
       "centre of the bounding box of what it holds at the start.");
     add_parameter("Plateau tolerance",
                   plateau_tolerance,

@@ -393,6 +393,9 @@ namespace geocone
     : dealii::ParameterAcceptor("/Obstacles")
     , names(file.named_sections("Obstacles", "Names", ""))
   {
+    if (dim == 3)
+      refuse("Geometry/Dimension = 3",
+             "they are for plane scenes so far: leave them out");
     add_parameter(
       "Names",
       names,
@@ -413,7 +416,7 @@ namespace geocone
   void
   Obstacles::refuse(const std::string &what, const std::string &remedy) const
   {
-    if (!list.empty())
+    if (!names.empty())
       throw InputError("Obstacles/Names",
                        dealii::Patterns::Tools::to_string(names),
                        "none with " + what,

@@ -24,10 +24,12 @@ namespace geocone
     scene.refuse_contact("Geometry/Symmetry = axisymmetric",
                          "prescribe velocities of sides instead");
     if (space.has_b_bar())
-      throw InputError("Discretisation/B-bar",
-                       "true",
-                       "false where Geometry/Symmetry = axisymmetric",
-                       "take elements of degree 2 or 3, which do not lock");
+      throw InputError(
+        "Discretisation/B-bar",
+        "true",
+        "false where Geometry/Symmetry = axisymmetric",
+        "take triangles of degree 3, which lock least: soil that "
+        "keeps its volume is too strong on quadrilaterals");
   }
 
   std::vector<unsigned int>

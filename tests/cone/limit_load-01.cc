@@ -97,6 +97,10 @@ main()
   print("growing steps, rising",
         {{1., 60.}, {3., 90.}, {9., 98.}, {27., 100.}, {81., 105.}});
 
+  // Elastic steps that double: the last one is all of the last half, or all but a hundredth.
+  print("elastic", {{0.1, 10.}, {0.5 + 1e-12, 50.}, {1., 100.}});
+  print("elastic, almost", {{0.1, 10.}, {0.505, 50.5}, {1., 100.}});
+
   // Pushed along -y and counted so: both signs change, and the work does not.
   Curve downward = sample(20, plateau);
   for (LoadPoint &point : downward)

@@ -55,6 +55,10 @@ namespace geocone
     bool
     are_spatial() const;
 
+    /** Whether a law has a cone that steps solve for, which Quality tells of. */
+    bool
+    have_cone() const;
+
     /** Whether there is undrained soil (ConstitutiveLaw::fluid_modulus()). */
     bool
     are_undrained() const;

@@ -167,9 +167,8 @@ namespace geocone
               const unsigned int     condition,
               const unsigned int     component) const;
 
-    /** Moment of the forces H' lambda of a condition about a point (N m/m),
-     *  counterclockwise positive. Collective. */
-    double
+    /** Moment of the forces H' lambda of a condition about a point (N m/m). Collective. */
+    dealii::Tensor<1, n_rotations>
     moment(const Eigen::VectorXd    &lambda,
            const unsigned int        condition,
            const dealii::Point<dim> &centre,

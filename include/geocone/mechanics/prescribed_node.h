@@ -5,6 +5,7 @@
 #define geocone_mechanics_prescribed_node_h
 
 #include <geocone/base/state_row.h>
+#include <geocone/base/types.h>
 #include <geocone/scene/geometry.h>
 
 #include <deal.II/base/point.h>
@@ -21,11 +22,23 @@ namespace geocone
     bool               mine; ///< whether this rank counts it in sums
   };
 
+  /** The moment about an axis of n_rotations of a unit force along a component. */
+  inline double
+  lever(const dealii::Tensor<1, dim> &arm,
+        const unsigned int            component,
+        const unsigned int            rotation)
+  {
+    const auto [a, b] = plane_of_rotation[rotation];
+    return component == b ? arm[a] : component == a ? -arm[b] : 0.;
+  }
+
   /** Of the nodal forces of a support on the body; or of impulses. */
   struct Reaction
   {
     dealii::Tensor<1, dim> force; ///< sum f_i (N/m)
-    double moment = 0.;           ///< about z, sum (x_i - c) x f_i (N m/m)
+
+    /** sum (x_i - c) x f_i (N m/m), about the axes of n_rotations. */
+    dealii::Tensor<1, n_rotations> moment;
 
     /** Adds a component of f_i. @param arm x_i - c */
     void
@@ -34,8 +47,8 @@ namespace geocone
         const double                  f)
     {
       force[component] += f;
-      if (component < 2)
-        moment += component == 0 ? -arm[1] * f : arm[0] * f;
+      for (unsigned int r = 0; r < n_rotations; ++r)
+        moment[r] += f * lever(arm, component, r);
     }
 
     void

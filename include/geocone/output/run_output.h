@@ -34,7 +34,7 @@ namespace geocone
     double              load         = 0.;
     double              raised       = 0.; ///< way of raised loads (m)
     std::vector<double> reactions;         ///< of the observed conditions
-    std::vector<double> moments;           ///< of the same
+    std::vector<double> moments;           ///< of the same, n_rotations each
     std::vector<dealii::Tensor<1, dim>> displacements; ///< of observed points
     std::vector<double> pressures; ///< in excess, of the same in undrained soil
     StepReport          last; ///< of the last substep; works are of the step
