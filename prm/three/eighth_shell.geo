@@ -3,8 +3,8 @@
 // by gmsh: gmsh -3 eighth_shell.geo
 inner  = 1;
 outer  = 2;
-n      = 6;  // cells along the half of an arc of 90 degrees
-layers = 10;
+n      = 8;  // cells along the half of an arc of 90 degrees
+layers = 20;
 
 // The faces are flat; those of a little larger spheres enclose the same volume.
 larger = 1 + 0.0898 / n ^ 2;

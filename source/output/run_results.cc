@@ -229,15 +229,14 @@ namespace geocone
       json["contact"] = contact();
     if (points_move)
       json["motion"] = motion();
-    const auto of_cones = [this](const double error) {
-      return scene->materials.have_cone() ? Json(error) : Json();
-    };
-    json["quality"] = {
-      {"natural_map_error_max", of_cones(quality.natural_map)},
-      {"complementarity_max", of_cones(quality.complementarity)},
-      {"cone_violation_max", of_cones(quality.cone_violation)},
-      {"dual_cone_violation_max", of_cones(quality.dual_violation)},
-      {"cone_excess_max_Pa", quality.cone_excess}};
+    Json &of_state                 = json["quality"];
+    of_state["cone_excess_max_Pa"] = quality.cone_excess;
+    if (scene->materials.have_cone())
+      of_state.update(
+        Json{{"natural_map_error_max", quality.natural_map},
+             {"complementarity_max", quality.complementarity},
+             {"cone_violation_max", quality.cone_violation},
+             {"dual_cone_violation_max", quality.dual_violation}});
     if (!records.empty())
       {
         json["state"]  = {{"largest_plastic_strain",

@@ -12,15 +12,16 @@ for picture in points.png energy.png structure.png; do
 done
 # In 1.2 s nothing moves by 5 % of the height, or it has a picture.
 [ -s cut/slide.png ] || grep -q 'slide.png is not drawn: nothing slides' plot.txt
-"$root/scripts/plot" cut --animation
+"$root/scripts/plot" cut --animation --apng
 PYTHONPATH=$root/python /usr/bin/python3 - <<'PYTHON'
 import geocone
 from geocone.plots.explicit import snapshots_of, taken_away_at
 from PIL import Image
 
 run = geocone.read("cut")
-film = Image.open("cut/points.gif")
-assert film.n_frames == len(run.times("points")), film.n_frames
+for name in "points.gif", "points_film.png":
+    film = Image.open("cut/" + name)
+    assert film.n_frames == len(run.times("points")), (name, film.n_frames)
 cut = taken_away_at(run)
 times = [field.time for field in snapshots_of(run, None)]
 assert sum(time < cut for time in times) == 1 and len(times) == 6, (cut, times)

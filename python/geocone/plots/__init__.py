@@ -108,6 +108,9 @@ def main(arguments, prog="plot"):
                         help="times of the pictures of points (s)")
     parser.add_argument("--animation", action="store_true",
                         help="only draw points.gif, a film of the points")
+    parser.add_argument("--apng", action="store_true",
+                        help="only draw points_film.png, the same film as an animated "
+                        "PNG, in all its colours")
     parser.add_argument("--paraview", action="store_true",
                         help="only write paraview_state.py, which opens the fields in "
                         "ParaView")
@@ -131,10 +134,13 @@ def main(arguments, prog="plot"):
             return 0
         for run, name in zip(runs, names):
             below = call.output and (call.output / name if len(runs) > 1 else call.output)
-            if call.animation:
+            if call.animation or call.apng:
                 from geocone.plots import animation
                 (below or run.folder).mkdir(parents=True, exist_ok=True)
-                animation.draw(run, (below or run.folder) / "points.gif")
+                names_of_films = ["points.gif"] * call.animation + \
+                    ["points_film.png"] * call.apng
+                animation.draw(run, [(below or run.folder) / film
+                                     for film in names_of_films])
                 continue
             if call.paraview:
                 from geocone.plots import paraview

@@ -1,7 +1,8 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""points.gif: the points of a run at all times at which fields were written, coloured by
-their plastic strain or, of an elastic body, by the largest shear stress in the plane."""
+"""points.gif, or points_film.png: the points of a run at all times at which fields were
+written, coloured by their plastic strain or, of an elastic body, by the largest shear
+stress in the plane."""
 
 import io
 
@@ -16,8 +17,9 @@ SECONDS = 8.  # that a film takes
 MOST = 200  # pictures
 
 
-def draw(run, path):
-    """Draws the film of a run."""
+def draw(run, paths):
+    """Draws the film of a run, as a GIF (of 128 colours) or an animated PNG each, by the
+    ends of their names."""
     series = run.times("points")
     if len(series) < 2:
         raise Skipped("fewer than two times have points")
@@ -37,11 +39,15 @@ def draw(run, path):
         axes.set_title(f"{plain(run.name)}: t = {field.time:.4g} s")
         figure.canvas.draw()
         frames.append(Image.fromarray(np.asarray(figure.canvas.buffer_rgba()))
-                      .convert("RGB").quantize(128))
+                      .convert("RGB"))
         drawn.remove()
-    film = io.BytesIO()
-    frames[0].save(film, format="GIF", save_all=True, append_images=frames[1:],
-                   duration=round(1e3 * SECONDS / len(frames)), loop=0)
-    write_whole(path, film.getvalue())
-    add_to_list(path)
-    print(path)
+    for path in paths:
+        is_gif = path.suffix == ".gif"
+        first, *others = [frame.quantize(128) for frame in frames] if is_gif else frames
+        film = io.BytesIO()
+        first.save(film, format="GIF" if is_gif else "PNG", save_all=True,
+                   append_images=others, duration=round(1e3 * SECONDS / len(frames)),
+                   loop=0)
+        write_whole(path, film.getvalue())
+        add_to_list(path)
+        print(path)
