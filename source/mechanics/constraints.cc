@@ -10,6 +10,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -319,6 +321,74 @@ namespace geocone
     if (n_rows == 0)
       throw InputError("all nodes are prescribed: there is nothing to solve\n"
                        "  remedy:  take smaller cells, or free some sides");
+  }
+
+  std::string
+  Constraints::warn_of_bent_values() const
+  {
+    if (space.degree() == 1 || !space.is_non_negative())
+      return "";
+    std::string names;
+    double      t = 0.; // the end, when formulas have come to all that they are
+    for (const auto &stage : scene.loading.stages)
+      t += stage->duration;
+    const auto &list = scene.dirichlet.list;
+    for (unsigned int c = 0; c < list.size(); ++c)
+      {
+        if (list[c]->moves())
+          continue;
+        bool is_bent = false;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            if (!list[c]->components[d])
+              continue;
+            // The linear function that is nearest to the values at all nodes.
+            constexpr unsigned int       n             = dim + 1;
+            std::array<double, n *n + n> sums          = {};
+            const auto                   for_each_node = [&](const auto &f) {
+              for (const unsigned int node : owned_nodes[c])
+                {
+                  std::array<double, n> at;
+                  at[dim] = 1.;
+                  for (unsigned int i = 0; i < dim; ++i)
+                    at[i] = space.node_positions()[node][i] - centres[c][i];
+                  f(at, value(c, d, node, t));
+                }
+            };
+            double largest = 0., farthest = 0.;
+            for_each_node([&](const auto &at, const double v) {
+              largest = std::max(largest, std::abs(v));
+              for (unsigned int i = 0; i < n; ++i)
+                {
+                  for (unsigned int j = 0; j < n; ++j)
+                    sums[n * i + j] += at[i] * at[j];
+                  sums[n * n + i] += at[i] * v;
+                }
+            });
+            sum_over_ranks(sums, comm);
+            const Eigen::Map<const Eigen::Matrix<double, n, n>> A(sums.data());
+            const Eigen::Map<const Eigen::Matrix<double, n, 1>> b(sums.data() +
+                                                                  n * n);
+            const Eigen::Matrix<double, n, 1>                   fit =
+              A.completeOrthogonalDecomposition().solve(b);
+            for_each_node([&](const auto &at, const double v) {
+              double linear = 0.;
+              for (unsigned int i = 0; i < n; ++i)
+                linear += fit[i] * at[i];
+              farthest = std::max(farthest, std::abs(v - linear));
+            });
+            is_bent = is_bent || Utilities::MPI::max(farthest, comm) >
+                                   1e-6 * Utilities::MPI::max(largest, comm);
+          }
+        if (is_bent)
+          names += (names.empty() ? "'" : ", '") + list[c]->name + "'";
+      }
+    if (names.empty())
+      return "";
+    return "values of " + names +
+           " are not linear in space: coefficients of Bernstein's polynomials "
+           "and of splines take them, which is of order two only; set "
+           "Discretisation/Basis = Lagrange for FEM";
   }
 
   void

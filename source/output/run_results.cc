@@ -10,6 +10,37 @@
 
 namespace geocone
 {
+  namespace
+  {
+    /** By how much displacements grow at least before a body fails. */
+    constexpr double least_growth = 3.;
+  } // namespace
+
+  std::optional<double>
+  RunOutput::growth_of_displacement() const
+  {
+    double first = 0., last = 0.;
+    for (std::size_t i = 1; i < records.size(); ++i)
+      {
+        const StepRecord &now = records[i], &before = records[i - 1];
+        const double      reduction = scene->loading.strength_factor(now.time) -
+                                 scene->loading.strength_factor(before.time);
+        double most = 0.;
+        for (std::size_t k = 0; k < now.displacements.size(); ++k)
+          most = std::max(most,
+                          (now.resets
+                             ? now.displacements[k]
+                             : now.displacements[k] - before.displacements[k])
+                            .norm());
+        if (!(reduction > 0.))
+          continue;
+        last = most / reduction;
+        if (first == 0.)
+          first = last;
+      }
+    return first > 0. ? std::optional(last / first) : std::nullopt;
+  }
+
   Json
   RunOutput::safety() const
   {
@@ -21,7 +52,9 @@ namespace geocone
                                            : factor(records.back().time);
     const double upper = failure ? factor(failure->not_until) : 0.;
     const bool   found = failure && upper > 1.;
+    const auto growth = growth_of_displacement();
     return {{"factor", found ? Json((lower + upper) / 2.) : Json()},
+            {"displacement_growth", growth ? Json(*growth) : Json()},
             {"lower", failure && !found ? Json() : Json(lower)},
             {"upper", failure ? Json(upper) : Json()},
             {"criterion",
@@ -350,6 +383,17 @@ namespace geocone
                summary["safety"]["factor"].get<double>(),
                summary["safety"]["lower"].get<double>(),
                summary["safety"]["upper"].get<double>()));
+    if (const auto growth = growth_of_displacement();
+        growth && summary.contains("safety"))
+      {
+        log.print(format("by the last reduction the observed points move %.3g "
+                         "times as fast per factor as by the first one",
+                         *growth));
+        if (failure && *growth < least_growth)
+          log.warn("a slope that fails moves ever faster, and this one does "
+                   "not: a step may have failed for another reason (log.txt), "
+                   "or the observed points are not on what slides");
+      }
     if (summary.contains("limit_load"))
       print_limit_load();
     if (bracket)

@@ -99,7 +99,7 @@ namespace geocone
     constraints->check_axis(mesh_, space_);
     check_resistance(points, mesh_.triangulation().get_communicator());
     newton.check(*problem);
-    return "";
+    return constraints->warn_of_bent_values();
   }
 
   void

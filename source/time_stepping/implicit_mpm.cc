@@ -250,6 +250,9 @@ namespace geocone
       points, v, 0., *constraints); // refuses what it must before the run
     kinematics.velocity = velocity_L;
     kinematics.supports.resize(scene->supports().size());
+    if (const std::string bent = constraints->warn_of_bent_values();
+        !bent.empty())
+      warning += (warning.empty() ? "" : "; ") + bent;
     return warning;
   }
 

@@ -57,6 +57,12 @@ namespace geocone
     void
     check_axis(const BackgroundMesh &mesh, const Space &space) const;
 
+    /** A warning, or nothing: values that are not linear in space are not interpolated by
+     *  functions whose coefficients are not values (Bernstein, splines): they are as
+     *  accurate as those of hats. Collective. */
+    std::string
+    warn_of_bent_values() const;
+
     /** Sets the prescribed components of v to their values at time t. */
     void
     set_values(Vector &v, const double t) const;

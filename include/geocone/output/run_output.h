@@ -15,6 +15,7 @@
 #include <geocone/time_stepping/time_stepper.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -186,6 +187,12 @@ namespace geocone
     energy() const;
     Json
     safety() const;
+
+    /** How much faster the observed point that moves most does by the last reduction of
+     *  the strength than by the first one, per factor; nothing: none is observed. */
+    std::optional<double>
+    growth_of_displacement() const;
+
     Json
     contact() const;
     Json
