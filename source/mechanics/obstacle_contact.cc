@@ -58,6 +58,13 @@ namespace geocone
     for (const auto &cell : mesh.own_cells())
       size = std::min(size, cell->diameter());
     size = Utilities::MPI::min(size, comm);
+    if (const std::string overlap =
+          scene.obstacles.overlap_of_free(displacement, margin());
+        !overlap.empty())
+      throw InputError("Obstacles/Names",
+                       list.front()->name,
+                       "free obstacles that do not overlap with others",
+                       overlap + ": move it, or make one body of both");
     if (!mesh_is_body)
       {
         for (unsigned int node = 0; node < space.n_local_nodes(); ++node)
@@ -127,7 +134,12 @@ namespace geocone
   {
     const double solved_at = t + solved_h;
     const auto  &list      = scene.obstacles.list;
-    ContactStep  step;
+    if (const std::string overlap =
+          scene.obstacles.overlap_of_free(displacement, margin());
+        !overlap.empty())
+      throw StepFailure(overlap + "\n  remedy:  end the loading before they "
+                                  "meet, or let the soil part them");
+    ContactStep step;
     step.bodies.resize(list.size());
     for (unsigned int o = 0; o < list.size(); ++o)
       {

@@ -267,6 +267,63 @@ namespace geocone
     return found;
   }
 
+  std::vector<Point<dim>>
+  Obstacle::moved_vertices(const RigidMotion &moved) const
+  {
+    const Point<dim>        X = centre();
+    std::vector<Point<dim>> places;
+    if (shape == Shape::polygon)
+      for (const Point<dim> &vertex : vertices)
+        places.push_back(X + moved.centre + turned(vertex - X, moved.angle));
+    return places;
+  }
+
+  double
+  Obstacle::parted_by_sides(const std::vector<Point<dim>> &places,
+                            const RigidMotion             &moved) const
+  {
+    const auto beyond = [&](const Point<dim>     &on_side,
+                            const Tensor<1, dim> &N) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const Point<dim> &x : places)
+        least = std::min(least, (x - on_side) * N);
+      return least;
+    };
+    if (shape == Shape::half_plane)
+      return beyond(place + moved.centre, turned(normal, moved.angle));
+    double     most = -std::numeric_limits<double>::infinity();
+    const auto own  = moved_vertices(moved);
+    const auto n    = own.size();
+    for (std::size_t i = 0; i < n; ++i)
+      {
+        const Point<dim>    &a = own[i], &b = own[(i + 1) % n];
+        const Tensor<1, dim> N = edge_normal(a, b);
+        most                   = std::max(most, beyond(a, N / N.norm()));
+      }
+    return most;
+  }
+
+  double
+  Obstacle::distance_to(const Obstacle    &other,
+                        const RigidMotion &moved,
+                        const RigidMotion &its_moved) const
+  {
+    if (shape == Shape::disc)
+      return other.nearest(place + moved.centre, its_moved, {}).distance -
+             radius;
+    if (other.shape == Shape::disc)
+      return other.distance_to(*this, its_moved, moved);
+    if (shape == Shape::half_plane && other.shape == Shape::half_plane)
+      return std::numeric_limits<double>::infinity();
+    double most = -std::numeric_limits<double>::infinity();
+    if (other.shape == Shape::polygon)
+      most = parted_by_sides(other.moved_vertices(its_moved), moved);
+    if (shape == Shape::polygon)
+      most =
+        std::max(most, other.parted_by_sides(moved_vertices(moved), its_moved));
+    return most;
+  }
+
   Obstacle::OnBoundary
   Obstacle::nearest_of_shape(const Point<dim>     &x,
                              const Tensor<1, dim> &approach,
@@ -411,6 +468,24 @@ namespace geocone
   {
     for (const auto &obstacle : list)
       obstacle->prepare();
+  }
+
+  std::string
+  Obstacles::overlap_of_free(const std::vector<RigidMotion> &moved,
+                             const double                    margin) const
+  {
+    for (std::size_t a = 0; a < list.size(); ++a)
+      for (std::size_t b = 0; b < list.size(); ++b)
+        if (a != b && list[a]->is_free())
+          if (const double distance =
+                list[a]->distance_to(*list[b], moved[a], moved[b]);
+              distance < -margin)
+            return format("the free obstacle '%s' is %.3g m inside '%s': "
+                          "obstacles touch soil, and not each other",
+                          list[a]->name.c_str(),
+                          -distance,
+                          list[b]->name.c_str());
+    return "";
   }
 
   void

@@ -111,6 +111,16 @@ namespace geocone
                      const dealii::Tensor<1, dim> &step,
                      const Neighbours             *beside = nullptr) const;
 
+    /**
+     * How far it is from another one, negative where they overlap (m); infinite for two
+     * half-planes. Of convex shapes one of their sides parts them.
+     * @param moved,its_moved what both have moved since the start
+     */
+    double
+    distance_to(const Obstacle    &other,
+                const RigidMotion &moved,
+                const RigidMotion &its_moved) const;
+
     /** Its velocity at time t where it is driven, else 0. */
     RigidMotion
     velocity(const double t) const;
@@ -168,6 +178,16 @@ namespace geocone
     InterfaceLaw      law;
 
   private:
+    /** Its vertices, if it is a polygon, after a motion. */
+    std::vector<dealii::Point<dim>>
+    moved_vertices(const RigidMotion &moved) const;
+
+    /** Of its sides the one that parts others most from it: how far the nearest of some
+     *  places is beyond it (m). */
+    double
+    parted_by_sides(const std::vector<dealii::Point<dim>> &places,
+                    const RigidMotion                     &moved) const;
+
     /** A place on its boundary, and whether it is beyond the end of a side. */
     struct OnBoundary : Nearest
     {
@@ -234,6 +254,13 @@ namespace geocone
     /** @throws InputError if there are any, with what can have none */
     void
     refuse(const std::string &what, const std::string &remedy) const;
+
+    /** What obstacle is free and overlaps with which one, which it would not notice, as
+     *  obstacles touch bodies only; empty: none. @param moved since the start
+     *  @param margin that counts as none (m) */
+    std::string
+    overlap_of_free(const std::vector<RigidMotion> &moved,
+                    const double                    margin) const;
 
     std::vector<std::unique_ptr<Obstacle>> list;
 
