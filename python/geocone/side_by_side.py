@@ -49,7 +49,7 @@ class SideBySide:
         @param jobs [(cores that it takes, function)]
         @throw what the first job that has failed has thrown, or what has interrupted;
           nothing is being computed any more then"""
-        free, threads, problems = self.cores, [], []
+        free, problems = self.cores, []
 
         def work(function, taken):
             nonlocal free
@@ -64,22 +64,25 @@ class SideBySide:
                     free += taken
                     self.changed.notify()
 
+        def wait_for_all():
+            # Not by Thread.join: what interrupts that (Ctrl-C) makes Python take the
+            # thread for ended.
+            with self.changed:
+                self.changed.wait_for(lambda: free == self.cores)
+
         try:
             for wanted, function in jobs:
                 taken = min(wanted, self.cores)
                 with self.changed:
                     self.changed.wait_for(lambda taken=taken: free >= taken)
+                    if self.stopped:
+                        break
                     free -= taken
-                if self.stopped:
-                    break
-                threads.append(threading.Thread(target=work, args=(function, taken)))
-                threads[-1].start()
-            for thread in threads:
-                thread.join()
+                threading.Thread(target=work, args=(function, taken)).start()
+            wait_for_all()
         except BaseException:
             self.stop()
-            for thread in threads:
-                thread.join()
+            wait_for_all()
             raise
         if problems:
             raise problems[0]

@@ -75,3 +75,14 @@ bar --set 'Materials/clay/Dilatancy angle = 25' --output dilatant
 [ "$(grep -c 'B-bar makes soil that dilates too strong' log)" = 1 ]
 bar --set 'Materials/clay/Dilatancy angle = 0' --output isochoric
 fails grep -q 'B-bar makes' log
+
+# Values that are not linear in space are not interpolated by Bernstein's polynomials.
+plate() {
+  "$program" "$root/prm/verification/elastic_plate.prm" --set 'Output/Pictures = false' \
+    --set 'Output/Fields = false' --set 'Output/Expectations =' \
+    --set 'Mesh/Cell size = 0.5' "$@" >log 2>&1
+}
+plate --output lagrange
+fails grep -q 'are not linear in space' log
+plate --set 'Discretisation/Basis = Bernstein' --output bernstein
+[ "$(grep -c 'are not linear in space' log)" = 1 ]

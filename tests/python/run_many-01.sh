@@ -89,10 +89,10 @@ geocone.run_many({file!r}, {{name: {{"Loading/push/Duration": 1e6, "Output/Pictu
                  for name in "ab"}}, cores=2, output="endless", program={program!r})
 """
 child = subprocess.Popen([sys.executable, "-B", "-c", script], stderr=subprocess.PIPE)
-for _ in range(600):
+for _ in range(6000):
     if all(os.path.exists(f"endless/{name}/statistics.csv") for name in "ab"):
         break
-    time.sleep(0.1)
+    time.sleep(0.01)
 child.send_signal(signal.SIGINT)
 _, words = child.communicate(timeout=60)
 assert words.decode().strip().endswith("KeyboardInterrupt"), words
