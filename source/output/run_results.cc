@@ -47,12 +47,12 @@ namespace geocone
     const auto factor = [&](const double t) {
       return scene->loading.strength_factor(t);
     };
-    const double lower = failure           ? factor(failure->carried_until)
-                         : records.empty() ? 1.
-                                           : factor(records.back().time);
-    const double upper = failure ? factor(failure->not_until) : 0.;
-    const bool   found = failure && upper > 1.;
-    const auto growth = growth_of_displacement();
+    const double lower  = failure           ? factor(failure->carried_until)
+                          : records.empty() ? 1.
+                                            : factor(records.back().time);
+    const double upper  = failure ? factor(failure->not_until) : 0.;
+    const bool   found  = failure && upper > 1.;
+    const auto   growth = growth_of_displacement();
     return {{"factor", found ? Json((lower + upper) / 2.) : Json()},
             {"displacement_growth", growth ? Json(*growth) : Json()},
             {"lower", failure && !found ? Json() : Json(lower)},
