@@ -395,7 +395,7 @@ namespace geocone
           best = {distance, N};
         const Tensor<1, dim> from = x - (a + along * edge);
         if (from.norm() < border.distance)
-          border = {{from.norm(), from}, std::abs(part - along) * l > margin};
+          border = {{from.norm(), from}, std::abs(part - along) * l > tolerance};
       }
     if (outmost > tolerance)
       {
