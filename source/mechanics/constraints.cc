@@ -10,8 +10,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <Eigen/Dense>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -337,49 +335,25 @@ namespace geocone
       {
         if (list[c]->moves())
           continue;
-        bool is_bent = false;
+        // Half-way between any two places a linear value is the mean of both.
+        double largest = 0., bend = 0.;
         for (unsigned int d = 0; d < dim; ++d)
-          {
-            if (!list[c]->components[d])
-              continue;
-            // The linear function that is nearest to the values at all nodes.
-            constexpr unsigned int       n             = dim + 1;
-            std::array<double, n *n + n> sums          = {};
-            const auto                   for_each_node = [&](const auto &f) {
-              for (const unsigned int node : owned_nodes[c])
-                {
-                  std::array<double, n> at;
-                  at[dim] = 1.;
-                  for (unsigned int i = 0; i < dim; ++i)
-                    at[i] = space.node_positions()[node][i] - centres[c][i];
-                  f(at, value(c, d, node, t));
-                }
-            };
-            double largest = 0., farthest = 0.;
-            for_each_node([&](const auto &at, const double v) {
-              largest = std::max(largest, std::abs(v));
-              for (unsigned int i = 0; i < n; ++i)
-                {
-                  for (unsigned int j = 0; j < n; ++j)
-                    sums[n * i + j] += at[i] * at[j];
-                  sums[n * n + i] += at[i] * v;
-                }
-            });
-            sum_over_ranks(sums, comm);
-            const Eigen::Map<const Eigen::Matrix<double, n, n>> A(sums.data());
-            const Eigen::Map<const Eigen::Matrix<double, n, 1>> b(sums.data() +
-                                                                  n * n);
-            const Eigen::Matrix<double, n, 1>                   fit =
-              A.completeOrthogonalDecomposition().solve(b);
-            for_each_node([&](const auto &at, const double v) {
-              double linear = 0.;
-              for (unsigned int i = 0; i < n; ++i)
-                linear += fit[i] * at[i];
-              farthest = std::max(farthest, std::abs(v - linear));
-            });
-            is_bent = is_bent || Utilities::MPI::max(farthest, comm) >
-                                   1e-6 * Utilities::MPI::max(largest, comm);
-          }
+          for (std::size_t i = 1;
+               list[c]->components[d] && i < owned_nodes[c].size();
+               ++i)
+            {
+              const unsigned int a = owned_nodes[c][i - 1],
+                                 b = owned_nodes[c][i];
+              const double at_a = value(c, d, a, t), at_b = value(c, d, b, t);
+              const Point<dim> &x = space.node_positions()[a],
+                               &y = space.node_positions()[b];
+              const double between =
+                list[c]->value(d, Point<dim>(x + (y - x) / 2.), t);
+              largest = std::max({largest, std::abs(at_a), std::abs(at_b)});
+              bend    = std::max(bend, std::abs(between - (at_a + at_b) / 2.));
+            }
+        const bool is_bent = Utilities::MPI::max(bend, comm) >
+                             1e-6 * Utilities::MPI::max(largest, comm);
         if (is_bent)
           names += (names.empty() ? "'" : ", '") + list[c]->name + "'";
       }

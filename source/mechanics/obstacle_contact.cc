@@ -220,14 +220,8 @@ namespace geocone
                              const NearBodies          &bodies,
                              ContactStep               &step) const
   {
-    const auto             &list = scene.obstacles.list;
-    std::vector<Neighbours> beside;
-    for (unsigned int o = 0; o < list.size(); ++o)
-      beside.emplace_back(list,
-                          o,
-                          list[o]->slides_little() ? std::vector<RigidMotion>()
-                                                   : displacement,
-                          margin());
+    const auto &list   = scene.obstacles.list;
+    const auto  others = scene.obstacles.neighbours(displacement, margin());
     std::string refusal;
     for (const unsigned int node : candidates)
       {
@@ -238,16 +232,14 @@ namespace geocone
           {
             const Tensor<1, dim>    arm = x - centre(o);
             const Tensor<1, dim>    V = step.bodies[o].without_contact.at(arm);
-            const Neighbours *const others =
-              list.size() > 1 ? &beside[o] : nullptr;
             const Obstacle::Nearest at =
               list[o]->slides_little()
                 ? list[o]->nearest_to_start(space.node_positions()[node],
                                             x,
                                             displacement[o],
                                             h * (V - v),
-                                            others)
-                : list[o]->nearest(x, displacement[o], V - v, others);
+                                            &others[o])
+                : list[o]->nearest(x, displacement[o], V - v, &others[o]);
             if (mesh_is_body && at.distance < -closed_gap * size &&
                 is_held(node, at.normal))
               refusal =

@@ -31,7 +31,7 @@ namespace geocone
     constexpr double beside = 0.4;
 
     /** Surfaces that differ by less than this part of half a particle are one. */
-    constexpr double beside_part = 0.2;
+    constexpr double flush = 0.2;
 
     /**
      * How far a particle is from obstacles that go on where another one ends, whose node
@@ -80,12 +80,10 @@ namespace geocone
     const unsigned int n    = list.size();
     // Where nodes are in an obstacle that has others beside it.
     std::vector<std::vector<Obstacle::Nearest>> of_node(n);
-    std::vector<Neighbours>                     beside;
-    for (unsigned int o = 0; o < n; ++o)
-      beside.emplace_back(list, o, moved, margin);
+    const auto others = scene.obstacles.neighbours(moved, margin);
     for (unsigned int o = 0; o < n && n > 1; ++o)
       for (const Point<dim> &x : space.node_positions())
-        of_node[o].push_back(list[o]->nearest(x, moved[o], {}, &beside[o]));
+        of_node[o].push_back(list[o]->nearest(x, moved[o], {}, &others[o]));
 
     std::vector<Vector> all(n);
     for (Vector &of_obstacle : all)
@@ -116,7 +114,7 @@ namespace geocone
                                               o,
                                               of_node[o][node],
                                               x - space.node_positions()[node],
-                                              beside_part * half));
+                                              flush * half));
                              double &least = all[o].local_element(dim * node);
                              least         = std::min(least, distance - half);
                            }

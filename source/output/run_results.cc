@@ -25,6 +25,8 @@ namespace geocone
         const StepRecord &now = records[i], &before = records[i - 1];
         const double      reduction = scene->loading.strength_factor(now.time) -
                                  scene->loading.strength_factor(before.time);
+        if (!(reduction > 0.))
+          continue;
         double most = 0.;
         for (std::size_t k = 0; k < now.displacements.size(); ++k)
           most = std::max(most,
@@ -32,8 +34,6 @@ namespace geocone
                              ? now.displacements[k]
                              : now.displacements[k] - before.displacements[k])
                             .norm());
-        if (!(reduction > 0.))
-          continue;
         last = most / reduction;
         if (first == 0.)
           first = last;
@@ -383,13 +383,15 @@ namespace geocone
                summary["safety"]["factor"].get<double>(),
                summary["safety"]["lower"].get<double>(),
                summary["safety"]["upper"].get<double>()));
-    if (const auto growth = growth_of_displacement();
-        growth && summary.contains("safety"))
+    if (summary.contains("safety") &&
+        summary["safety"]["displacement_growth"].is_number())
       {
+        const double growth =
+          summary["safety"]["displacement_growth"].get<double>();
         log.print(format("by the last reduction the observed points move %.3g "
                          "times as fast per factor as by the first one",
-                         *growth));
-        if (failure && *growth < least_growth)
+                         growth));
+        if (failure && growth < least_growth)
           log.warn("a slope that fails moves ever faster, and this one does "
                    "not: a step may have failed for another reason (log.txt), "
                    "or the observed points are not on what slides");
@@ -420,25 +422,22 @@ namespace geocone
     const bool is_number = scene->observation.of_raised_loads &&
                            std::abs(scene->observation.factor) == 1.;
     const std::string of_load = is_number ? "" : " " + unit("N/m");
+    const auto        text    = [&](const char *name) {
+      return format(is_number ? "%.4f" : "%.2f", limit[name].get<double>());
+    };
     if (limit["value"].is_null())
       log.print("limit load: none, " + limit["reason"].get<std::string>());
     else
       {
-        std::string line =
-          format(is_number ? "limit load factor %.4f" : "limit load %.2f",
-                 limit["value"].get<double>()) +
-          of_load;
+        std::string line = (is_number ? "limit load factor " : "limit load ") +
+                           text("value") + of_load;
         if (limit["band_high"] != limit["band_low"])
           line +=
-            format(is_number ? " (band %.4f to %.4f)" : " (band %.2f to %.2f)",
-                   limit["band_low"].get<double>(),
-                   limit["band_high"].get<double>());
+            " (band " + text("band_low") + " to " + text("band_high") + ")";
         if (!limit["reference"].is_null())
-          line += format(is_number ? ", %s %.4f%s, error %+.3f %%"
-                                   : ", %s %.2f%s, error %+.3f %%",
-                         limit["reference_name"].get<std::string>().c_str(),
-                         limit["reference"].get<double>(),
-                         of_load.c_str(),
+          line += ", " + limit["reference_name"].get<std::string>() + " " +
+                  text("reference") + of_load +
+                  format(", error %+.3f %%",
                          100. * limit["relative_error"].get<double>());
         log.print(line);
       }

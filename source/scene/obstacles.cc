@@ -26,6 +26,34 @@ namespace geocone
       return Point<dim>(c * x[0] - s * x[1], s * x[0] + c * x[1]);
     }
 
+    /**
+     * How far a side is covered on from a covered place, towards its nearer bare part (m);
+     * infinite if there is none.
+     * @param is_covered of a part of the side, from 0 to 1 @param along of the place
+     * @param length of the side (m) @param accuracy (m)
+     */
+    template <typename IsCovered>
+    double
+    way_to_bare(const IsCovered &is_covered,
+                const double     along,
+                const double     length,
+                const double     accuracy)
+    {
+      double least = std::numeric_limits<double>::infinity();
+      for (const double end : {0., 1.})
+        if (!is_covered(end))
+          {
+            double covered = along, bare = end;
+            while (std::abs(bare - covered) * length > accuracy)
+              {
+                const double middle                   = (covered + bare) / 2.;
+                (is_covered(middle) ? covered : bare) = middle;
+              }
+            least = std::min(least, std::abs(bare - along) * length);
+          }
+      return least;
+    }
+
     const char *const velocity_names[] = {
       "Velocity x", "Velocity y", "Angular velocity"};
     const char *const load_names[] = {"Force x", "Force y", "Moment"};
@@ -242,26 +270,29 @@ namespace geocone
                     const Tensor<1, dim> &approach,
                     const Neighbours     *beside) const
   {
-    const Point<dim> X     = centre();
     const bool       turns = moved.angle != 0.;
+    const Point<dim> X     = turns ? centre() : Point<dim>();
     Cover            cover;
-    if (beside != nullptr)
-      cover = [&](const Point<dim> &place) {
-        return beside->cover(turns ? X + moved.centre +
-                                       turned(place - X, moved.angle)
-                                   : place + moved.centre);
-      };
-    const double margin = beside != nullptr ? beside->margin : 0.;
-    OnBoundary   found =
+    double           margin = 0.;
+    if (beside != nullptr && beside->exist())
+      {
+        margin = beside->margin;
+        cover  = [&](const Point<dim> &place) {
+          return beside->cover(turns ? X + moved.centre +
+                                         turned(place - X, moved.angle)
+                                     : place + moved.centre);
+        };
+      }
+    OnBoundary found =
       turns ? nearest_of_shape(
                 Point<dim>(X + turned(x - X - moved.centre, -moved.angle)),
                 turned(approach, -moved.angle),
                 cover,
                 margin)
-              : nearest_of_shape(x - moved.centre, approach, cover, margin);
+            : nearest_of_shape(x - moved.centre, approach, cover, margin);
     if (turns)
       found.normal = turned(found.normal, moved.angle);
-    if (found.is_vertex && beside != nullptr &&
+    if (found.is_vertex && cover &&
         beside->go_on_from(x - found.distance * found.normal, x))
       found.distance = std::numeric_limits<double>::infinity();
     return found;
@@ -374,19 +405,10 @@ namespace geocone
                 // What is deep inside is pushed out through what is bare of the side.
                 if (distance > -margin)
                   continue;
-                double to_bare = infinity;
-                for (const double end : {0., 1.})
-                  if (!is_covered(end))
-                    {
-                      double from = along, to = end;
-                      while (std::abs(to - from) * l > margin / 2.)
-                        (is_covered((from + to) / 2.) ? from : to) =
-                          (from + to) / 2.;
-                      to_bare = std::min(to_bare, std::abs(to - along) * l);
-                    }
-                if (std::isinf(to_bare))
+                distance = -std::hypot(
+                  distance, way_to_bare(is_covered, along, l, margin / 2.));
+                if (std::isinf(distance))
                   continue;
-                distance = -std::hypot(distance, to_bare);
               }
           }
         if (distance > best.distance + tolerance ||
@@ -395,7 +417,8 @@ namespace geocone
           best = {distance, N};
         const Tensor<1, dim> from = x - (a + along * edge);
         if (from.norm() < border.distance)
-          border = {{from.norm(), from}, std::abs(part - along) * l > tolerance};
+          border = {{from.norm(), from},
+                    std::abs(part - along) * l > tolerance};
       }
     if (outmost > tolerance)
       {
@@ -468,6 +491,20 @@ namespace geocone
   {
     for (const auto &obstacle : list)
       obstacle->prepare();
+  }
+
+  std::vector<Neighbours>
+  Obstacles::neighbours(const std::vector<RigidMotion> &moved,
+                        const double                    margin) const
+  {
+    std::vector<Neighbours> all;
+    for (unsigned int o = 0; o < list.size(); ++o)
+      all.emplace_back(list,
+                       o,
+                       list[o]->slides_little() ? std::vector<RigidMotion>()
+                                                : moved,
+                       margin);
+    return all;
   }
 
   std::string

@@ -99,7 +99,7 @@ namespace geocone
         const std::string where = "Geometry/Dimension = 3",
                           remedy =
                             "it is for plane scenes so far: leave it out";
-        refuse_contact(where, remedy);
+        contacts.refuse(where, remedy); // obstacles: when they are made
         absorbing.refuse(where, remedy);
         if (water.acts())
           throw InputError(

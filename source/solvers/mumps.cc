@@ -112,9 +112,12 @@ namespace geocone
               check("factorisation");
             // The workspace is too small. Where much more does not help, nearly all
             // pivots are put off, as they are next to zero: it is singular.
-            icntl(14) = attempt == 7 ? usual_workspace : 2 * icntl(14);
             if (attempt == 7)
-              return false;
+              {
+                icntl(14) = usual_workspace;
+                return false;
+              }
+            icntl(14) *= 2;
           }
       }
 

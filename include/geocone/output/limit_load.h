@@ -38,8 +38,8 @@ namespace geocone
    * is the longest of the last 1/2, 1/4, 1/8 of its displacement over which the
    * load drifts by at most @p tolerance: the means of the two halves of that
    * part differ by less, relative to its mean. A part of which a single step
-   * covers nine tenths is compared with the load before. The limit load is the mean over the plateau,
-   * never the peak: peaks are inertia.
+   * covers nine tenths is compared with the load before. The limit load is the mean
+   * over the plateau, never the peak: peaks are inertia.
    */
   LimitLoad
   find_limit_load(const std::vector<LoadPoint> &curve, const double tolerance);

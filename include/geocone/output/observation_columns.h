@@ -19,8 +19,8 @@ namespace geocone
 {
   /**
    * Adds what both kinds of runs report of Scene::observation to their tables.
-   * @param moment of a record, an observed condition and an axis of n_rotations (N m/m); none
-   * of a round body, which moments do not turn
+   * @param moment of a record, an observed condition and an axis of n_rotations (N m/m);
+   * none of a round body, which moments do not turn
    * @param displacement of a record, an observed point and a component (m)
    */
   template <typename Record, typename Moment, typename Displacement>

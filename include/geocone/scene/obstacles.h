@@ -38,6 +38,13 @@ namespace geocone
                const std::vector<RigidMotion>               &moved,
                const double                                  margin);
 
+    /** Whether there are any. */
+    bool
+    exist() const
+    {
+      return list.size() > 1;
+    }
+
     /** Whether a place is inside one of them. */
     bool
     cover(const dealii::Point<dim> &place) const;
@@ -254,6 +261,12 @@ namespace geocone
     /** @throws InputError if there are any, with what can have none */
     void
     refuse(const std::string &what, const std::string &remedy) const;
+
+    /** Of each obstacle the others; of one that slides little as they were at the start.
+     *  @param moved since the start @param margin see Neighbours */
+    std::vector<Neighbours>
+    neighbours(const std::vector<RigidMotion> &moved,
+               const double                    margin) const;
 
     /** What obstacle is free and overlaps with which one, which it would not notice, as
      *  obstacles touch bodies only; empty: none. @param moved since the start

@@ -106,9 +106,11 @@ def main(arguments, prog="plot"):
                         help="only print a table of all runs, also into this file")
     parser.add_argument("--times", type=numbers, metavar="T1,T2,...",
                         help="times of the pictures of points (s)")
-    parser.add_argument("--animation", action="store_true",
+    parser.add_argument("--animation", dest="films", action="append_const",
+                        const="points.gif",
                         help="only draw points.gif, a film of the points")
-    parser.add_argument("--apng", action="store_true",
+    parser.add_argument("--apng", dest="films", action="append_const",
+                        const="points_film.png",
                         help="only draw points_film.png, the same film as an animated "
                         "PNG, in all its colours")
     parser.add_argument("--paraview", action="store_true",
@@ -134,13 +136,11 @@ def main(arguments, prog="plot"):
             return 0
         for run, name in zip(runs, names):
             below = call.output and (call.output / name if len(runs) > 1 else call.output)
-            if call.animation or call.apng:
+            if call.films:
                 from geocone.plots import animation
                 (below or run.folder).mkdir(parents=True, exist_ok=True)
-                names_of_films = ["points.gif"] * call.animation + \
-                    ["points_film.png"] * call.apng
                 animation.draw(run, [(below or run.folder) / film
-                                     for film in names_of_films])
+                                     for film in call.films])
                 continue
             if call.paraview:
                 from geocone.plots import paraview

@@ -29,7 +29,7 @@ def draw(run, paths):
     look = look_at(fields, values, lambda size: 0.1 * np.max(size))
     figure, (axes,) = panels(1, look.box)
     look.finish(axes)
-    bar, frames = None, []
+    bar, films = None, {path: [] for path in paths}
     for field, value in zip(fields, values):
         drawn = look.collection(axes, field, value)
         drawn.set(cmap=STRAINS, norm=norm)
@@ -38,16 +38,15 @@ def draw(run, paths):
                                      location="bottom", extend=extend)
         axes.set_title(f"{plain(run.name)}: t = {field.time:.4g} s")
         figure.canvas.draw()
-        frames.append(Image.fromarray(np.asarray(figure.canvas.buffer_rgba()))
-                      .convert("RGB"))
+        frame = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")
+        for path, frames in films.items():
+            frames.append(frame.quantize(128) if path.suffix == ".gif" else frame)
         drawn.remove()
-    for path in paths:
-        is_gif = path.suffix == ".gif"
-        first, *others = [frame.quantize(128) for frame in frames] if is_gif else frames
+    for path, frames in films.items():
         film = io.BytesIO()
-        first.save(film, format="GIF" if is_gif else "PNG", save_all=True,
-                   append_images=others, duration=round(1e3 * SECONDS / len(frames)),
-                   loop=0)
+        frames[0].save(film, format=path.suffix[1:], save_all=True,
+                       append_images=frames[1:],
+                       duration=round(1e3 * SECONDS / len(frames)), loop=0)
         write_whole(path, film.getvalue())
         add_to_list(path)
         print(path)
