@@ -135,7 +135,10 @@ namespace geocone
             }
         // Points of a regular layout are within 0.71 of their size of any place
         // in the body, those at its border or in slender cells farther away.
-        const double size = nearest ? length_of(nearest->volume) : 0.;
+        const double size =
+          nearest
+            ? scene.geometry.size_of_point(nearest->position, nearest->volume)
+            : 0.;
         if (!nearest || nearest->position.distance(x) > 1.5 * size)
           throw InputError(parameter,
                            text_of_place(x),

@@ -34,7 +34,7 @@ namespace geocone
           {
             const auto       ends = geometry.side_ends(id);
             const Point<dim> foot = nearest_on_segment(x, ends[0], ends[1]);
-            if (foot.distance(x) < length_of(volume) &&
+            if (foot.distance(x) < geometry.size_of_point(x, volume) &&
                 condition.holds_at(foot))
               return true;
           }

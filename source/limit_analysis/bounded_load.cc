@@ -225,9 +225,9 @@ namespace geocone
     const std::string remedy = "the bounded load is the reaction to one "
                                "translation";
     for (const auto &obstacle : scene.obstacles.list)
-      if (obstacle->velocity(0.).angle != 0.)
+      if (obstacle->velocity(0.).rotation.norm() != 0.)
         throw InputError(obstacle->parameter("Angular velocity"),
-                         obstacle->velocity(0.).angle,
+                         obstacle->velocity(0.).rotation[0],
                          "0 or free, with 'Analysis/Kind' = limit load",
                          remedy);
       else if (const Tensor<1, dim> own = obstacle->velocity(0.).centre;

@@ -38,7 +38,8 @@ namespace geocone
     incoming.reinit(space.partitioner());
     for (unsigned int c = 0; c < conditions.list.size(); ++c)
       {
-        // xx, yy and xy by node, summed over ranks.
+        // Of the diagonal and beside it, in the order of rotations, by node, summed
+        // over ranks.
         std::array<Vector, 2> sums;
         for (Vector &sum : sums)
           sum.reinit(space.partitioner());
@@ -70,7 +71,12 @@ namespace geocone
                 for (unsigned int d = 0; d < dim; ++d)
                   sums[0].local_element(dof + d) +=
                     w * (of_s + (of_p - of_s) * n[d] * n[d]);
-                sums[1].local_element(dof) += w * (of_p - of_s) * n[0] * n[1];
+                for (unsigned int r = 0; r < n_rotations; ++r)
+                  {
+                    const auto [a, b] = plane_of_rotation[r];
+                    sums[1].local_element(dof + r) +=
+                      w * (of_p - of_s) * n[a] * n[b];
+                  }
               }
           });
         refuse_no_face(*conditions.list[c],
@@ -85,7 +91,11 @@ namespace geocone
               Tensor<2, dim> C;
               for (unsigned int d = 0; d < dim; ++d)
                 C[d][d] = sums[0].local_element(dim * node + d);
-              C[0][1] = C[1][0] = sums[1].local_element(dim * node);
+              for (unsigned int r = 0; r < n_rotations; ++r)
+                {
+                  const auto [a, b] = plane_of_rotation[r];
+                  C[a][b] = C[b][a] = sums[1].local_element(dim * node + r);
+                }
               dashpots.push_back({node, c, C});
             }
       }

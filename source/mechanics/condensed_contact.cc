@@ -9,9 +9,15 @@
 
 namespace geocone
 {
-  using Eigen::Matrix2d;
+  using Eigen::MatrixXd;
   using Eigen::Vector2d;
   using Eigen::VectorXd;
+
+  double
+  CondensedContact::tangential_rho(const Node &node) const
+  {
+    return K.diagonal().segment(node.first + 1, node.n_tangents).mean();
+  }
 
   std::vector<CondensedContact::State>
   CondensedContact::states(const VectorXd &u) const
@@ -20,19 +26,26 @@ namespace geocone
     std::vector<State> all;
     for (const Node &node : nodes)
       {
-        const unsigned int i   = node.first;
-        const double       rho = K(i, i), p = r[i] - rho * (u[i] - node.least);
+        const unsigned int i = node.first, m = node.n_tangents;
+        const double       p     = r[i] - K(i, i) * (u[i] - node.least);
+        State             &state = all.emplace_back();
         if (!(p >= 0.))
-          {
-            all.push_back(State::open);
-            continue;
-          }
-        const double bound = node.friction * p + node.adhesion,
-                     pull =
-                       node.rubs ? r[i + 1] - K(i + 1, i + 1) * u[i + 1] : 0.;
-        all.push_back(!node.rubs || std::abs(pull) <= bound ? State::stick
-                      : pull > 0.                           ? State::slip_forth
-                                                            : State::slip_back);
+          continue;
+        state.contact = Contact::stick;
+        if (m == 0)
+          continue;
+        const double   bound = node.friction * p + node.adhesion;
+        const VectorXd pull =
+          r.segment(i + 1, m) - tangential_rho(node) * u.segment(i + 1, m);
+        if (pull.norm() <= bound)
+          continue;
+        state.contact   = Contact::slip;
+        state.direction = pull / pull.norm();
+        state.turn      = MatrixXd::Zero(m, m);
+        if (m > 1)
+          state.turn = bound / pull.norm() *
+                       (MatrixXd::Identity(m, m) -
+                        state.direction * state.direction.transpose());
       }
     return all;
   }
@@ -40,29 +53,33 @@ namespace geocone
   VectorXd
   CondensedContact::solve_for(const std::vector<State> &state) const
   {
-    Eigen::MatrixXd A = K;
-    VectorXd        b = -c;
+    MatrixXd A = K;
+    VectorXd b = -c;
     for (unsigned int k = 0; k < nodes.size(); ++k)
       {
         const Node        &node = nodes[k];
-        const unsigned int i    = node.first;
-        if (state[k] == State::open)
+        const unsigned int i = node.first, m = node.n_tangents;
+        if (state[k].contact == Contact::open)
           continue;
-        if (node.rubs)
+        if (state[k].contact == Contact::slip)
           {
-            if (state[k] == State::stick)
-              {
-                A.row(i + 1).setZero();
-                A(i + 1, i + 1) = K(i + 1, i + 1);
-                b[i + 1]        = 0.;
-              }
-            else
-              {
-                const double sign = state[k] == State::slip_forth ? 1. : -1.;
-                A.row(i + 1) -= sign * node.friction * K.row(i);
-                b[i + 1] += sign * (node.friction * c[i] + node.adhesion);
-              }
+            const VectorXd &d       = state[k].direction;
+            const MatrixXd &turn    = state[k].turn;
+            MatrixXd        of_pull = K.middleRows(i + 1, m);
+            of_pull.middleCols(i + 1, m).diagonal().array() -=
+              tangential_rho(node);
+            A.middleRows(i + 1, m) -=
+              node.friction * d * K.row(i) + turn * of_pull;
+            b.segment(i + 1, m) += (node.friction * c[i] + node.adhesion) * d +
+                                   turn * c.segment(i + 1, m);
           }
+        else
+          for (unsigned int t = i + 1; t <= i + m; ++t)
+            {
+              A.row(t).setZero();
+              A(t, t) = K(t, t);
+              b[t]    = 0.;
+            }
         A.row(i).setZero();
         A(i, i) = K(i, i);
         b[i]    = K(i, i) * node.least;
@@ -70,24 +87,47 @@ namespace geocone
     return A.partialPivLu().solve(b);
   }
 
-  Vector2d
-  CondensedContact::solve_node(const Node &node, const Vector2d &b) const
+  CondensedContact::OfNode
+  CondensedContact::solve_node(const Node &node, const OfNode &b) const
   {
-    const unsigned int i = node.first;
-    if (!node.rubs)
-      return {std::max(-b[0] / K(i, i), node.least), 0.};
-    const Matrix2d own  = K.block<2, 2>(i, i);
-    const Vector2d open = own.partialPivLu().solve(-b);
-    if (open[0] > node.least)
-      return open;
-    const double l     = node.least;
-    Vector2d     r     = b + own.col(0) * l;
+    const unsigned int i = node.first, m = node.n_tangents;
+    const MatrixXd     own = K.block(i, i, m + 1, m + 1);
+    const double       l   = node.least;
+    OfNode             at  = own.partialPivLu().solve(-b);
+    if (at[0] > l)
+      return at;
+    at.setZero();
+    at[0]              = l;
+    const OfNode r     = b + own.col(0) * l;
     const double bound = node.friction * std::max(r[0], 0.) + node.adhesion;
-    if (r[0] >= 0. && std::abs(r[1]) <= bound)
-      return {l, 0.};
+    if (m == 0 || (r[0] >= 0. && r.tail(m).norm() <= bound))
+      return at;
+    double least = std::numeric_limits<double>::infinity();
+    OfNode best  = at;
+    if (m > 1)
+      {
+        // Its own problem, by the same equations.
+        CondensedContact alone;
+        alone.K     = own;
+        alone.c     = b;
+        alone.nodes = {node};
+
+        alone.nodes[0].first = 0;
+        VectorXd u           = at;
+        for (unsigned int step = 0; step < 10 && least > 1e-13; ++step)
+          {
+            u = alone.solve_for(alone.states(u));
+            if (!u.allFinite())
+              break;
+            if (const double lack = alone.error(u); lack < least)
+              {
+                least = lack;
+                best  = u;
+              }
+          }
+        return best;
+      }
     // It slips against the force that it would take to stick.
-    Vector2d best(l, 0.);
-    double   least = std::numeric_limits<double>::infinity();
     for (const double sign : {1., -1.})
       {
         const double slope = own(1, 1) - sign * node.friction * own(0, 1),
@@ -101,7 +141,7 @@ namespace geocone
         if (std::isfinite(u_t) && lack < least)
           {
             least = lack;
-            best  = {l, u_t};
+            best  = Vector2d(l, u_t);
           }
       }
     return best;
@@ -113,16 +153,12 @@ namespace geocone
     double change = 0., largest = std::numeric_limits<double>::min();
     for (const Node &node : nodes)
       {
-        const unsigned int i = node.first, n = node.rubs ? 2 : 1;
-        Vector2d           r = Vector2d::Zero(), old = Vector2d::Zero(), b;
-        r.head(n)   = K.middleRows(i, n) * u + c.segment(i, n);
-        old.head(n) = u.segment(i, n);
-        b           = r;
-        b.head(n) -= K.block(i, i, n, n) * old.head(n);
-        const Vector2d now = solve_node(node, b);
-        u.segment(i, n)    = now.head(n);
-        change =
-          std::max(change, (K.block(i, i, n, n) * (now - old).head(n)).norm());
+        const unsigned int i = node.first, n = node.n_tangents + 1;
+        const OfNode       r = K.middleRows(i, n) * u + c.segment(i, n),
+                     old     = u.segment(i, n);
+        const OfNode now     = solve_node(node, r - K.block(i, i, n, n) * old);
+        u.segment(i, n)      = now;
+        change  = std::max(change, (K.block(i, i, n, n) * (now - old)).norm());
         largest = std::max(largest, r.norm());
       }
     return change / largest;
@@ -135,18 +171,21 @@ namespace geocone
     double         largest = std::numeric_limits<double>::min(), worst = 0.;
     for (const Node &node : nodes)
       {
-        const unsigned int i   = node.first;
+        const unsigned int i = node.first, m = node.n_tangents;
         const double       rho = K(i, i), w = u[i] - node.least,
                      q = std::max(r[i] - rho * w, 0.);
         double lack    = std::abs(r[i] - q);
         largest        = std::max({largest, std::abs(r[i])});
-        if (node.rubs)
+        if (m > 0)
           {
             const double bound =
-                           q > 0. ? node.friction * q + node.adhesion : 0.,
-                         pull = r[i + 1] - K(i + 1, i + 1) * u[i + 1];
-            lack = std::hypot(lack, r[i + 1] - std::clamp(pull, -bound, bound));
-            largest = std::max(largest, std::abs(r[i + 1]));
+              q > 0. ? node.friction * q + node.adhesion : 0.;
+            VectorXd pull =
+              r.segment(i + 1, m) - tangential_rho(node) * u.segment(i + 1, m);
+            if (const double size = pull.norm(); size > bound)
+              pull *= bound / size;
+            lack    = std::hypot(lack, (r.segment(i + 1, m) - pull).norm());
+            largest = std::max(largest, r.segment(i + 1, m).norm());
           }
         worst = std::max(worst, lack);
       }
@@ -176,16 +215,18 @@ namespace geocone
           if (keep(at))
             return true;
           std::vector<State> next = at.allFinite() ? states(at) : state;
-          if (next == state)
+          if (next == state) // with two tangents only where it ends
             return false;
           state = std::move(next);
         }
       return false;
     };
+    State all_stick;
+    all_stick.contact = Contact::stick;
     // From the start, from where all of them stick, and from where sweeps lead.
     VectorXd swept = u;
     bool     done  = best_error <= tolerance || active_set(states(u)) ||
-                active_set(std::vector<State>(nodes.size(), State::stick));
+                active_set(std::vector<State>(nodes.size(), all_stick));
     for (int round = 0; !done && round < rounds; ++round)
       {
         for (int k = 0; k < (25 << round) && sweep(swept) > tolerance; ++k)

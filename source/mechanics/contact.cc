@@ -25,11 +25,22 @@ namespace geocone
   } // namespace
 
   unsigned int
-  Contact::free_direction(const unsigned int node) const
+  Contact::n_free(const unsigned int node) const
   {
-    const bool x = unknowns.is_free(dim * node),
-               y = unknowns.is_free(dim * node + 1);
-    return x && y ? 2 : x ? 0 : y ? 1 : 3;
+    unsigned int n = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+      n += unknowns.is_free(dim * node + d);
+    return n;
+  }
+
+  Tensor<1, dim>
+  Contact::free_part(const Tensor<1, dim> &x, const unsigned int node) const
+  {
+    Tensor<1, dim> part;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (unknowns.is_free(dim * node + d))
+        part[d] = x[d];
+    return part;
   }
 
   Contact::Force
@@ -113,11 +124,10 @@ namespace geocone
   Contact::rho_of(const ContactNode &node, const Vector &scale) const
   {
     const auto mean = [&](const unsigned int of) {
-      const unsigned int direction = free_direction(of);
-      double             sum       = 0.;
+      double sum = 0.;
       for (unsigned int d = 0; d < dim; ++d)
-        if (direction == 2 || direction == d)
-          sum += scale.local_element(dim * of + d) / (direction == 2 ? 2. : 1.);
+        if (unknowns.is_free(dim * of + d))
+          sum += scale.local_element(dim * of + d) / n_free(of);
       return sum;
     };
     double compliance = 1. / mean(node.node);
@@ -135,10 +145,11 @@ namespace geocone
     list.clear();
     for (ContactNode &node : step.nodes)
       {
-        const unsigned int direction = free_direction(node.node);
-        if (direction == 3 ||
-            (direction < 2 && std::abs(node.normal[direction]) <
-                                (node.is_twin ? hardly : along_support)))
+        const unsigned int   n    = n_free(node.node);
+        const Tensor<1, dim> free = free_part(node.normal, node.node);
+        const double         part = free.norm(); // of the normal
+        if (n == 0 ||
+            (n < dim && part < (node.is_twin ? hardly : along_support)))
           {
             if (node.touches_body() && !node.is_twin)
               throw StepFailure(
@@ -148,19 +159,21 @@ namespace geocone
                 "elsewhere");
             continue;
           }
-        if (direction < 2)
+        if (n < dim)
           {
-            const double sign = node.normal[direction] > 0. ? 1. : -1.;
             if (node.is_twin) // u.n is what is free of it
-              node.least /= std::abs(node.normal[direction]);
-            node.normal            = Tensor<1, dim>();
-            node.normal[direction] = sign;
-            node.friction          = 0.;
-            node.adhesion          = 0.;
+              node.least /= part;
+            node.normal = free / part;
+          }
+        make_tangents(node);
+        if (node.n_tangents == 0)
+          {
+            node.friction = 0.;
+            node.adhesion = 0.;
           }
         if (list.empty() || list.back().node != node.node)
           list.push_back(node);
-        else if (direction == 2)
+        else if (n > 1 && std::abs(list.back().normal * node.normal) < parallel)
           {
             make_corner(list.back(), node);
             list.push_back(node);
@@ -170,14 +183,53 @@ namespace geocone
   }
 
   void
+  Contact::make_tangents(ContactNode &node) const
+  {
+    const unsigned int n = n_free(node.node);
+    node.n_tangents      = 0;
+    if constexpr (dim == 2)
+      {
+        if (n == 2)
+          node.tangents[node.n_tangents++] =
+            Force({-node.normal[1], node.normal[0]});
+      }
+    else
+      // The free directions that are farthest from the normal first.
+      while (node.n_tangents + 1 < n)
+        {
+          Force  best;
+          double longest = 0.;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              Force t =
+                free_part(dealii::Point<dim>::unit_vector(d), node.node);
+              t -= (t * node.normal) * node.normal;
+              for (unsigned int k = 0; k < node.n_tangents; ++k)
+                t -= (t * node.tangents[k]) * node.tangents[k];
+              if (t.norm() > longest)
+                {
+                  longest = t.norm();
+                  best    = t / longest;
+                }
+            }
+          node.tangents[node.n_tangents++] = best;
+        }
+  }
+
+  void
   Contact::make_corner(ContactNode &a, ContactNode &b)
   {
-    const double sine = a.normal[0] * b.normal[1] - a.normal[1] * b.normal[0];
-    const auto   dual = [&](const Force &n, const double divisor) {
-      return Force({n[1], -n[0]}) / divisor;
+    const double cosine = a.normal * b.normal;
+    const auto   dual   = [&](const Force &n, const Force &m) {
+      return (n - cosine * m) / (1. - cosine * cosine);
     };
-    a.share     = outer_product(a.normal, dual(b.normal, sine));
-    b.share     = outer_product(b.normal, dual(a.normal, -sine));
+    a.share = outer_product(a.normal, dual(a.normal, b.normal));
+    b.share = outer_product(b.normal, dual(b.normal, a.normal));
+    if constexpr (dim == 3)
+      {
+        const Force edge = cross_product_3d(a.normal, b.normal);
+        a.share += outer_product(edge, edge) / edge.norm_square();
+      }
     b.is_second = true;
     for (ContactNode *node : {&a, &b})
       {
@@ -193,8 +245,8 @@ namespace geocone
                    const Force       &velocity) const
   {
     Projection   result;
-    const Force &n = node.normal;
-    const Force  t = Force({-n[1], n[0]}), u = at.v - velocity;
+    const Force &n   = node.normal;
+    const Force  u   = at.v - velocity;
     const double rho = at.rho, w = u * n - node.least, p = at.r * n - rho * w;
     result.F = at.r;
     // What rests without a force is held: it may have no other support.
@@ -202,25 +254,36 @@ namespace geocone
       return result;
     const double mu    = rubs ? node.friction : 0.;
     const double bound = rubs ? mu * p + node.adhesion : 0.;
-    const double pull  = at.r * t - rho * (u * t);
-    double       F_t, q_t;
+    const Force  u_T = u - (u * n) * n, r_T = at.r - (at.r * n) * n,
+                pull  = r_T - rho * u_T;
+    const double size = pull.norm();
+    const Matrix I    = dealii::unit_symmetric_tensor<dim>();
+    Force        F_T, q_T;
     result.Q = outer_product(n, n);
-    if (bound > 0. && std::abs(pull) <= bound)
+    if (bound > 0. && size <= bound)
       {
         result.state = State::stick;
-        F_t          = rho * (u * t);
-        q_t          = pull;
-        result.Q += outer_product(t, t);
+        F_T          = rho * u_T;
+        q_T          = pull;
+        result.Q     = I;
       }
     else
       {
         result.state = State::slip;
-        q_t          = std::copysign(bound, pull);
-        F_t          = at.r * t - q_t;
-        result.Q += std::copysign(mu, pull) * outer_product(t, n);
+        if (bound > 0.)
+          {
+            const Force along = pull / size;
+            q_T               = bound * along;
+            result.Q += mu * outer_product(along, n);
+            if (dim == 3) // where it slides turns, too
+              result.Q +=
+                bound / size *
+                (I - outer_product(n, n) - outer_product(along, along));
+          }
+        F_T = r_T - q_T;
       }
-    result.F = rho * w * n + F_t * t;
-    result.q = p * n + q_t * t;
+    result.F = rho * w * n + F_T;
+    result.q = p * n + q_T;
     return result;
   }
 
@@ -341,14 +404,11 @@ namespace geocone
                               : obstacles.velocities()[node.obstacle].at(node.arm);
         if (!is_owned(node))
           continue;
-        const unsigned int direction = free_direction(node.node);
         // What a support holds does not move against the obstacle, either.
-        Force velocity = node.velocity;
-        if (direction < 2)
-          velocity[1 - direction] = 0.;
-        const Projection at = project(node, locals[i], velocity);
-        touch[i].force      = locals[i].r;
-        touch[i].state      = at.state;
+        const Force      velocity = free_part(node.velocity, node.node);
+        const Projection at       = project(node, locals[i], velocity);
+        touch[i].force            = locals[i].r;
+        touch[i].state            = at.state;
         touch[i].size =
           locals[i].r.norm() + locals[i].rho * (locals[i].v - velocity).norm();
         touch[i].relative = locals[i].v - velocity;
@@ -362,7 +422,7 @@ namespace geocone
             else
               row_A[a].local_element(dim * node.node + b) = A[a][b];
         for (unsigned int d = 0; d < dim; ++d)
-          if (direction == 2 || direction == d)
+          if (unknowns.is_free(dim * node.node + d))
             {
               double &row    = residual.local_element(dim * node.node + d);
               row            = (node.is_second ? row : 0.) + at.F[d];
@@ -376,30 +436,28 @@ namespace geocone
   void
   Contact::combine_rows(const unsigned int node, SparseMatrix &matrix) const
   {
-    const int *row = &unknowns.free_row[dim * node];
-    const auto A   = [&](const unsigned int a, const unsigned int b) {
-      return row_A[a].local_element(dim * node + b);
-    };
-    // Both rows have the same columns.
-    if (row[0] >= 0 && row[1] >= 0)
+    // All of its rows have the same columns.
+    std::array<unsigned int, dim> free;
+    std::array<double *, dim>     row;
+    unsigned int                  n_rows = 0;
+    int                           n      = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (const int r = unknowns.free_row[dim * node + d]; r >= 0)
+        {
+          free[n_rows]  = d;
+          row[n_rows++] = &matrix.value[matrix.row_start[r]];
+          n             = matrix.row_start[r + 1] - matrix.row_start[r];
+        }
+    for (int k = 0; k < n; ++k)
       {
-        double *x   = &matrix.value[matrix.row_start[row[0]]],
-               *y   = &matrix.value[matrix.row_start[row[1]]];
-        const int n = matrix.row_start[row[0] + 1] - matrix.row_start[row[0]];
-        for (int k = 0; k < n; ++k)
-          {
-            const double old = x[k];
-            x[k]             = A(0, 0) * old + A(0, 1) * y[k];
-            y[k]             = A(1, 0) * old + A(1, 1) * y[k];
-          }
+        std::array<double, dim> sum = {};
+        for (unsigned int a = 0; a < n_rows; ++a)
+          for (unsigned int b = 0; b < n_rows; ++b)
+            sum[a] +=
+              row_A[free[a]].local_element(dim * node + free[b]) * row[b][k];
+        for (unsigned int a = 0; a < n_rows; ++a)
+          row[a][k] = sum[a];
       }
-    else
-      for (unsigned int d = 0; d < dim; ++d)
-        if (row[d] >= 0)
-          for (int k = matrix.row_start[row[d]];
-               k < matrix.row_start[row[d] + 1];
-               ++k)
-            matrix.value[k] *= A(d, d);
   }
 
   LowRank

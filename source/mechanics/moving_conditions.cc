@@ -449,7 +449,8 @@ namespace geocone
               behind =
                 behind ||
                 (seen.is_close_behind() &&
-                 seen.beyond > 0.1 * length_of(points.weight[p]) &&
+                 seen.beyond > 0.1 * scene.geometry.size_of_point(
+                                       points.position[p], points.weight[p]) &&
                  holds_normal(*scene.dirichlet.list[side.condition], line));
             }
         n += behind;

@@ -28,6 +28,13 @@ namespace geocone
                                  "boundary condition, or leave the "
                                  "corner out of the body";
 
+    /** A component of the force, or, after these, of the moment. */
+    double &
+    component(Reaction &of, const unsigned int k)
+    {
+      return k < dim ? of.force[k] : of.moment[k - dim];
+    }
+
     /** A node that comes nearer faster than u_N = least hits in this step. */
     void
     rebound(const double u_n, const InterfaceLaw &law, ContactNode &node)
@@ -243,13 +250,12 @@ namespace geocone
             if (mesh_is_body && at.distance < -closed_gap * size &&
                 is_held(node, at.normal))
               refusal =
-                format("the obstacle '%s' enters the node at (%g, %g), "
+                format("the obstacle '%s' enters the node at (%s), "
                        "which a boundary condition holds, by %.3g m"
                        "\n  remedy:  end the condition before it ('Box'), "
                        "or move the obstacle less",
                        list[o]->name.c_str(),
-                       x[0],
-                       x[1],
+                       text_of_place(x).c_str(),
                        -at.distance);
             // Of a background mesh only what is in or on the obstacle: the others
             // are of the body, and may come as near as they like.
@@ -304,30 +310,22 @@ namespace geocone
         taken.push_back(&at);
     if (taken.size() > 1)
       {
-        const Point<dim> x       = place(taken[0]->contact.node);
-        bool             is_free = false;
+        const std::string where =
+          "the node at (" + text_of_place(place(taken[0]->contact.node)) + ") ";
+        bool is_free = false;
         for (const Near *at : taken)
           is_free = is_free || (!at->contact.touches_body() &&
                                 step.bodies[at->contact.obstacle].n_free() > 0);
         if (taken.size() > 2)
-          refusal =
-            format("the node at (%g, %g) touches three things at once%s",
-                   x[0],
-                   x[1],
-                   of_corner);
+          refusal = where + "touches three things at once" + of_corner;
         else if (taken[0]->contact.normal * taken[1]->contact.normal <
                  -parallel)
-          refusal =
-            format("the node at (%g, %g) is squeezed between two things%s",
-                   x[0],
-                   x[1],
-                   of_corner);
+          refusal = where + "is squeezed between two things" + of_corner;
         else if (is_free)
-          refusal = format("the node at (%g, %g) touches a free obstacle and "
-                           "something else at once%s",
-                           x[0],
-                           x[1],
-                           of_corner);
+          refusal = where +
+                    "touches a free obstacle and something else at "
+                    "once" +
+                    of_corner;
       }
     for (const Near *at : taken)
       step.nodes.push_back(at->contact);
@@ -336,12 +334,8 @@ namespace geocone
   Tensor<1, dim>
   ObstacleContact::force(const Contact &contact, const unsigned int i)
   {
-    Tensor<1, dim>     r = contact.touches()[i].force;
-    const unsigned int direction =
-      contact.free_direction(contact.nodes()[i].node);
-    if (direction < 2)
-      r[1 - direction] = 0.;
-    return r;
+    return contact.free_part(contact.touches()[i].force,
+                             contact.nodes()[i].node);
   }
 
   ContactReport
@@ -415,33 +409,29 @@ namespace geocone
   std::vector<Reaction>
   ObstacleContact::reactions(const Contact &contact) const
   {
-    const auto         &list = scene.obstacles.list;
-    const unsigned int  n    = list.size() + scene.contacts.list.size();
-    std::vector<double> sums(3 * n, 0.);
-    const auto         &nodes = contact.nodes();
+    const auto           &list = scene.obstacles.list;
+    const unsigned int    n    = list.size() + scene.contacts.list.size();
+    std::vector<Reaction> result(n);
+    const auto           &nodes = contact.nodes();
     for (unsigned int i = 0; i < nodes.size(); ++i)
       {
-        const Contact::Touch &touch = contact.touches()[i];
         if (nodes[i].node >= space.n_owned_nodes() ||
-            touch.state == Contact::State::open)
+            contact.touches()[i].state == Contact::State::open)
           continue;
         const Tensor<1, dim> r     = force(contact, i);
         const unsigned int   o     = nodes[i].obstacle;
         const Point<dim>     about = scene.observation.moment_centre().value_or(
           nodes[i].touches_body() ? Point<dim>() : centre(o));
-        const Tensor<1, dim> arm = place(nodes[i].node) - about;
-        sums[3 * o] += r[0];
-        sums[3 * o + 1] += r[1];
-        sums[3 * o + 2] += arm[0] * r[1] - arm[1] * r[0];
+        for (unsigned int d = 0; d < dim; ++d)
+          result[o].add(place(nodes[i].node) - about, d, r[d]);
       }
+    constexpr unsigned int n_sums = dim + n_rotations;
+    std::vector<double>    sums(n_sums * n);
+    for (unsigned int k = 0; k < sums.size(); ++k)
+      sums[k] = component(result[k / n_sums], k % n_sums);
     sum_over_ranks(sums, comm);
-    std::vector<Reaction> result(n);
-    for (unsigned int o = 0; o < n; ++o)
-      {
-        result[o].force[0]  = sums[3 * o];
-        result[o].force[1]  = sums[3 * o + 1];
-        result[o].moment[0] = sums[3 * o + 2];
-      }
+    for (unsigned int k = 0; k < sums.size(); ++k)
+      component(result[k / n_sums], k % n_sums) = sums[k];
     return result;
   }
 
@@ -476,12 +466,13 @@ namespace geocone
           closed_nodes.local_element(dim * at.node + at.is_second);
         if (state == 0.)
           continue;
-        const Tensor<1, dim> &n = at.normal;
-        const Tensor<1, dim>  t({-n[1], n[0]});
-        for (const Tensor<1, dim> &along : {n, t})
+        std::vector<Tensor<1, dim>> axes = {at.normal};
+        if (state == 2.)
+          axes.insert(axes.end(),
+                      at.tangents.begin(),
+                      at.tangents.begin() + at.n_tangents);
+        for (const Tensor<1, dim> &along : axes)
           {
-            if (along == t && state < 2.)
-              continue;
             // Along and against the obstacle or the other body: what was solved for,
             // what it would be, and how fast a unit impulse makes it.
             double solved = 0., end = 0., mobility = 0.;
@@ -564,14 +555,14 @@ namespace geocone
                           const bool     moves)
   {
     for (unsigned int o = 0; o < displacement.size(); ++o)
-      for (unsigned int k = 0; k < RigidMotion::n_components; ++k)
-        {
-          const double solved = contact.motions().velocities()[o][k];
-          if (moves)
-            displacement[o][k] += h * solved;
+      {
+        const RigidMotion &solved = contact.motions().velocities()[o];
+        if (moves)
+          displacement[o].add({h * solved.centre, h * solved.rotation});
+        for (unsigned int k = 0; k < RigidMotion::n_components; ++k)
           velocity[o][k] =
-            h == solved_h ? solved : 2. * solved - velocity[o][k];
-        }
+            h == solved_h ? solved[k] : 2. * solved[k] - velocity[o][k];
+      }
     if (!moves)
       return;
     if (mesh_is_body && exists())

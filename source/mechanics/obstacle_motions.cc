@@ -14,13 +14,15 @@ namespace geocone
     constexpr unsigned int n_motions = ObstacleMotions::n_motions,
                            n_sums    = ObstacleMotions::n_sums;
 
+    using MotionVector = Eigen::Matrix<double, n_motions, 1>;
+
     /** Of an obstacle at a motion: what its equilibrium lacks, E, and the size of its
      *  sums. */
     struct BodyBalance
     {
-      Eigen::Vector3d R = Eigen::Vector3d::Zero();
-      Eigen::Matrix3d E = Eigen::Matrix3d::Identity();
-      double          size;
+      MotionVector            R = MotionVector::Zero();
+      ObstacleMotions::Matrix E = ObstacleMotions::Matrix::Identity();
+      double                  size;
 
       BodyBalance(const ObstacleBody &body,
                   const RigidMotion  &motion,
@@ -81,7 +83,7 @@ namespace geocone
   void
   ObstacleMotions::find(const Sums &sums)
   {
-    inverse_E.assign(bodies.size(), Eigen::Matrix3d::Zero());
+    inverse_E.assign(bodies.size(), ObstacleMotions::Matrix::Zero());
     lack_of_all = 0.;
     if (n_free_motions == 0)
       return;
@@ -104,7 +106,7 @@ namespace geocone
           {
             for (unsigned int o = 0; o < bodies.size(); ++o)
               {
-                const Eigen::Vector3d change =
+                const MotionVector change =
                   old[o].E.partialPivLu().solve(old[o].R);
                 for (unsigned int k = 0; k < n_motions; ++k)
                   motion[o][k] = before[o][k] - step * change[k];
@@ -119,7 +121,7 @@ namespace geocone
     for (unsigned int o = 0; o < bodies.size(); ++o)
       {
         lack_of_all += now[o].R.norm();
-        const Eigen::Matrix3d inverse = now[o].E.inverse();
+        const ObstacleMotions::Matrix inverse = now[o].E.inverse();
         for (unsigned int k = 0; k < n_motions; ++k)
           for (unsigned int l = 0; l < n_motions; ++l)
             if (bodies[o].is_free[k] && bodies[o].is_free[l])

@@ -97,8 +97,9 @@ namespace geocone
                    [&](const unsigned int p,
                        const unsigned int /* cell */,
                        const PointFunctions &at) {
-                     const double     half = length_of(points.weight[p]) / 2.;
-                     const Point<dim> x    = position_of(scene, points, p);
+                     const Point<dim> x = position_of(scene, points, p);
+                     const double     half =
+                       scene.geometry.size_of_point(x, points.weight[p]) / 2.;
                      for (unsigned int o = 0; o < n; ++o)
                        near[o] = list[o]->nearest(x, moved[o], {});
                      for (unsigned int o = 0; o < n; ++o)

@@ -71,16 +71,21 @@ namespace geocone
       worst.take_worse(record.last.contact);
     const ContactReport last =
       records.empty() ? ContactReport() : records.back().last.contact;
-    return {{"penetration_max", worst.penetration},
-            {"natural_map_error_max", worst.error},
-            {"open", last.open},
-            {"stick", last.stick},
-            {"slip", last.slip},
-            {"width_m", points_move ? Json() : Json(last.width)},
-            {"stick_width_m", points_move ? Json() : Json(last.stick_width)},
-            {"pressure_max_Pa", points_move ? Json() : Json(last.pressure)},
-            {"shear_max_Pa", points_move ? Json() : Json(last.shear)},
-            {unit("dissipation_J_per_m"), balance.works().contact_dissipation}};
+    const bool in_plane = scene->geometry.unit("N/m") == "N/m";
+    const auto touched  = [&](const double size) {
+      return points_move ? Json() : Json(size);
+    };
+    return {
+      {"penetration_max", worst.penetration},
+      {"natural_map_error_max", worst.error},
+      {"open", last.open},
+      {"stick", last.stick},
+      {"slip", last.slip},
+      {in_plane ? "width_m" : "area_m2", touched(last.width)},
+      {in_plane ? "stick_width_m" : "stick_area_m2", touched(last.stick_width)},
+      {"pressure_max_Pa", touched(last.pressure)},
+      {"shear_max_Pa", touched(last.shear)},
+      {unit("dissipation_J_per_m"), balance.works().contact_dissipation}};
   }
 
   Json

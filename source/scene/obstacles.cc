@@ -3,7 +3,6 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
-#include <geocone/scene/edge_normal.h>
 #include <geocone/scene/obstacles.h>
 
 #include <algorithm>
@@ -17,58 +16,54 @@ namespace geocone
 
   namespace
   {
-    Tensor<1, dim>
-    turned(const Tensor<1, dim> &x, const double angle)
+    /** Names of the parameters of a motion. */
+    std::string
+    velocity_name(const unsigned int k)
     {
-      if (angle == 0.)
-        return x;
-      const double c = std::cos(angle), s = std::sin(angle);
-      return Point<dim>(c * x[0] - s * x[1], s * x[0] + c * x[1]);
+      if (k < dim)
+        return std::string("Velocity ") + coordinate[k];
+      return dim == 2 ? "Angular velocity"
+                      : "Angular velocity " + axis_of_rotation(k - dim);
     }
 
-    /**
-     * How far a side is covered on from a covered place, towards its nearer bare part (m);
-     * infinite if there is none.
-     * @param is_covered of a part of the side, from 0 to 1 @param along of the place
-     * @param length of the side (m) @param accuracy (m)
-     */
-    template <typename IsCovered>
-    double
-    way_to_bare(const IsCovered &is_covered,
-                const double     along,
-                const double     length,
-                const double     accuracy)
+    std::string
+    load_name(const unsigned int k)
     {
-      double least = std::numeric_limits<double>::infinity();
-      for (const double end : {0., 1.})
-        if (!is_covered(end))
-          {
-            double covered = along, bare = end;
-            while (std::abs(bare - covered) * length > accuracy)
-              {
-                const double middle                   = (covered + bare) / 2.;
-                (is_covered(middle) ? covered : bare) = middle;
-              }
-            least = std::min(least, std::abs(bare - along) * length);
-          }
-      return least;
+      if (k < dim)
+        return std::string("Force ") + coordinate[k];
+      return dim == 2 ? "Moment" : "Moment " + axis_of_rotation(k - dim);
     }
-
-    const char *const velocity_names[] = {
-      "Velocity x", "Velocity y", "Angular velocity"};
-    const char *const load_names[] = {"Force x", "Force y", "Moment"};
   } // namespace
+
+  Choice<Obstacle::Shape>::Words
+  Obstacle::shape_words()
+  {
+    if (dim == 2)
+      return {{"half-plane", Shape::half_space},
+              {"disc", Shape::ball},
+              {"polygon", Shape::polytope}};
+    return {{"half-space", Shape::half_space},
+            {"ball", Shape::ball},
+            {"polyhedron", Shape::polytope},
+            {"cylinder", Shape::cylinder}};
+  }
 
   Obstacle::Obstacle(const std::string &name)
     : dealii::ParameterAcceptor("/Obstacles/" + name)
     , name(name)
   {
+    const std::string coordinates_of = coordinates;
     shape.declare(
       *this,
       "Shape",
-      ". What is behind a line ('Point', 'Normal'), inside a circle "
-      "('Point' is its centre, 'Radius') or inside a convex polygon "
-      "('Vertices').");
+      dim == 2
+        ? ". What is behind a line ('Point', 'Normal'), inside a circle "
+          "('Point' is its centre, 'Radius') or inside a convex polygon "
+          "('Vertices')."
+        : ". What is behind a plane ('Point', 'Normal'), inside a sphere "
+          "('Point' is its centre, 'Radius'), a convex polyhedron "
+          "('Vertices') or a cylinder ('Point' is its centre, 'Normal' "
+          "its axis, 'Radius', 'Height').");
     sliding.declare(
       *this,
       "Sliding",
@@ -77,20 +72,38 @@ namespace geocone
       "small, too; its load on a smooth footing is that of its full width.");
     add_parameter("Point",
                   place,
-                  "A point x, y (m) of the line of a half-plane, or the centre "
-                  "of a disc, at the start.");
-    add_parameter(
-      "Normal",
-      normal,
-      "Direction x, y out of a half-plane, towards the body; of any "
-      "length.");
-    add_parameter("Radius", radius, "Radius of a disc (m).");
+                  "A point " + coordinates_of +
+                    (dim == 2 ? " (m) of the line of a half-plane, or the "
+                                "centre of a disc, at the start."
+                              : " (m) of the plane of a half-space, or the "
+                                "centre of a ball or of a cylinder, at the "
+                                "start."));
+    add_parameter("Normal",
+                  normal,
+                  "Direction " + coordinates_of +
+                    (dim == 2 ? " out of a half-plane, towards the body; of "
+                                "any length."
+                              : " out of a half-space, towards the body, or of "
+                                "the axis of a cylinder; of any length."));
+    add_parameter("Radius",
+                  radius,
+                  dim == 2 ? "Radius of a disc (m)."
+                           : "Radius of a ball or a cylinder (m).");
+    if (dim == 3)
+      add_parameter("Height",
+                    height,
+                    "Height of a cylinder, half of it on both sides of its "
+                    "centre (m).");
     add_parameter("Vertices",
                   vertices,
-                  "Vertices x, y; x, y; ... (m) of a convex polygon at the "
-                  "start, counterclockwise.");
+                  dim == 2 ? "Vertices x, y; x, y; ... (m) of a convex polygon "
+                             "at the start, counterclockwise."
+                           : "Vertices x, y, z; x, y, z; ... (m) of a convex "
+                             "polyhedron at the start, in any order.");
+    velocity_texts.fill("0");
+    load_texts.fill("0");
     for (unsigned int k = 0; k < n_motions; ++k)
-      add_parameter(velocity_names[k],
+      add_parameter(velocity_name(k),
                     velocity_texts[k],
                     std::string("Velocity of the obstacle") +
                       (k < dim
@@ -98,18 +111,29 @@ namespace geocone
                          : " about its centre (rad/s), counterclockwise,") +
                       " as a formula in t (s); or free: it obeys the forces.");
     for (unsigned int k = 0; k < n_motions; ++k)
-      add_parameter(load_names[k],
-                    load_texts[k],
-                    std::string("Force on a free obstacle") +
-                      (k < dim ? ", at its centre (N/m)"
-                               : ": moment about its centre (N)") +
-                      ", beside its weight, as a formula in t (s).");
-    add_parameter("Mass", mass, "Mass of a free obstacle (kg/m).");
+      add_parameter(
+        load_name(k),
+        load_texts[k],
+        std::string("Force on a free obstacle") +
+          (k < dim ? ", at its centre" : ": moment about its centre") +
+          (dim == 2 ? (k < dim ? " (N/m)" : " (N)")
+                    : (k < dim ? " (N)" : " (N m)")) +
+          ", beside its weight, as a formula in t (s).");
+    add_parameter("Mass",
+                  mass,
+                  dim == 2
+                    ? "Mass of a free obstacle (kg/m; kg around an axis)."
+                    : "Mass of a free obstacle (kg).");
     add_parameter(
       "Moment of inertia",
       moment_of_inertia,
-      "About the centre, of an obstacle that is free to turn (kg m); "
-      "of a rectangle M (a^2 + b^2)/12.");
+      dim == 2
+        ? "About the centre, of an obstacle that is free to turn (kg m); "
+          "of a rectangle M (a^2 + b^2)/12."
+        : "About each axis through the centre, of an obstacle that is "
+          "free to turn (kg m^2); of a cube M a^2/6, of a ball 2/5 M R^2. "
+          "One number for all axes: bodies that are long or flat spin "
+          "differently, and rest alike.");
     law.declare(*this);
   }
 
@@ -136,64 +160,93 @@ namespace geocone
       {
         free[k] = velocity_texts[k] == "free";
         if (!free[k])
-          velocities[k].prepare(velocity_texts[k],
-                                parameter(velocity_names[k]));
-        loads[k].prepare(load_texts[k], parameter(load_names[k]));
+          velocities[k].prepare(velocity_texts[k], parameter(velocity_name(k)));
+        loads[k].prepare(load_texts[k], parameter(load_name(k)));
         if (!free[k] && load_texts[k] != "0")
-          throw InputError(parameter(load_names[k]),
+          throw InputError(parameter(load_name(k)),
                            load_texts[k],
-                           std::string("0 where '") + velocity_names[k] +
-                             "' is not free",
+                           "0 where '" + velocity_name(k) + "' is not free",
                            "a motion has a velocity or a force: set it free");
         const char *const name = k < dim ? "Mass" : "Moment of inertia";
         if (free[k] && !(inertia(k) > 0. && std::isfinite(inertia(k))))
           throw InputError(parameter(name),
                            inertia(k),
-                           std::string("> 0 where '") + velocity_names[k] +
-                             "' is free",
+                           "> 0 where '" + velocity_name(k) + "' is free",
                            "what moves by forces needs inertia, also where the "
                            "soil has none; a small one lets it follow fast");
       }
+    make_shape();
+    law.check(*this);
+  }
+
+  void
+  Obstacle::make_shape()
+  {
     if (!std::isfinite(place.square()))
       throw InputError(parameter("Point"),
                        dealii::Patterns::Tools::to_string(place),
-                       "finite coordinates x, y (m)",
+                       std::string("finite coordinates ") + coordinates +
+                         " (m)",
                        "give a point of the obstacle");
-    if (shape == Shape::half_plane)
+    if (shape == Shape::half_space || shape == Shape::cylinder)
       {
         if (!(normal.norm() > 0.) || !std::isfinite(normal.norm()))
-          throw InputError(parameter("Normal"),
-                           dealii::Patterns::Tools::to_string(normal),
-                           "a direction x, y other than 0, 0",
-                           "it points from the obstacle to the body, e.g. 0, 1 "
-                           "for the ground");
+          throw InputError(
+            parameter("Normal"),
+            dealii::Patterns::Tools::to_string(normal),
+            std::string("a direction ") + coordinates + " that is not zero",
+            std::string("it points from the obstacle to the "
+                        "body, e.g. ") +
+              (dim == 2 ? "0, 1" : "0, 1, 0") + " for the ground");
         normal /= normal.norm();
       }
-    if (shape == Shape::disc && !(radius > 0. && std::isfinite(radius)))
-      throw InputError(parameter("Radius"),
-                       radius,
-                       "> 0 m, finite",
-                       "give the radius of the disc");
-    if (shape == Shape::polygon)
+    for (const auto &[entry, length] :
+         {std::pair{"Radius", radius}, std::pair{"Height", height}})
+      if ((shape == Shape::cylinder ||
+           (shape == Shape::ball && length == radius)) &&
+          !(length > 0. && std::isfinite(length)))
+        throw InputError(parameter(entry),
+                         length,
+                         "> 0 m, finite",
+                         "give the size of the obstacle");
+    bool valid = true;
+    switch (shape.get())
       {
-        const unsigned int n  = vertices.size();
-        bool               ok = n >= 3;
-        for (unsigned int i = 0; ok && i < n; ++i)
-          {
-            const Tensor<1, dim> edge = vertices[(i + 1) % n] - vertices[i],
-                                 next = vertices[(i + 2) % n] -
-                                        vertices[(i + 1) % n];
-            ok = edge[0] * next[1] - edge[1] * next[0] > 0.;
-          }
-        if (!ok)
-          throw InputError(parameter("Vertices"),
-                           dealii::Patterns::Tools::to_string(vertices),
-                           "three or more vertices of a convex polygon, "
-                           "counterclockwise",
-                           "turn their order round, leave out those inside its "
-                           "sides, or make an obstacle of each convex part");
+        case Shape::half_space:
+          body = std::make_unique<HalfSpace>(place, normal);
+          break;
+        case Shape::ball:
+          body = std::make_unique<Ball>(place, radius);
+          break;
+        case Shape::cylinder:
+          body = std::make_unique<Cylinder>(place, normal, radius, height);
+          break;
+        case Shape::polytope:
+          body = std::make_unique<Polytope>(vertices, valid);
+          break;
       }
-    law.check(*this);
+    if (!valid)
+      throw InputError(
+        parameter("Vertices"),
+        dealii::Patterns::Tools::to_string(vertices),
+        dim == 2 ? "three or more vertices of a convex polygon, "
+                   "counterclockwise"
+                 : "four or more vertices of a convex polyhedron, none inside",
+        std::string(dim == 2 ? "turn their order round, leave" : "leave") +
+          " out those inside its sides, or make an obstacle of each convex "
+          "part");
+  }
+
+  void
+  Obstacle::check_round() const
+  {
+    for (const unsigned int k : {0U, unsigned(dim)})
+      if (velocity_texts[k] != "0")
+        throw InputError(parameter(velocity_name(k)),
+                         velocity_texts[k],
+                         "0 where Geometry/Symmetry = axisymmetric",
+                         "what goes round the axis moves along it: set "
+                         "'Velocity y'");
   }
 
   RigidMotion
@@ -215,29 +268,20 @@ namespace geocone
     return force;
   }
 
-  double
-  Obstacle::width() const
+  Point<dim>
+  Obstacle::own_place(const Point<dim> &x, const RigidMotion &moved) const
   {
-    if (shape == Shape::half_plane)
-      return std::numeric_limits<double>::infinity();
-    if (shape == Shape::disc)
-      return 2. * radius;
-    double widest = 0.;
-    for (const Point<dim> &a : vertices)
-      for (const Point<dim> &b : vertices)
-        widest = std::max(widest, a.distance(b));
-    return widest;
+    if (moved.rotation.norm() == 0.)
+      return x - moved.centre;
+    const Point<dim> X = centre();
+    return X + moved.turned(x - X - moved.centre, true);
   }
 
   Point<dim>
-  Obstacle::centre() const
+  Obstacle::moved_place(const Point<dim> &x, const RigidMotion &moved) const
   {
-    if (shape != Shape::polygon)
-      return place;
-    Point<dim> mean;
-    for (const Point<dim> &vertex : vertices)
-      mean += vertex / double(vertices.size());
-    return mean;
+    const Point<dim> X = centre();
+    return X + moved.centre + moved.turned(x - X);
   }
 
   Obstacle::Nearest
@@ -247,10 +291,9 @@ namespace geocone
                              const Tensor<1, dim> &step,
                              const Neighbours     *beside) const
   {
-    const Point<dim> X = centre();
-    const Point<dim> now(X + turned(x - X - moved.centre, -moved.angle));
-    // At a vertex it faces the side that has come, or comes, against it.
-    const Tensor<1, dim> approach = start - now + turned(step, -moved.angle);
+    const Point<dim> now = own_place(x, moved);
+    // At an edge it faces the side that has come, or comes, against it.
+    const Tensor<1, dim> approach = start - now + moved.turned(step, true);
     const Nearest        first    = nearest(start, {}, approach, beside);
     if (std::isinf(first.distance))
       return first;
@@ -260,7 +303,7 @@ namespace geocone
               {},
               approach,
               beside);
-    found.normal = turned(found.normal, moved.angle);
+    found.normal = moved.turned(found.normal);
     return found;
   }
 
@@ -270,68 +313,27 @@ namespace geocone
                     const Tensor<1, dim> &approach,
                     const Neighbours     *beside) const
   {
-    const bool       turns = moved.angle != 0.;
-    const Point<dim> X     = turns ? centre() : Point<dim>();
-    Cover            cover;
-    double           margin = 0.;
+    ObstacleShape::Cover cover;
     if (beside != nullptr && beside->exist())
-      {
-        margin = beside->margin;
-        cover  = [&](const Point<dim> &place) {
-          return beside->cover(turns ? X + moved.centre +
-                                         turned(place - X, moved.angle)
-                                     : place + moved.centre);
-        };
-      }
-    OnBoundary found =
-      turns ? nearest_of_shape(
-                Point<dim>(X + turned(x - X - moved.centre, -moved.angle)),
-                turned(approach, -moved.angle),
-                cover,
-                margin)
-            : nearest_of_shape(x - moved.centre, approach, cover, margin);
-    if (turns)
-      found.normal = turned(found.normal, moved.angle);
-    if (found.is_vertex && cover &&
+      cover = {[&](const Point<dim> &place) {
+                 return beside->cover(moved_place(place, moved));
+               },
+               beside->margin};
+    Nearest found =
+      body->nearest(own_place(x, moved), moved.turned(approach, true), cover);
+    found.normal = moved.turned(found.normal);
+    if (found.is_edge && cover.covers &&
         beside->go_on_from(x - found.distance * found.normal, x))
       found.distance = std::numeric_limits<double>::infinity();
     return found;
   }
 
-  std::vector<Point<dim>>
-  Obstacle::moved_vertices(const RigidMotion &moved) const
-  {
-    const Point<dim>        X = centre();
-    std::vector<Point<dim>> places;
-    if (shape == Shape::polygon)
-      for (const Point<dim> &vertex : vertices)
-        places.push_back(X + moved.centre + turned(vertex - X, moved.angle));
-    return places;
-  }
-
   double
-  Obstacle::parted_by_sides(const std::vector<Point<dim>> &places,
-                            const RigidMotion             &moved) const
+  Obstacle::reach(const Tensor<1, dim> &n, const RigidMotion &moved) const
   {
-    const auto beyond = [&](const Point<dim>     &on_side,
-                            const Tensor<1, dim> &N) {
-      double least = std::numeric_limits<double>::infinity();
-      for (const Point<dim> &x : places)
-        least = std::min(least, (x - on_side) * N);
-      return least;
-    };
-    if (shape == Shape::half_plane)
-      return beyond(place + moved.centre, turned(normal, moved.angle));
-    double     most = -std::numeric_limits<double>::infinity();
-    const auto own  = moved_vertices(moved);
-    const auto n    = own.size();
-    for (std::size_t i = 0; i < n; ++i)
-      {
-        const Point<dim>    &a = own[i], &b = own[(i + 1) % n];
-        const Tensor<1, dim> N = edge_normal(a, b);
-        most                   = std::max(most, beyond(a, N / N.norm()));
-      }
-    return most;
+    const Point<dim>     X     = centre();
+    const Tensor<1, dim> n_own = moved.turned(n, true);
+    return (X + moved.centre) * n - X * n_own + body->reach(n_own);
   }
 
   double
@@ -339,96 +341,43 @@ namespace geocone
                         const RigidMotion &moved,
                         const RigidMotion &its_moved) const
   {
-    if (shape == Shape::disc)
+    if (shape == Shape::ball)
       return other.nearest(place + moved.centre, its_moved, {}).distance -
              radius;
-    if (other.shape == Shape::disc)
+    if (other.shape == Shape::ball)
       return other.distance_to(*this, its_moved, moved);
-    if (shape == Shape::half_plane && other.shape == Shape::half_plane)
+    if (shape == Shape::half_space && other.shape == Shape::half_space)
       return std::numeric_limits<double>::infinity();
+    // The directions that may part them: out of this one.
+    std::vector<Tensor<1, dim>> directions;
+    const auto                  add_of = [&directions](const Obstacle    &own,
+                                      const RigidMotion &own_moved,
+                                      const Obstacle    &its,
+                                      const RigidMotion &its_moved,
+                                      const double       sign) {
+      for (const auto &n : own.body->side_normals())
+        directions.push_back(sign * own_moved.turned(n));
+      if (dim == 3)
+        for (const auto &corner : its.body->corners())
+          directions.push_back(
+            sign *
+            own.nearest(its.moved_place(corner, its_moved), own_moved, {})
+              .normal);
+    };
+    add_of(*this, moved, other, its_moved, 1.);
+    add_of(other, its_moved, *this, moved, -1.);
+    if constexpr (dim == 3)
+      for (const auto &a : body->edge_directions())
+        for (const auto &b : other.body->edge_directions())
+          if (const auto n =
+                cross_product_3d(moved.turned(a), its_moved.turned(b));
+              n.norm() > 1e-6)
+            for (const double sign : {1., -1.})
+              directions.push_back(sign / n.norm() * n);
     double most = -std::numeric_limits<double>::infinity();
-    if (other.shape == Shape::polygon)
-      most = parted_by_sides(other.moved_vertices(its_moved), moved);
-    if (shape == Shape::polygon)
-      most =
-        std::max(most, other.parted_by_sides(moved_vertices(moved), its_moved));
+    for (const auto &n : directions)
+      most = std::max(most, -other.reach(-n, its_moved) - reach(n, moved));
     return most;
-  }
-
-  Obstacle::OnBoundary
-  Obstacle::nearest_of_shape(const Point<dim>     &x,
-                             const Tensor<1, dim> &approach,
-                             const Cover          &cover,
-                             const double          margin) const
-  {
-    if (shape == Shape::polygon)
-      return nearest_of_polygon(x, approach, cover, margin);
-    if (shape == Shape::half_plane)
-      return {{(x - place) * normal, normal}};
-    const Tensor<1, dim> from = x - place;
-    const double         r    = from.norm();
-    return {{r - radius, r > 0. ? from / r : Point<dim>(0., 1.)}};
-  }
-
-  Obstacle::OnBoundary
-  Obstacle::nearest_of_polygon(const Point<dim>     &x,
-                               const Tensor<1, dim> &approach,
-                               const Cover          &cover,
-                               const double          margin) const
-  {
-    // Inside and on the border the nearest side, outside it or a vertex.
-    constexpr double   infinity  = std::numeric_limits<double>::infinity();
-    const unsigned int n         = vertices.size();
-    const double       tolerance = 1e-9 * width();
-    double             outmost   = -infinity;
-    Nearest            best{-infinity, {}};
-    OnBoundary         border{{infinity, {}}};
-    for (unsigned int i = 0; i < n; ++i)
-      {
-        const Point<dim>    &a = vertices[i], &b = vertices[(i + 1) % n];
-        const Tensor<1, dim> edge     = b - a;
-        const double         l        = edge.norm();
-        const Tensor<1, dim> N        = edge_normal(a, b) / l;
-        double               distance = (x - a) * N;
-        outmost                       = std::max(outmost, distance);
-        const double part             = ((x - a) * edge) / edge.norm_square();
-        const double along            = std::clamp(part, 0., 1.);
-        if (cover)
-          {
-            const auto is_covered = [&](const double s) {
-              const double inset = std::min(margin / l, 0.5);
-              return cover(a + std::clamp(s, inset, 1. - inset) * edge +
-                           margin * N);
-            };
-            if (is_covered(along))
-              {
-                // What is deep inside is pushed out through what is bare of the side.
-                if (distance > -margin)
-                  continue;
-                distance = -std::hypot(
-                  distance, way_to_bare(is_covered, along, l, margin / 2.));
-                if (std::isinf(distance))
-                  continue;
-              }
-          }
-        if (distance > best.distance + tolerance ||
-            (distance > best.distance - tolerance &&
-             N * approach > best.normal * approach))
-          best = {distance, N};
-        const Tensor<1, dim> from = x - (a + along * edge);
-        if (from.norm() < border.distance)
-          border = {{from.norm(), from},
-                    std::abs(part - along) * l > tolerance};
-      }
-    if (outmost > tolerance)
-      {
-        if (std::isfinite(border.distance))
-          border.normal /= border.distance;
-        return border;
-      }
-    if (std::isinf(best.distance))
-      best.distance = infinity;
-    return {best};
   }
 
   Neighbours::Neighbours(const std::vector<std::unique_ptr<Obstacle>> &list,
@@ -473,9 +422,6 @@ namespace geocone
     : dealii::ParameterAcceptor("/Obstacles")
     , names(file.named_sections("Obstacles", "Names", ""))
   {
-    if (dim == 3)
-      refuse("Geometry/Dimension = 3",
-             "they are for plane scenes so far: leave them out");
     add_parameter(
       "Names",
       names,

@@ -95,16 +95,9 @@ namespace geocone
                        "obstacles and contacts",
                        "all can be observed by name: rename one of them");
     if (dim == 3)
-      {
-        const std::string where = "Geometry/Dimension = 3",
-                          remedy =
-                            "it is for plane scenes so far: leave it out";
-        contacts.refuse(where, remedy); // obstacles: when they are made
-        absorbing.refuse(where, remedy);
-        if (water.acts())
-          throw InputError(
-            "Water/Table", "given", "empty with " + where, remedy);
-      }
+      contacts.refuse("Geometry/Dimension = 3",
+                      "bodies touch in plane scenes so far: let one of them be "
+                      "an obstacle");
     observation.prepare(supports(), materials, gravity, loading.raises_loads());
     if (observation.reference_name == "Prandtl")
       geometry.refuse_axis("'Observation/Reference' = Prandtl",
@@ -147,11 +140,14 @@ namespace geocone
       if (speed > 0. && std::isfinite(time) && (least == 0. || time < least))
         least = time;
     };
+    double width_of_body = body.side_length(0);
+    for (unsigned int d = 1; d < dim; ++d)
+      width_of_body = std::min(width_of_body, body.side_length(d));
     for (const auto &obstacle : obstacles.list)
-      add(
-        std::min({body.side_length(0), body.side_length(1), obstacle->width()}),
-        speed_of(
-          [&](const double t) { return obstacle->velocity(t).centre.norm(); }));
+      add(std::min(width_of_body, obstacle->width()),
+          speed_of([&](const double t) {
+            return obstacle->velocity(t).centre.norm();
+          }));
     for (unsigned int c = 0; c < dirichlet.list.size(); ++c)
       {
         const BoundaryCondition &condition = *dirichlet.list[c];

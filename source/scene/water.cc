@@ -22,7 +22,8 @@ namespace geocone
                   "it the pressure of the water grows with depth, and stresses "
                   "are effective ones; where it is above the ground there is "
                   "water outside. Densities are those of the soil with its "
-                  "water. Empty: no water.");
+                  "water. In three dimensions it is alike along z. Empty: no "
+                  "water.");
     add_parameter("Unit weight", unit_weight, "Of water (N/m^3).");
   }
 
@@ -43,11 +44,13 @@ namespace geocone
       throw InputError(
         "Water/Unit weight", unit_weight, "> 0 N/m^3, finite", "9810 is usual");
     const Tensor<1, dim> g = gravity.at(1e300);
-    if (g[0] != 0. || !(g[1] < 0.))
-      throw InputError("Gravity/Acceleration",
-                       dealii::Patterns::Tools::to_string(g),
-                       "g_x = 0 and g_y < 0 where there is water",
-                       "e.g. 0, -9.81; or leave 'Water/Table' out");
+    if (!(g[1] < 0.) || g.norm() != -g[1])
+      throw InputError(
+        "Gravity/Acceleration",
+        dealii::Patterns::Tools::to_string(g),
+        "along -y where there is water",
+        std::string(dim == 2 ? "e.g. 0, -9.81" : "e.g. 0, -9.81, 0") +
+          "; or leave 'Water/Table' out");
   }
 
   std::array<double, 2>
@@ -58,19 +61,18 @@ namespace geocone
     if (x >= table.back()[0])
       return {{table.back()[1], 0.}};
     const auto next = std::upper_bound(
-      table.begin(),
-      table.end(),
-      x,
-      [](const double value, const Point<dim> &p) { return value < p[0]; });
-    const Point<dim> &a = *(next - 1), &b = *next;
-    const double      slope = (b[1] - a[1]) / (b[0] - a[0]);
+      table.begin(), table.end(), x, [](const double value, const Point<2> &p) {
+        return value < p[0];
+      });
+    const Point<2> &a = *(next - 1), &b = *next;
+    const double    slope = (b[1] - a[1]) / (b[0] - a[0]);
     return {{a[1] + slope * (x - a[0]), slope}};
   }
 
   bool
   Water::is_level() const
   {
-    return std::all_of(table.begin(), table.end(), [&](const Point<dim> &p) {
+    return std::all_of(table.begin(), table.end(), [&](const Point<2> &p) {
       return p[1] == table.front()[1];
     });
   }
@@ -105,11 +107,18 @@ namespace geocone
     // Beyond the box on both sides.
     const double            beyond = 0.1 * (upper[0] - lower[0]);
     std::vector<Point<dim>> corners;
+    const auto              in_plane = [](const double x, const double y) {
+      Point<dim> p;
+      p[0] = x;
+      p[1] = y;
+      return p;
+    };
     if (lower[0] - beyond < table.front()[0])
-      corners.emplace_back(lower[0] - beyond, table.front()[1]);
-    corners.insert(corners.end(), table.begin(), table.end());
+      corners.push_back(in_plane(lower[0] - beyond, table.front()[1]));
+    for (const Point<2> &corner : table)
+      corners.push_back(in_plane(corner[0], corner[1]));
     if (upper[0] + beyond > table.back()[0])
-      corners.emplace_back(upper[0] + beyond, table.back()[1]);
+      corners.push_back(in_plane(upper[0] + beyond, table.back()[1]));
     for (std::size_t i = 0; i + 1 < corners.size(); ++i)
       all.push_back({{corners[i], corners[i + 1]}});
     for (std::size_t i = 1; i + 1 < corners.size(); ++i)
@@ -120,7 +129,7 @@ namespace geocone
         const double turn = before[0] * after[1] - before[1] * after[0];
         if (std::abs(turn) > 1e-12 * before.norm() * after.norm() &&
             a[1] > lower[1])
-          all.push_back({{Point<dim>(a[0], lower[1] - beyond), a}});
+          all.push_back({{in_plane(a[0], lower[1] - beyond), a}});
       }
     return all;
   }

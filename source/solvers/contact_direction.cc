@@ -37,11 +37,10 @@ namespace geocone
     for (const unsigned int i : chosen)
       {
         const ContactNode &node = contact.nodes()[i];
-        const auto        &n    = node.normal;
         is_chosen[i]            = true;
-        own.push_back({i, n, true, 0, relaxed});
-        if (contact.free_direction(node.node) == 2)
-          own.push_back({i, Tensor<1, dim>({-n[1], n[0]}), false, 0, relaxed});
+        own.push_back({i, node.normal, true, 0, relaxed});
+        for (unsigned int t = 0; t < node.n_tangents; ++t)
+          own.push_back({i, node.tangents[t], false, 0, relaxed});
       }
     const MPI_Comm comm  = work.v.get_mpi_communicator();
     const auto     sizes = dealii::Utilities::MPI::all_gather(
@@ -193,9 +192,12 @@ namespace geocone
     for (unsigned int k = 0; k < n_components; ++k)
       if (data(k, 2) > 0.)
         {
-          const bool rubs = k + 1 < n_components && data(k + 1, 2) == 0.;
+          unsigned int n_tangents = 0;
+          while (k + n_tangents + 1 < n_components &&
+                 data(k + n_tangents + 1, 2) == 0.)
+            ++n_tangents;
           problem.nodes.push_back(
-            {k, rubs, data(k, 3), data(k, 4), data(k, 5)});
+            {k, n_tangents, data(k, 3), data(k, 4), data(k, 5)});
         }
     // r = K dv + c, dv that of the body; then the motions dy of obstacles are
     // eliminated, du = dv - G dy.

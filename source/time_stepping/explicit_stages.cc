@@ -119,7 +119,8 @@ namespace geocone
       if (affine)
         {
           const Tensor<2, dim> gradient = scene->initial_velocity.gradient(
-            seed.position, length_of(seed.volume));
+            seed.position,
+            scene->geometry.size_of_point(seed.position, seed.volume));
           for (unsigned int c = 0; c < dim; ++c)
             for (unsigned int d = 0; d < dim; ++d)
               group.affine[dim * c + d][p] = gradient[c][d];

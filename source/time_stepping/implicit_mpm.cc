@@ -237,7 +237,8 @@ namespace geocone
     if (rule.is_affine())
       for (unsigned int p = 0; p < points.n_points(); ++p)
         points.affine[p] = scene->initial_velocity.gradient(
-          points.position[p], length_of(points.weight[p]));
+          points.position[p],
+          scene->geometry.size_of_point(points.position[p], points.weight[p]));
     begin(points, timer);
     if (bodies)
       bodies->check_start(points, *constraints);

@@ -21,8 +21,10 @@ namespace geocone
   {
     if (!scene.geometry.is_axisymmetric())
       return;
-    scene.refuse_contact("Geometry/Symmetry = axisymmetric",
-                         "prescribe velocities of sides instead");
+    scene.contacts.refuse("Geometry/Symmetry = axisymmetric",
+                          "let one of the bodies be an obstacle");
+    for (const auto &obstacle : scene.obstacles.list)
+      obstacle->check_round();
     if (space.has_b_bar())
       throw InputError(
         "Discretisation/B-bar",

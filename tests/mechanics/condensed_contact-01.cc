@@ -3,8 +3,9 @@
 
 // If this failed, directions of Newton's method would not end where the laws of contact
 // hold. Random bodies, condensed to 1 to 60 nodes: K is that of a chain of nodes on springs,
-// turned at random, c pulls and presses, some nodes have no friction or adhesion. The
-// solution must fulfil the laws, one by one: not the root functions that solve() looks at.
+// turned at random, c pulls and presses, some nodes have no friction or adhesion. Nodes have
+// one tangent, as in the plane, or two. The solution must fulfil the laws, one by one: not
+// the root functions that solve() looks at.
 
 #include <geocone/mechanics/condensed_contact.h>
 
@@ -26,28 +27,28 @@ lack(const CondensedContact &problem, const VectorXd &u)
   double         worst = 0.;
   for (const CondensedContact::Node &node : problem.nodes)
     {
-      const unsigned int i = node.first;
+      const unsigned int i = node.first, n_t = node.n_tangents;
       const double       w = u[i] - node.least;
       worst =
         std::max({worst, -r[i], -w, std::min(std::abs(r[i]), std::abs(w))});
-      if (!node.rubs)
+      if (n_t == 0)
         continue;
       const double bound =
         node.friction * r[i] + (std::abs(w) < 1e-9 * size ? node.adhesion : 0.);
-      worst = std::max(worst, std::abs(r[i + 1]) - bound);
+      const VectorXd r_T = r.segment(i + 1, n_t), u_T = u.segment(i + 1, n_t);
+      worst = std::max(worst, r_T.norm() - bound);
       // Where it slides, at the bound and against the motion.
-      if (std::abs(u[i + 1]) > 1e-9 * size)
-        {
-          worst = std::max(worst, std::abs(std::abs(r[i + 1]) - bound));
-          if (bound > 1e-9 * size)
-            worst = std::max(worst, r[i + 1] * u[i + 1] > 0. ? size : 0.);
-        }
+      if (u_T.norm() > 1e-9 * size)
+        worst = std::max({worst,
+                          std::abs(r_T.norm() - bound),
+                          (r_T + bound * u_T / u_T.norm()).norm()});
     }
   return worst / size;
 }
 
-int
-main()
+/** @param n_t tangents of the nodes that rub */
+void
+run(const unsigned int n_t)
 {
   std::mt19937                           random(20);
   std::uniform_real_distribution<double> uniform(0., 1.);
@@ -66,11 +67,11 @@ main()
           const bool rubs = uniform(random) > 0.1;
           problem.nodes.push_back(
             {m,
-             rubs,
+             rubs ? n_t : 0,
              in(-1., 0.1),
              rubs && uniform(random) > 0.1 ? in(0., 1.) : 0.,
              rubs && uniform(random) > 0.98 ? in(0., 0.3) : 0.});
-          m += rubs ? 2 : 1;
+          m += rubs ? n_t + 1 : 1;
         }
       // Springs between neighbours, and weak ones to the ground; normal and tangential
       // components are coupled.
@@ -95,13 +96,14 @@ main()
         {
           const bool open = u[node.first] > node.least + 1e-9;
           n_open += open;
-          if (!open && node.rubs)
-            ++(std::abs(u[node.first + 1]) > 1e-9 ? n_slip : n_stick);
+          if (!open && node.n_tangents > 0)
+            ++(u.segment(node.first + 1, n_t).norm() > 1e-9 ? n_slip : n_stick);
         }
     }
   // With friction, and more so with adhesion, which is there only where a node is closed, a
   // solution need not exist, and none be found where it does.
-  std::cout << "solved, of 300: " << (n_solved >= 290 ? "at least 290" : "")
+  std::cout << n_t << " tangents\nsolved, of 300: "
+            << (n_solved >= 290 ? "at least 290" : "")
             << (n_solved >= 290 ? "" : std::to_string(n_solved)) << std::endl;
   std::cout << "open, sticking and slipping nodes: "
             << (std::min({n_open, n_stick, n_slip}) > 500 ? "more than 500 each"
@@ -111,4 +113,11 @@ main()
             << std::endl;
   if (!(worst < 1e-8))
     std::cout << worst << std::endl;
+}
+
+int
+main()
+{
+  for (const unsigned int n_t : {1, 2})
+    run(n_t);
 }

@@ -18,7 +18,7 @@ namespace geocone
    *   rho (c_p n n' + c_s (1 - n n')) (2 v_in - v),
    * c_p and c_s the speeds of the pressure and the shear wave in the cell at the side, v_in
    * the velocity of the wave that comes in. Waves along the normal leave
-   * entirely. Integrated with row sums, so that each node has its dashpot C_i, 2 x 2.
+   * entirely. Integrated with row sums, so that each node has its dashpot C_i, dim x dim.
    */
   class AbsorbingBoundary : public Term
   {

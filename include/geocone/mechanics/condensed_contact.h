@@ -19,14 +19,15 @@ namespace geocone
    *
    * An active set, by linear systems, ends at the solution in a few steps where it does
    * not go round in circles: from the start, from nodes that all stick, and from where
-   * sweeps of Gauss and Seidel lead, which solve node after node exactly.
+   * sweeps of Gauss and Seidel lead, which solve node after node exactly. With two
+   * tangents, in three dimensions, it is Newton's method for the way in which nodes slide.
    */
   struct CondensedContact
   {
     struct Node
     {
-      unsigned int first = 0; ///< of its components in u and r: u_N, u_T
-      bool         rubs  = false;
+      unsigned int first      = 0; ///< of its components in u and r: u_N, u_T
+      unsigned int n_tangents = 0; ///< of these without friction none
 
       double least    = 0.; ///< (m/s)
       double friction = 0.; ///< mu
@@ -50,12 +51,28 @@ namespace geocone
     error(const Eigen::VectorXd &u) const;
 
   private:
-    enum class State
+    enum class Contact
     {
       open,
       stick,
-      slip_forth, ///< r_T > 0
-      slip_back
+      slip
+    };
+    struct State
+    {
+      Contact contact = Contact::open;
+
+      /** Of a node that slides: the direction d of r_T, and what d changes by times the
+       *  bound, per r_T - rho u_T: zero with one tangent. */
+      Eigen::VectorXd direction;
+      Eigen::MatrixXd turn;
+
+      /** Whether both ask for the same equations. */
+      bool
+      operator==(const State &other) const
+      {
+        return contact == other.contact && turn.size() == other.turn.size() &&
+               direction == other.direction && turn == other.turn;
+      }
     };
 
     /** The states that u and r show. */
@@ -71,9 +88,16 @@ namespace geocone
     double
     sweep(Eigen::VectorXd &u) const;
 
+    /** Of a node at most: its normal and two tangents. */
+    using OfNode = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;
+
+    /** rho of the tangents: the mean of their stiffness. */
+    double
+    tangential_rho(const Node &node) const;
+
     /** u of a node for which the others are as they are. @param b r at u = 0 of it */
-    Eigen::Vector2d
-    solve_node(const Node &node, const Eigen::Vector2d &b) const;
+    OfNode
+    solve_node(const Node &node, const OfNode &b) const;
   };
 } // namespace geocone
 

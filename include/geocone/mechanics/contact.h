@@ -29,8 +29,8 @@ namespace geocone
   /** Normals with a larger cosine between them count as one (10 degrees). */
   const double parallel = std::cos(radians(10.));
 
-  /** A node of which a support holds one direction touches along the other one, if its
-   *  cosine with the normal is larger (10 degrees). */
+  /** A node of which a support holds some directions touches in the others, if the
+   *  normal's part along these is longer (10 degrees). */
   const double along_support = std::cos(radians(10.));
 
   /** A node that may touch an obstacle, or another body, in a step. */
@@ -42,6 +42,12 @@ namespace geocone
     unsigned int           obstacle;
     dealii::Tensor<1, dim> normal; ///< out of the obstacle, or the other body
     dealii::Tensor<1, dim> arm;    ///< from the obstacle's centre (m)
+
+    /** Unit vectors across the normal and each other in which it may slide: as many as
+     *  supports leave free. */
+    std::array<dealii::Tensor<1, dim>, dim - 1> tangents;
+    unsigned int                                n_tangents = 0;
+
     dealii::Tensor<1, dim>
       velocity; ///< of the obstacle, or other body, here (m/s)
 
@@ -121,11 +127,11 @@ namespace geocone
    * unknowns here either: its velocity y at the end of the step, which is G_i y at node
    * i, is that for which the projected forces are in equilibrium with its own,
    *   M (y - y_0)/h + sum_i G_i' q_i = 0:
-   * a function of v, found by three equations of its own. (By the forces r, which are
+   * a function of v, found by a few equations of its own. (By the forces r, which are
    * far off before Newton's method has converged, a light obstacle would be thrown
    * about.) With Q = dq/dp and E = M/h + sum rho G' Q G,
    *   dF = (1 - Q) dr + rho Q (dv - G dy),   E dy = -sum G' Q (dr - rho dv):
-   * a part U W' of rank three per obstacle in the Jacobian, U = rho Q G, W' = E^-1 sum
+   * a part U W' of one column per free motion in the Jacobian, U = rho Q G, W' = E^-1 sum
    * G' Q (K - rho), K the rows of the Jacobian before they are combined.
    *
    * Another body moves at node i by sum_j P_ij v_j, and bears -P_ij r_i at its node j.
@@ -135,10 +141,12 @@ namespace geocone
    *
    * A node in a corner is in two contacts with normals n_1 and n_2, each an entry of its
    * own. Without friction its force is r = a_1 n_1 + a_2 n_2, of which each takes its share
-   * n_i k_i' r. F and A are the sums of both.
+   * n_i k_i' r; the first one also what is along the edge, which is no force. F and A are
+   * the sums of both.
    *
-   * A node that a support holds in one direction is in contact only in the other
-   * one, without friction: where the normal is along it, or the nodes are twins.
+   * A node of which a support holds some directions is in contact only in the other
+   * ones: where the normal is along them, or the nodes are twins. Where only one is
+   * free, there is no friction.
    */
   class Contact
   {
@@ -272,10 +280,9 @@ namespace geocone
       return obstacles;
     }
 
-    /** The free direction of a node: 0 or 1 where a support holds the other one, 2
-     *  where both are free, and nothing (3) where none is. */
-    unsigned int
-    free_direction(const unsigned int node) const;
+    /** What of a vector is along the free directions of a node. */
+    dealii::Tensor<1, dim>
+    free_part(const dealii::Tensor<1, dim> &x, const unsigned int node) const;
 
   private:
     using Force  = dealii::Tensor<1, dim>;
@@ -300,6 +307,14 @@ namespace geocone
     /** Of the other body at a node, in its free directions. @param v with ghosts */
     Force
     velocity_of_partners(const ContactNode &node, const Vector &v) const;
+
+    /** In how many directions no support holds a node. */
+    unsigned int
+    n_free(const unsigned int node) const;
+
+    /** Chooses the tangents of a node, whose normal is of its free directions. */
+    void
+    make_tangents(ContactNode &node) const;
 
     /** Makes two entries of the same node, whose normals are not parallel, a corner. */
     static void

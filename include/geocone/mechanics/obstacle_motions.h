@@ -8,6 +8,7 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <vector>
@@ -28,7 +29,7 @@ namespace geocone
     unsigned int
     n_free() const
     {
-      return is_free[0] + is_free[1] + is_free[2];
+      return std::count(is_free.begin(), is_free.end(), true);
     }
   };
 
@@ -37,12 +38,15 @@ namespace geocone
    * driven, of free ones those for which the forces q_i of the nodes that touch them are
    * in equilibrium with their own,
    *   M (y - y_0)/h + sum_i G_i' q_i(y) = 0,
-   * three equations each, found by Newton's method with E = M/h + sum rho G' Q G. Who
+   * as many equations as motions are free, found by Newton's method with E = M/h + sum rho G' Q G. Who
    * knows the nodes gives the sums; see Contact.
    */
   class ObstacleMotions
   {
   public:
+    using Matrix = Eigen::
+      Matrix<double, RigidMotion::n_components, RigidMotion::n_components>;
+
     void
     begin_step(std::vector<ObstacleBody> bodies);
 
@@ -84,7 +88,7 @@ namespace geocone
     }
 
     /** E^-1 of an obstacle, zero for what is driven. */
-    const Eigen::Matrix3d &
+    const Matrix &
     mobility(const unsigned int obstacle) const
     {
       return inverse_E[obstacle];
@@ -126,9 +130,9 @@ namespace geocone
     change(const Eigen::VectorXd &by);
 
   private:
-    std::vector<ObstacleBody>    bodies;
-    std::vector<RigidMotion>     motion;
-    std::vector<Eigen::Matrix3d> inverse_E;
+    std::vector<ObstacleBody> bodies;
+    std::vector<RigidMotion>  motion;
+    std::vector<Matrix>       inverse_E;
     std::vector<unsigned int> first_free; ///< number of an obstacle's first one
     unsigned int              n_free_motions = 0;
     double                    lack_of_all    = 0.;

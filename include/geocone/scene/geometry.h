@@ -151,6 +151,14 @@ namespace geocone
       return symmetry == Symmetry::axisymmetric ? 2. * pi * x[0] : 1.;
     }
 
+    /** The side of the square, or the cube, of a material point at x (m).
+     *  @param volume of it, around the axis of its ring */
+    double
+    size_of_point(const dealii::Point<dim> &x, const double volume) const
+    {
+      return length_of(volume / measure(symmetry, x));
+    }
+
     /** A unit, e.g. "N/m" or "load (N/m)" or "energy_J_per_m", without what says "per
      *  metre of thickness" if the body is round. */
     std::string

@@ -9,12 +9,13 @@
 #include <geocone/base/types.h>
 #include <geocone/scene/expression.h>
 #include <geocone/scene/interface_law.h>
+#include <geocone/scene/obstacle_shape.h>
 #include <geocone/scene/rigid_motion.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/point.h>
 
-#include <functional>
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -67,11 +68,13 @@ namespace geocone
 
   /**
    * A rigid body that the soil may touch, rub on and leave, but not enter: a
-   * half-plane, a disc or a convex polygon, at rest, driven or free. Where they touch
+   * half-plane, a disc or a convex polygon, in three dimensions a half-space, a ball, a
+   * cylinder or a convex polyhedron, at rest, driven or free. Where they touch
    * the force r of the obstacle on the body and the relative velocity u obey
    * Signorini's and Coulomb's laws (see Contact). Each of its motions, of its centre
-   * along x and y and about it, is driven by a formula or free; a free one obeys
-   *   M dV/dt = F + M g - sum r,  J dw/dt = T - sum (x - X) x r.
+   * along the coordinates and about it, is driven by a formula or free; a free one obeys
+   *   M dV/dt = F + M g - sum r,  J dw/dt = T - sum (x - X) x r,
+   * in three dimensions with one J for all axes, that of a ball or a cube.
    */
   class Obstacle : public dealii::ParameterAcceptor
   {
@@ -82,20 +85,16 @@ namespace geocone
     void
     prepare();
 
-    /** Where a place is beside it. */
-    struct Nearest
-    {
-      double distance;               ///< negative inside (m); infinite: hidden
-      dealii::Tensor<1, dim> normal; ///< out of the obstacle, unit length
-    };
+    /** Where a place is beside it: infinitely far where it is hidden. */
+    using Nearest = ObstacleShape::Nearest;
 
     /**
      * The distance is a convex function of the place, which its tangent along the
      * normal does not exceed.
      * @param x a place (m)
      * @param moved what the obstacle has moved since the start
-     * @param approach direction in which it moves past x: at a corner of a polygon
-     * the side that comes nearer
+     * @param approach direction in which it moves past x: at an edge the side that
+     * comes nearer
      * @param beside others that hide parts of its boundary; none: it is alone
      */
     Nearest
@@ -119,8 +118,9 @@ namespace geocone
                      const Neighbours             *beside = nullptr) const;
 
     /**
-     * How far it is from another one, negative where they overlap (m); infinite for two
-     * half-planes. Of convex shapes one of their sides parts them.
+     * How far it is from another one at least, negative where they overlap (m); infinite
+     * for two half-planes. Of convex shapes one of their sides parts them, or in three
+     * dimensions a plane along an edge of each.
      * @param moved,its_moved what both have moved since the start
      */
     double
@@ -132,7 +132,7 @@ namespace geocone
     RigidMotion
     velocity(const double t) const;
 
-    /** Whether a motion (0, 1: of the centre; 2: about it) is free. */
+    /** Whether a motion is free, numbered as in RigidMotion. */
     bool
     is_free(const unsigned int k) const
     {
@@ -141,10 +141,11 @@ namespace geocone
     bool
     is_free() const
     {
-      return free[0] || free[1] || free[2];
+      return std::find(free.begin(), free.end(), true) != free.end();
     }
 
-    /** Mass (kg/m), or moment of inertia (kg m), of a motion. */
+    /** Mass (kg/m), or moment of inertia (kg m), of a motion; in three dimensions kg,
+     *  kg m^2. */
     double
     inertia(const unsigned int k) const
     {
@@ -165,12 +166,22 @@ namespace geocone
 
     /** Its greatest width, infinite for a half-plane (m). */
     double
-    width() const;
+    width() const
+    {
+      return body->width();
+    }
 
     /** A place that moves with it, which moments are about: the mean of a polygon's
      *  vertices, at the start. */
     dealii::Point<dim>
-    centre() const;
+    centre() const
+    {
+      return body->centre();
+    }
+
+    /** @throws InputError if it moves otherwise than along y, the axis of a round body */
+    void
+    check_round() const;
 
     /** The full name of one of its parameters, for messages. */
     std::string
@@ -185,47 +196,34 @@ namespace geocone
     InterfaceLaw      law;
 
   private:
-    /** Its vertices, if it is a polygon, after a motion. */
-    std::vector<dealii::Point<dim>>
-    moved_vertices(const RigidMotion &moved) const;
+    /** @name A place of its own frame, and where that has moved */
+    /** @{ */
+    dealii::Point<dim>
+    own_place(const dealii::Point<dim> &x, const RigidMotion &moved) const;
+    dealii::Point<dim>
+    moved_place(const dealii::Point<dim> &x, const RigidMotion &moved) const;
+    /** @} */
 
-    /** Of its sides the one that parts others most from it: how far the nearest of some
-     *  places is beyond it (m). */
+    /** How far it reaches along a direction after a motion (m). */
     double
-    parted_by_sides(const std::vector<dealii::Point<dim>> &places,
-                    const RigidMotion                     &moved) const;
-
-    /** A place on its boundary, and whether it is beyond the end of a side. */
-    struct OnBoundary : Nearest
-    {
-      bool is_vertex = false;
-    };
-
-    /** Whether a place is in another obstacle; empty: none is. */
-    using Cover = std::function<bool(const dealii::Point<dim> &)>;
-
-    /** The nearest place in the frame of the obstacle. @param margin see Neighbours */
-    OnBoundary
-    nearest_of_shape(const dealii::Point<dim>     &x,
-                     const dealii::Tensor<1, dim> &approach,
-                     const Cover                  &cover,
-                     const double                  margin) const;
-    OnBoundary
-    nearest_of_polygon(const dealii::Point<dim>     &x,
-                       const dealii::Tensor<1, dim> &approach,
-                       const Cover                  &cover,
-                       const double                  margin) const;
+    reach(const dealii::Tensor<1, dim> &n, const RigidMotion &moved) const;
 
     enum class Shape
     {
-      half_plane,
-      disc,
-      polygon
+      half_space,
+      ball,
+      polytope,
+      cylinder
     };
 
-    Choice<Shape> shape = {{{"half-plane", Shape::half_plane},
-                            {"disc", Shape::disc},
-                            {"polygon", Shape::polygon}}};
+    static Choice<Shape>::Words
+    shape_words();
+
+    /** Makes the shape. @throws InputError */
+    void
+    make_shape();
+
+    Choice<Shape> shape = {shape_words()};
 
     enum class Sliding
     {
@@ -237,16 +235,16 @@ namespace geocone
       {{"finite", Sliding::finite}, {"small", Sliding::small}}};
 
     dealii::Point<dim>              place;
-    dealii::Tensor<1, dim>          normal = dealii::Point<dim>(0., 1.);
-    double                          radius = 1.;
+    dealii::Tensor<1, dim>          normal = dealii::Point<dim>::unit_vector(1);
+    double                          radius = 1., height = 1.;
     std::vector<dealii::Point<dim>> vertices;
+    std::unique_ptr<ObstacleShape>  body; ///< as prepare() makes it
 
     static constexpr unsigned int      n_motions = RigidMotion::n_components;
-    std::array<std::string, n_motions> velocity_texts = {{"0", "0", "0"}},
-                                       load_texts     = {{"0", "0", "0"}};
-    std::array<Expression, n_motions> velocities, loads;
-    std::array<bool, n_motions>       free = {{false, false, false}};
-    double                            mass = 0., moment_of_inertia = 0.;
+    std::array<std::string, n_motions> velocity_texts, load_texts;
+    std::array<Expression, n_motions>  velocities, loads;
+    std::array<bool, n_motions>        free = {};
+    double                             mass = 0., moment_of_inertia = 0.;
   };
 
   /** The obstacles of a scene, named in the list "Obstacles/Names". */

@@ -14,7 +14,8 @@
 namespace geocone
 {
   /**
-   * Water at rest below a piezometric line y = Y(x), with the pressure
+   * Water at rest below a piezometric line y = Y(x), alike along z in three dimensions,
+   * with the pressure
    *   u = gamma_w max(0, Y(x) - y).
    * Stresses are effective ones, s' = s + u 1 (tension positive), and so
    *   div s' + rho g - grad u = 0,
@@ -50,7 +51,7 @@ namespace geocone
     force(const dealii::Point<dim> &x) const;
 
     /**
-     * The lines across which the force jumps, and at which u has a kink: that of the
+     * The lines of the plane across which the force jumps, and at which u has a kink: that of the
      * table, and upright ones below its corners.
      * @param lower,upper corners of a box around the body
      */
@@ -67,8 +68,8 @@ namespace geocone
     std::array<double, 2>
     level(const double x) const;
 
-    std::vector<dealii::Point<dim>> table;
-    double                          unit_weight = 9810.;
+    std::vector<dealii::Point<2>> table; ///< x, y
+    double                        unit_weight = 9810.;
   };
 } // namespace geocone
 

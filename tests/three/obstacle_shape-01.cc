@@ -1,0 +1,146 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// If this failed, soil would enter obstacles, or be held off them. Balls, cylinders and
+// polyhedra in any position: whether a place is inside, its distance from the boundary and
+// the normal there are compared with what shapes are by definition, by searching along the
+// directions in which they reach (the distance of a convex body is the largest over all unit
+// vectors n of n.x - max n.y); the gradient of the distance is the normal.
+
+#include <geocone/scene/obstacle_shape.h>
+
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <random>
+#include <vector>
+
+using namespace geocone;
+using Point  = ObstacleShape::Point;
+using Vector = ObstacleShape::Vector;
+
+std::mt19937                           generator(7);
+std::uniform_real_distribution<double> uniform(-1., 1.);
+
+Vector
+random_vector(const double size)
+{
+  return size *
+         Vector({uniform(generator), uniform(generator), uniform(generator)});
+}
+
+Vector
+random_direction()
+{
+  for (;;)
+    if (const Vector v = random_vector(1.); v.norm() < 1. && v.norm() > 0.1)
+      return v / v.norm();
+}
+
+/** The largest n.x - reach(n), from the best of some directions by smaller and smaller
+ *  changes. */
+double
+searched_distance(const ObstacleShape &shape, const Point &x)
+{
+  Vector     best;
+  double     most = -1e300;
+  const auto look = [&](const Vector &n) {
+    if (const double distance = x * n - shape.reach(n); distance > most)
+      {
+        most = distance;
+        best = n;
+      }
+  };
+  for (const Vector &n : shape.side_normals())
+    look(n);
+  for (unsigned int i = 0; i < 2000; ++i)
+    look(random_direction());
+  for (double size = 0.3; size > 1e-9; size *= 0.7)
+    for (unsigned int i = 0; i < 40; ++i)
+      {
+        const Vector n = best + random_vector(size);
+        look(n / n.norm());
+      }
+  return most;
+}
+
+int
+main()
+{
+  unsigned int n_inside = 0, n_outside = 0, n_edges = 0;
+  double       worst = 0., worst_slope = 0.;
+  for (unsigned int trial = 0; trial < 60; ++trial)
+    {
+      std::unique_ptr<ObstacleShape> shape;
+      const Point                    centre(random_vector(1.));
+      if (trial % 3 == 0)
+        shape = std::make_unique<Ball>(centre, 0.7);
+      else if (trial % 3 == 1)
+        shape =
+          std::make_unique<Cylinder>(centre, random_direction(), 0.6, 0.9);
+      else
+        {
+          // A block, turned, and a wedge.
+          const Vector a = random_direction(), c0 = random_direction();
+          Vector       b = cross_product_3d(a, c0);
+          b /= b.norm();
+          const Vector       c = cross_product_3d(a, b);
+          std::vector<Point> vertices;
+          for (const double i : {-0.5, 0.5})
+            for (const double j : {-0.7, 0.7})
+              {
+                vertices.push_back(Point(centre + i * a + j * b));
+                if (trial % 2 == 0 || j > 0.)
+                  vertices.push_back(Point(centre + i * a + j * b + 0.8 * c));
+              }
+          bool valid;
+          shape = std::make_unique<Polytope>(vertices, valid);
+          if (!valid)
+            std::cout << "a convex body is refused" << std::endl;
+        }
+      for (unsigned int k = 0; k < 20; ++k)
+        {
+          const Point  x(centre + random_vector(1.4));
+          const auto   at       = shape->nearest(x, {}, {});
+          const double searched = searched_distance(*shape, x);
+          (at.distance < 0. ? n_inside : n_outside) += 1;
+          n_edges += at.is_edge;
+          worst = std::max(worst, std::abs(at.distance - searched));
+          // Along the normal the distance grows at one, across it not at all.
+          constexpr double h = 1e-6;
+          for (const Vector &along : {at.normal, random_direction()})
+            {
+              const double slope =
+                (shape->nearest(Point(x + h * along), {}, {}).distance -
+                 shape->nearest(Point(x - h * along), {}, {}).distance) /
+                (2. * h);
+              worst_slope =
+                std::max(worst_slope, std::abs(slope - along * at.normal));
+            }
+        }
+    }
+  std::cout << "inside, outside, at edges: "
+            << (std::min({n_inside, n_outside, n_edges}) > 100 ? "over 100 each"
+                                                               : "too few")
+            << std::endl;
+  std::cout << "distances agree to 1e-6: " << (worst < 1e-6 ? "yes" : "no")
+            << std::endl;
+  std::cout << "normals are their slopes, to 1e-4: "
+            << (worst_slope < 1e-4 ? "yes" : "no") << std::endl;
+  if (worst >= 1e-6 || worst_slope >= 1e-4)
+    std::cout << worst << " " << worst_slope << std::endl;
+
+  bool                     valid;
+  const std::vector<Point> flat = {
+    Point(0., 0., 0.), Point(1., 0., 0.), Point(0., 1., 0.), Point(1., 1., 0.)};
+  std::vector<Point> inside = {Point(0., 0., 0.),
+                               Point(1., 0., 0.),
+                               Point(0., 1., 0.),
+                               Point(0., 0., 1.),
+                               Point(0.2, 0.2, 0.2)};
+  Polytope(flat, valid);
+  std::cout << "flat: " << (valid ? "taken" : "refused") << std::endl;
+  Polytope(inside, valid);
+  std::cout << "a vertex inside: " << (valid ? "taken" : "refused")
+            << std::endl;
+}
