@@ -47,22 +47,32 @@ namespace geocone
   }
 
   std::optional<FlowCone>
-  DruckerPrager::spatial_cone(const SpatialMandel &stress_n,
-                              const StepLaw       &step) const
+  DruckerPrager::spatial_step_cone(const SpatialMandel &stress_n,
+                                   const double        *history_n,
+                                   const StepLaw       &step) const
   {
-    return cone.delayed(step.friction_lag, spatial_axes().row(0).dot(stress_n));
+    const Past past = past_of(stress_n, history_n, step);
+    return cone.delayed(past.part, past.normal);
+  }
+
+  double
+  DruckerPrager::power_beyond_strength(const SpatialMandel &plastic_strain,
+                                       const SpatialMandel &stress) const
+  {
+    return FlowCone::tangential_norm(
+             SpatialMandel(spatial_axes() * plastic_strain)) *
+           std::abs(*yield_function(stress));
   }
 
   Mode
   DruckerPrager::return_to_strength(const SpatialMandel &trial,
-                                    const SpatialMandel &stress_n,
-                                    const StepLaw       &step,
+                                    const Past          &past,
                                     SpatialMandel       &stress,
                                     SpatialMandelMatrix *tangent) const
   {
     const SpatialMandel t = spatial_axes() * trial;
     SpatialMandel       s;
-    const Mode          mode = return_map(*spatial_cone(stress_n, step),
+    const Mode          mode = return_map(cone.delayed(past.part, past.normal),
                                  elasticity().spatial_normal_stiffness(),
                                  elasticity().two_G,
                                  t,

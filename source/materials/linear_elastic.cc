@@ -26,8 +26,7 @@ namespace geocone
 
   Mode
   LinearElastic::return_to_strength(const SpatialMandel &trial,
-                                    const SpatialMandel &,
-                                    const StepLaw &,
+                                    const Past &,
                                     SpatialMandel       &stress,
                                     SpatialMandelMatrix *tangent) const
   {

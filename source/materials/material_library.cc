@@ -175,7 +175,7 @@ namespace geocone
           return false;
         const std::vector<double> history(law->n_history(), 0.);
         return law->flow_cone(history.data()).has_value() ||
-               law->spatial_cone(SpatialMandel::Zero(), {}).has_value();
+               law->spatial_cone().has_value();
       });
   }
 

@@ -6,8 +6,6 @@
 #include <geocone/materials/mohr_coulomb.h>
 #include <geocone/materials/varying_cone.h>
 
-#include <deal.II/base/utilities.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -17,22 +15,13 @@ namespace geocone
     : Material(section)
   {
     given.declare(*this);
-    add_parameter("Friction memory",
-                  memory_text,
-                  "Time (s) in which the strength follows the normal stress, "
-                  ">= 0; it makes flow with little dilatancy well-posed. 0: at "
-                  "once, the exact law. Automatic: 0, but for FEM (for MPM if "
-                  "nu > 0.49) and a soil with theta below about phi/2 and "
-                  "sin(phi) - sin(theta) > 0.2 that a part of the boundary is "
-                  "pushed into: B/1000 over its speed, B its length (twice "
-                  "that with 'Observation/Factor' = -2 or 2); and with 'Time "
-                  "stepping/Friction' = exact it is 0 always.");
+    memory.declare(*this);
   }
 
   MohrCoulomb::MohrCoulomb(const std::string &section, const WithoutFriction &)
     : Material(section)
     , given(FrictionalStrength::without_friction())
-    , memory_text("0")
+    , memory("0")
   {
     given.declare_cohesion(*this, "Undrained shear strength c (Pa), > 0.");
   }
@@ -43,7 +32,7 @@ namespace geocone
     Material::prepare();
     given.check(parameter());
     set_cone(1.);
-    prepare_memory();
+    memory.prepare(*this, cone.b < cone.a);
   }
 
   void
@@ -74,36 +63,10 @@ namespace geocone
   }
 
   void
-  MohrCoulomb::prepare_memory()
-  {
-    tau = 0.;
-    if (memory_text == "automatic")
-      return;
-    std::optional<double> given;
-    try
-      {
-        given = dealii::Utilities::string_to_double(memory_text);
-      }
-    catch (const dealii::ExceptionBase &)
-      {}
-    if (!given || !(*given >= 0.) || !std::isfinite(*given))
-      throw InputError(parameter("Friction memory"),
-                       memory_text,
-                       "automatic | a time >= 0 s",
-                       "0 is the exact law; take a time in which what is "
-                       "loaded moves by a thousandth of its length");
-    if (cone.b < cone.a) // or else nothing is to be remembered
-      tau = *given;
-  }
-
-  void
   MohrCoulomb::set_friction_memory(const double time)
   {
-    // As strong as theta = 0 at phi = 12: less is easy without.
-    constexpr double least = 0.2;
-    if (memory_text == "automatic" && non_associativity() > hard_flow &&
-        cone.a - cone.b > least)
-      tau = time;
+    if (FrictionMemory::is_hard(non_associativity(), cone.a - cone.b))
+      memory.set_automatic(time);
   }
 
   std::string
@@ -111,8 +74,8 @@ namespace geocone
                           const double  size,
                           double       *history) const
   {
-    if (tau > 0.)
-      history[memory] = -(stress[0] + stress[1]) / sqrt2;
+    if (memory.time() > 0.)
+      history[place_of_memory] = -(stress[0] + stress[1]) / sqrt2;
     return Material::initialise(stress, size, history);
   }
 
@@ -120,7 +83,7 @@ namespace geocone
   MohrCoulomb::shown() const
   {
     std::vector<Shown> all = Material::shown();
-    if (tau > 0.)
+    if (memory.time() > 0.)
       all.push_back({"remembered_normal_stress", "remembered s_n (Pa)"});
     return all;
   }
@@ -131,8 +94,8 @@ namespace geocone
                     double           *values) const
   {
     Material::show(stress, history, values);
-    if (tau > 0.)
-      values[Material::shown().size()] = history[memory];
+    if (memory.time() > 0.)
+      values[Material::shown().size()] = history[place_of_memory];
   }
 
   std::optional<FlowCone>
@@ -150,11 +113,11 @@ namespace geocone
                            const StepLaw  &step) const
   {
     // A solver's lag takes more of the past.
-    if (tau > 0.)
+    if (memory.time() > 0.)
       {
-        const double part = remembered(step.size);
+        const double part = memory.remembered(step.size);
         return exact.delayed(part + (1. - part) * step.friction_lag,
-                             history_n[memory]);
+                             history_n[place_of_memory]);
       }
     return step.friction_lag > 0.
              ? exact.delayed(step.friction_lag, to_cone_axes(stress_n)[0])
@@ -191,18 +154,23 @@ namespace geocone
   MohrCoulomb::strength(const double *history) const
   {
     const std::optional<FlowCone> exact = flow_cone(history);
-    return tau > 0. ? exact->delayed(1., history[memory]) : exact;
+    return memory.time() > 0. ? exact->delayed(1., history[place_of_memory])
+                              : exact;
   }
 
   void
   MohrCoulomb::advance(const PointBlock &block, LawCounts &counts) const
   {
     const bool only_remembers =
-      tau > 0. && n_history() == MohrCoulomb::n_history();
+      memory.time() > 0. && n_history() == MohrCoulomb::n_history();
     if (!only_remembers)
       return Material::advance(block, counts);
     counts.updates += block.n_points;
-    advance_cone(cone, elasticity(), block, remembered(block.step), memory);
+    advance_cone(cone,
+                 elasticity(),
+                 block,
+                 memory.remembered(block.step),
+                 place_of_memory);
   }
 
   void
@@ -215,7 +183,6 @@ namespace geocone
     const MandelMatrix elastic_tangent = elasticity().stiffness();
     const bool         fixed           = !has_history();
     const bool         is_plain = fixed && increment.step.friction_lag == 0.;
-    const double       part     = remembered(increment.step.size);
     for (std::size_t p = 0; p < increment.strain.size(); ++p)
       {
         const std::size_t first = increment.n_history * p;
@@ -238,9 +205,9 @@ namespace geocone
         if (!fixed && response.history != nullptr)
           {
             double *history = response.history + first;
-            if (tau > 0.)
-              history[memory] =
-                part * history[memory] + (1. - part) * returned[0];
+            if (memory.time() > 0.)
+              history[place_of_memory] = memory.next(
+                history[place_of_memory], returned[0], increment.step.size);
             add_to_history(slip, history);
           }
         // An elastic point keeps its trial stress to the last digit.

@@ -56,12 +56,14 @@ namespace geocone
     : SpatialReturnMap(section)
   {
     given.declare(*this);
+    memory.declare(*this);
   }
 
   FrictionalSpatialLaw::FrictionalSpatialLaw(const std::string &section,
                                              const std::string &cohesion)
     : SpatialReturnMap(section)
     , given(FrictionalStrength::without_friction())
+    , memory("0")
   {
     given.declare_cohesion(*this, cohesion);
   }
@@ -72,6 +74,67 @@ namespace geocone
     SpatialReturnMap::prepare();
     given.check(parameter());
     set_strength(given);
+    memory.prepare(*this, non_associativity() > 0.);
+  }
+
+  std::string
+  FrictionalSpatialLaw::initialise(const Stress &stress,
+                                   const double  size,
+                                   double       *history) const
+  {
+    const std::string refusal =
+      SpatialReturnMap::initialise(stress, size, history);
+    if (memory.time() > 0.)
+      history[place_of_memory()] = normal_stress(spatial_of(stress));
+    return refusal;
+  }
+
+  std::vector<ConstitutiveLaw::Shown>
+  FrictionalSpatialLaw::shown() const
+  {
+    std::vector<Shown> all = SpatialReturnMap::shown();
+    if (memory.time() > 0.)
+      all.push_back({"remembered_normal_stress", "remembered s_n (Pa)"});
+    return all;
+  }
+
+  void
+  FrictionalSpatialLaw::show(const Components &stress,
+                             const double     *history,
+                             double           *values) const
+  {
+    SpatialReturnMap::show(stress, history, values);
+    if (memory.time() > 0.)
+      values[SpatialReturnMap::shown().size()] = history[place_of_memory()];
+  }
+
+  SpatialReturnMap::Past
+  FrictionalSpatialLaw::past_of(const SpatialMandel &stress_n,
+                                const double        *history_n,
+                                const StepLaw       &step) const
+  {
+    // A solver's lag takes more of the past.
+    if (memory.time() > 0.)
+      {
+        const double part = memory.remembered(step.size);
+        return {part + (1. - part) * step.friction_lag,
+                history_n[place_of_memory()]};
+      }
+    if (step.friction_lag > 0. && non_associativity() > 0.)
+      return {step.friction_lag, normal_stress(stress_n)};
+    return {};
+  }
+
+  void
+  FrictionalSpatialLaw::remember(const SpatialMandel &stress,
+                                 const StepLaw       &step,
+                                 double              *history) const
+  {
+    if (memory.time() > 0.)
+      {
+        double &p = history[place_of_memory()];
+        p         = memory.next(p, normal_stress(stress), step.size);
+      }
   }
 
   double

@@ -96,16 +96,40 @@ namespace geocone
     return s[0] - s[2] + (s[0] + s[2]) * exact.sine - exact.size;
   }
 
-  SpatialMohrCoulomb::Pyramid
-  SpatialMohrCoulomb::delayed(const double         lambda,
-                              const SpatialMandel &stress_n) const
+  double
+  SpatialMohrCoulomb::normal_stress(const SpatialMandel &stress) const
   {
-    const double part = lambda * (exact.sine - sin_theta);
+    const Principal s = spectrum(stress).value;
+    return -(s[0] + s[2]) / 2.;
+  }
+
+  SpatialMohrCoulomb::Pyramid
+  SpatialMohrCoulomb::delayed(const Past &past) const
+  {
+    const double part = past.part * (exact.sine - sin_theta);
     if (part == 0.)
       return exact;
-    const Principal s_n = spectrum(stress_n).value;
+    // Not beyond the apex.
     return {exact.sine - part,
-            exact.size - part * std::min(s_n[0] + s_n[2], 2. * exact.apex())};
+            exact.size - 2. * part * std::min(-past.normal, exact.apex())};
+  }
+
+  void
+  SpatialMohrCoulomb::set_friction_memory(const double tau)
+  {
+    if (FrictionMemory::is_hard(non_associativity(), exact.sine - sin_theta))
+      memory.set_automatic(tau);
+  }
+
+  double
+  SpatialMohrCoulomb::power_beyond_strength(const SpatialMandel &plastic_strain,
+                                            const SpatialMandel &stress) const
+  {
+    // The planes that flow have the same f, and g_ij = (1 + sin(theta), -1 + sin(theta)).
+    const Principal e = spectrum(plastic_strain).value;
+    const double    multipliers =
+      std::max(e[0] / (1. + sin_theta), -e[2] / (1. - sin_theta));
+    return std::max(multipliers, 0.) * std::abs(*yield_function(stress));
   }
 
   Mode
@@ -174,12 +198,11 @@ namespace geocone
 
   Mode
   SpatialMohrCoulomb::return_to_strength(const SpatialMandel &trial,
-                                         const SpatialMandel &stress_n,
-                                         const StepLaw       &step,
+                                         const Past          &past,
                                          SpatialMandel       &stress,
                                          SpatialMandelMatrix *tangent) const
   {
-    const Pyramid strength = delayed(step.friction_lag, stress_n);
+    const Pyramid strength = delayed(past);
     if (strength.holds_cone(trial))
       {
         stress = trial;

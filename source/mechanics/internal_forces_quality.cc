@@ -71,20 +71,29 @@ namespace geocone
   {
     double sum = 0.;
     for (const Run &run : runs)
-      if (const Material &material = materials[run.material];
-          material.friction_memory() > 0.)
+      {
+        const Material &material = materials[run.material];
+        if (!(material.friction_memory() > 0.))
+          continue;
         for (unsigned int p = run.begin; p < run.end; ++p)
-          if (mode[p] != Mode::elastic)
-            {
-              const Mandel z = to_cone_axes(
-                Mandel(plastic_strain_increment(p).head<n_mandel>()));
-              const Mandel s    = to_cone_axes(stress[p]);
-              const double slip = FlowCone::tangential_norm(z);
-              const auto   exact =
-                material.exact_end_cone(points.history_of(p), slip);
-              sum +=
-                points.weight[p] * slip * std::abs(exact->yield_function(s));
-            }
+          {
+            if (mode[p] == Mode::elastic)
+              continue;
+            const SpatialMandel plastic = plastic_strain_increment(p);
+            if (material.is_spatial())
+              {
+                sum += points.weight[p] *
+                       material.power_beyond_strength(plastic, whole_stress(p));
+                continue;
+              }
+            const Mandel z    = to_cone_axes(Mandel(plastic.head<n_mandel>()));
+            const Mandel s    = to_cone_axes(stress[p]);
+            const double slip = FlowCone::tangential_norm(z);
+            const auto   exact =
+              material.exact_end_cone(points.history_of(p), slip);
+            sum += points.weight[p] * slip * std::abs(exact->yield_function(s));
+          }
+      }
     return Utilities::MPI::sum(sum, comm);
   }
 
@@ -102,13 +111,14 @@ namespace geocone
           if (law.is_spatial())
             {
               const SpatialMandel s = whole_stress(p), s_n = whole_stress_n(p);
-              if (const auto solved = law.spatial_cone(s_n, step_law()))
+              if (const auto solved = law.spatial_step_cone(
+                    s_n, points.history_of(p), step_law()))
                 f(SpatialMandel(
                     spatial_axes() *
                     (elastic.strain(SpatialMandel(s - s_n)) - whole_strain(p))),
                   SpatialMandel(spatial_axes() * s),
                   *solved,
-                  *law.spatial_cone(s_n, {}),
+                  *law.spatial_cone(),
                   elastic.two_G);
             }
           else if (is_cone)

@@ -208,6 +208,20 @@ namespace geocone
       s[i] = t[i] / sqrt2;
     return s;
   }
+
+  /** And back. */
+  inline SpatialMandel
+  spatial_of(const ConstitutiveLaw::Stress &s)
+  {
+    SpatialMandel t;
+    t[0] = s[0];
+    t[1] = s[1];
+    t[2] = sqrt2 * s[3];
+    t[3] = s[2];
+    for (int i = 4; i < n_spatial; ++i)
+      t[i] = sqrt2 * s[i];
+    return t;
+  }
 } // namespace geocone
 
 #endif

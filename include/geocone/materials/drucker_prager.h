@@ -57,8 +57,19 @@ namespace geocone
     }
 
     std::optional<FlowCone>
-    spatial_cone(const SpatialMandel &stress_n,
-                 const StepLaw       &step) const override;
+    spatial_cone() const override
+    {
+      return cone;
+    }
+
+    std::optional<FlowCone>
+    spatial_step_cone(const SpatialMandel &stress_n,
+                      const double        *history_n,
+                      const StepLaw       &step) const override;
+
+    double
+    power_beyond_strength(const SpatialMandel &plastic_strain,
+                          const SpatialMandel &stress) const override;
 
     std::optional<double>
     yield_function(const SpatialMandel &stress) const override;
@@ -69,10 +80,16 @@ namespace geocone
     void
     set_strength(const FrictionalStrength &strength) override;
 
+    /** s_n along the axis of the cone. */
+    double
+    normal_stress(const SpatialMandel &stress) const override
+    {
+      return spatial_axes().row(0).dot(stress);
+    }
+
     Mode
     return_to_strength(const SpatialMandel &trial,
-                       const SpatialMandel &stress_n,
-                       const StepLaw       &step,
+                       const Past          &past,
                        SpatialMandel       &stress,
                        SpatialMandelMatrix *tangent) const override;
 

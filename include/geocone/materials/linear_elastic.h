@@ -45,8 +45,7 @@ namespace geocone
   protected:
     Mode
     return_to_strength(const SpatialMandel &trial,
-                       const SpatialMandel &stress_n,
-                       const StepLaw       &step,
+                       const Past          &past,
                        SpatialMandel       &stress,
                        SpatialMandelMatrix *tangent) const override;
 

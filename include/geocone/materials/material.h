@@ -230,12 +230,29 @@ namespace geocone
     }
 
     /** The cone of laws that are spatial and have one, in the axes of spatial_axes(),
-     *  by which solutions are checked. @param stress_n at t_n */
+     *  by which solutions are checked. */
     virtual std::optional<FlowCone>
-    spatial_cone(const SpatialMandel & /*stress_n*/,
-                 const StepLaw & /*step*/) const
+    spatial_cone() const
     {
       return std::nullopt;
+    }
+
+    /** The same as a step solves for it, see step_cone(). */
+    virtual std::optional<FlowCone>
+    spatial_step_cone(const SpatialMandel & /*stress_n*/,
+                      const double * /*history_n*/,
+                      const StepLaw & /*step*/) const
+    {
+      return spatial_cone();
+    }
+
+    /** Of laws that are spatial: the work per volume (J/m^3) by which plastic strain at a
+     *  stress takes more than the strength without memory would, or less. */
+    virtual double
+    power_beyond_strength(const SpatialMandel & /*plastic_strain*/,
+                          const SpatialMandel & /*stress*/) const
+    {
+      return 0.;
     }
 
     /** The relaxation time tau of friction with memory (s); 0: none. */

@@ -4,6 +4,7 @@
 #ifndef geocone_materials_mohr_coulomb_h
 #define geocone_materials_mohr_coulomb_h
 
+#include <geocone/materials/friction_memory.h>
 #include <geocone/materials/frictional_strength.h>
 #include <geocone/materials/material.h>
 
@@ -57,7 +58,7 @@ namespace geocone
     unsigned int
     n_history() const override
     {
-      return Material::n_history() + (tau > 0.);
+      return Material::n_history() + (memory.time() > 0.);
     }
 
     std::string
@@ -76,7 +77,7 @@ namespace geocone
     double
     friction_memory() const override
     {
-      return tau;
+      return memory.time();
     }
 
     void
@@ -149,10 +150,9 @@ namespace geocone
     FrictionalStrength given;
     FlowCone           cone;
 
-    /** Place of p in the history, if tau > 0. */
-    static constexpr unsigned int memory      = 1;
-    std::string                   memory_text = "automatic";
-    double                        tau         = 0.;
+    /** Place of p in the history, if there is a memory. */
+    static constexpr unsigned int place_of_memory = 1;
+    FrictionMemory                memory;
 
     /**
      * The one-point problem of a step, in cone axes.
@@ -170,17 +170,6 @@ namespace geocone
 
     void
     set_cone(const double F);
-
-    /** Reads the memory, if the file gives it. */
-    void
-    prepare_memory();
-
-    /** lambda, the part of p at the end of a step that is p_n. @param h (s) */
-    double
-    remembered(const double h) const
-    {
-      return tau > 0. ? tau / (h + tau) : 0.;
-    }
   };
 
   /** Tresca's law |s1 - s2| <= 2c: MohrCoulomb with phi = theta = 0. */

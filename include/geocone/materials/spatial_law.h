@@ -4,6 +4,7 @@
 #ifndef geocone_materials_spatial_law_h
 #define geocone_materials_spatial_law_h
 
+#include <geocone/materials/friction_memory.h>
 #include <geocone/materials/frictional_strength.h>
 #include <geocone/materials/material.h>
 
@@ -65,33 +66,61 @@ namespace geocone
     }
 
   protected:
+    /** What strength takes of the past: the part lambda of what it would be with the
+     *  stress p, and the other one with that of the end of the step. */
+    struct Past
+    {
+      double part   = 0.; ///< lambda
+      double normal = 0.; ///< p (Pa), as FrictionalSpatialLaw::normal_stress()
+    };
+
+    virtual Past
+    past_of(const SpatialMandel & /*stress_n*/,
+            const double * /*history_n*/,
+            const StepLaw & /*step*/) const
+    {
+      return {};
+    }
+
+    /** Changes the history of a point by a step. */
+    virtual void
+    remember(const SpatialMandel & /*stress*/,
+             const StepLaw & /*step*/,
+             double * /*history*/) const
+    {}
+
     /** s at t_{n+1} from the trial stress s_n + D e. @param[out] tangent ds/de, or
      *  null */
     virtual Mode
     return_to_strength(const SpatialMandel &trial,
-                       const SpatialMandel &stress_n,
-                       const StepLaw       &step,
+                       const Past          &past,
                        SpatialMandel       &stress,
                        SpatialMandelMatrix *tangent) const = 0;
 
     Mode
     respond(const SpatialMandel &strain,
             const SpatialMandel &stress_n,
-            const double *,
-            const StepLaw &step,
-            SpatialMandel &stress,
-            double *,
+            const double        *history_n,
+            const StepLaw       &step,
+            SpatialMandel       &stress,
+            double              *history,
             SpatialMandelMatrix *tangent) const override
     {
-      return return_to_strength(stress_n + elasticity().stress(strain),
-                                stress_n,
-                                step,
-                                stress,
-                                tangent);
+      const Mode mode =
+        return_to_strength(stress_n + elasticity().stress(strain),
+                           past_of(stress_n, history_n, step),
+                           stress,
+                           tangent);
+      if (history != nullptr)
+        remember(stress, step, history);
+      return mode;
     }
   };
 
-  /** A spatial law with cohesion, friction and dilatancy. */
+  /**
+   * A spatial law with cohesion, friction and dilatancy. Friction may remember the stress
+   * on which it depends (FrictionMemory): p is the last history variable then.
+   */
   class FrictionalSpatialLaw : public SpatialReturnMap
   {
   public:
@@ -108,7 +137,46 @@ namespace geocone
     double
     earth_pressure_at_rest() const override;
 
+    unsigned int
+    n_history() const override
+    {
+      return SpatialReturnMap::n_history() + (memory.time() > 0.);
+    }
+
+    std::string
+    initialise(const Stress &stress,
+               const double  size,
+               double       *history) const override;
+
+    std::vector<Shown>
+    shown() const override;
+
+    void
+    show(const Components &stress,
+         const double     *history,
+         double           *values) const override;
+
+    double
+    friction_memory() const override
+    {
+      return memory.time();
+    }
+
   protected:
+    /** The stress (Pa), positive in compression, on which strength depends. */
+    virtual double
+    normal_stress(const SpatialMandel &stress) const = 0;
+
+    Past
+    past_of(const SpatialMandel &stress_n,
+            const double        *history_n,
+            const StepLaw       &step) const override;
+
+    void
+    remember(const SpatialMandel &stress,
+             const StepLaw       &step,
+             double              *history) const override;
+
     explicit FrictionalSpatialLaw(const std::string &section);
 
     /** For laws without friction. @param cohesion documentation of their parameter */
@@ -120,6 +188,15 @@ namespace geocone
     set_strength(const FrictionalStrength &strength) = 0;
 
     FrictionalStrength given;
+    FrictionMemory     memory;
+
+  private:
+    /** Place of p in the history, if there is a memory. */
+    unsigned int
+    place_of_memory() const
+    {
+      return SpatialReturnMap::n_history();
+    }
   };
 } // namespace geocone
 

@@ -23,7 +23,9 @@ namespace geocone
    * of the stresses, to the edge f_13 = f_12 = 0 (s_2 = s_3) or f_13 = f_23 = 0 (s_1 =
    * s_2); and if that does too, to the apex s_i = c cot(phi) (de Souza Neto, Peric and
    * Owen 2008, section 8.2). All of it is linear in the trial stress, and so are its
-   * derivatives; directions turn as those of the trial stress.
+   * derivatives; directions turn as those of the trial stress. Friction that remembers
+   * (FrictionMemory) makes it another pyramid with the same flow: of s_1 + s_3, times
+   * sin(phi) - sin(theta), a part is -2 p.
    */
   class SpatialMohrCoulomb : public FrictionalSpatialLaw
   {
@@ -50,16 +52,26 @@ namespace geocone
     std::optional<double>
     yield_function(const SpatialMandel &stress) const override;
 
+    void
+    set_friction_memory(const double tau) override;
+
+    double
+    power_beyond_strength(const SpatialMandel &plastic_strain,
+                          const SpatialMandel &stress) const override;
+
   protected:
     using FrictionalSpatialLaw::FrictionalSpatialLaw;
 
     void
     set_strength(const FrictionalStrength &strength) override;
 
+    /** -(s_1 + s_3)/2, the normal stress in the plane of both. */
+    double
+    normal_stress(const SpatialMandel &stress) const override;
+
     Mode
     return_to_strength(const SpatialMandel &trial,
-                       const SpatialMandel &stress_n,
-                       const StepLaw       &step,
+                       const Past          &past,
                        SpatialMandel       &stress,
                        SpatialMandelMatrix *tangent) const override;
 
@@ -94,10 +106,10 @@ namespace geocone
       }
     };
 
-    /** With delayed friction: a part of s_1 + s_3, on which strength depends, is that
-     *  of t_n, as in FlowCone::delayed(). */
+    /** With delayed friction: a part of the normal stress, on which strength depends,
+     *  is that of the past, as in FlowCone::delayed(). */
     Pyramid
-    delayed(const double lambda, const SpatialMandel &stress_n) const;
+    delayed(const Past &past) const;
 
     /** Of stresses in order. @param[out] tangent ds/de of principal values */
     Mode

@@ -1,0 +1,78 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_materials_friction_memory_h
+#define geocone_materials_friction_memory_h
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <string>
+
+namespace geocone
+{
+  /**
+   * The time tau in which the strength of a soil follows the normal stress on which it
+   * depends (doc/theory.md, section "Friction with memory"): a history variable p obeys
+   * dp/dt = (s_n - p)/tau, and an implicit step h has
+   *   p = lambda p_n + (1 - lambda) s_n,   lambda = tau/(h + tau).
+   */
+  class FrictionMemory
+  {
+  public:
+    /** @param text what the file may leave out: "automatic", or a time */
+    explicit FrictionMemory(const std::string &text = "automatic")
+      : text(text)
+    {}
+
+    /** Declares 'Friction memory'. */
+    void
+    declare(dealii::ParameterAcceptor &section);
+
+    /** Reads the time. @param section that declared it
+     *  @param is_useful whether there is friction without as much dilatancy
+     *  @throws InputError */
+    void
+    prepare(const dealii::ParameterAcceptor &section, const bool is_useful);
+
+    /** Takes the scene's time where the file leaves it to it. */
+    void
+    set_automatic(const double time)
+    {
+      if (text == "automatic")
+        tau = time;
+    }
+
+    /** tau (s); 0: the exact law. */
+    double
+    time() const
+    {
+      return tau;
+    }
+
+    /** lambda of a step h (s). */
+    double
+    remembered(const double h) const
+    {
+      return tau > 0. ? tau / (h + tau) : 0.;
+    }
+
+    /** p after a step. @param s_n at its end */
+    double
+    next(const double p, const double s_n, const double h) const
+    {
+      const double part = remembered(h);
+      return part * p + (1. - part) * s_n;
+    }
+
+    /** Whether automatic is worth it. @param non_associativity (a - b)/a
+     *  @param aperture_left sin(phi) - sin(theta) */
+    static bool
+    is_hard(const double non_associativity, const double aperture_left);
+
+  private:
+    std::string text;
+    double      tau = 0.;
+  };
+} // namespace geocone
+
+#endif

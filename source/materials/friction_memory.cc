@@ -1,0 +1,65 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/materials/friction_memory.h>
+#include <geocone/materials/material.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <cmath>
+#include <optional>
+
+namespace geocone
+{
+  void
+  FrictionMemory::declare(dealii::ParameterAcceptor &section)
+  {
+    section.add_parameter(
+      "Friction memory",
+      text,
+      "Time (s) in which the strength follows the normal stress, "
+      ">= 0; it makes flow with little dilatancy well-posed. 0: at "
+      "once, the exact law. Automatic: 0, but for FEM (for MPM if "
+      "nu > 0.49) and a soil with theta below about phi/2 and "
+      "sin(phi) - sin(theta) > 0.2 that a part of the boundary is "
+      "pushed into: B/1000 over its speed, B its length (twice "
+      "that with 'Observation/Factor' = -2 or 2); with 'Time "
+      "stepping/Friction' = exact it is 0 always, and for "
+      "Drucker-Prager's cone, which is easy without.");
+  }
+
+  void
+  FrictionMemory::prepare(const dealii::ParameterAcceptor &section,
+                          const bool                       is_useful)
+  {
+    tau = 0.;
+    if (text == "automatic")
+      return;
+    std::optional<double> given;
+    try
+      {
+        given = dealii::Utilities::string_to_double(text);
+      }
+    catch (const dealii::ExceptionBase &)
+      {}
+    if (!given || !(*given >= 0.) || !std::isfinite(*given))
+      throw InputError(section.get_section_name().substr(1) +
+                         "/Friction memory",
+                       text,
+                       "automatic | a time >= 0 s",
+                       "0 is the exact law; take a time in which what is "
+                       "loaded moves by a thousandth of its length");
+    if (is_useful) // or else nothing is to be remembered
+      tau = *given;
+  }
+
+  bool
+  FrictionMemory::is_hard(const double non_associativity,
+                          const double aperture_left)
+  {
+    // As strong as theta = 0 at phi = 12: less is easy without.
+    constexpr double least = 0.2;
+    return non_associativity > Material::hard_flow && aperture_left > least;
+  }
+} // namespace geocone
