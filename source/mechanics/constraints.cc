@@ -7,6 +7,7 @@
 #include <geocone/mechanics/constraints.h>
 #include <geocone/mechanics/face_points.h>
 #include <geocone/mechanics/moving_boundary.h>
+#include <geocone/mechanics/vector_at.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -26,12 +27,6 @@ namespace geocone
     /** Sides of one condition that meet in a sharper corner (60 degrees) have no
      *  common normal there: |sum of n dA| over the sum of dA. */
     const double least_mean_normal = std::cos(radians(30.));
-
-    double
-    cross(const Tensor<1, dim> &a, const Tensor<1, dim> &b)
-    {
-      return a[0] * b[1] - a[1] * b[0];
-    }
   } // namespace
 
   Constraints::Constraints(const Scene          &scene,
@@ -168,20 +163,45 @@ namespace geocone
                            return a.condition < b.condition;
                          });
         // Later ones hold, as long as they are independent.
-        std::vector<Direction> kept;
+        std::vector<Direction>      kept;
+        std::vector<Tensor<1, dim>> axes; // of the same span
+        const auto                  rest_of = [&axes](Tensor<1, dim> d) {
+          for (const Tensor<1, dim> &axis : axes)
+            d -= (d * axis) * axis;
+          return d;
+        };
         for (auto i = directions.rbegin(); i != directions.rend(); ++i)
-          if (kept.empty() || (kept.size() == 1 &&
-                               std::abs(cross(kept[0].d, i->d)) > least_sine))
-            kept.push_back(*i);
+          if (const Tensor<1, dim> rest = rest_of(i->d);
+              rest.norm() > least_sine)
+            {
+              kept.push_back(*i);
+              axes.push_back(rest / rest.norm());
+            }
         if (std::all_of(kept.begin(), kept.end(), [](const Direction &k) {
               return k.component < dim;
             }))
-          continue; // of x and y only
+          continue; // along coordinates only
         for (unsigned int d = 0; d < dim; ++d)
           of_dof.erase(dim * node + d);
-        oblique.push_back({node, kept});
-        if (kept.size() == 1)
-          turned_nodes.push_back({node, kept[0].d[0], kept[0].d[1]});
+        const bool is_turned = kept.size() < dim;
+        // What is left is free: across all that is held.
+        if (dim == 2 && is_turned)
+          axes.push_back(Tensor<1, dim>({-axes[0][1], axes[0][0]}));
+        while (axes.size() < dim)
+          {
+            Tensor<1, dim> best;
+            for (unsigned int d = 0; d < dim; ++d)
+              if (const auto rest = rest_of(Point<dim>::unit_vector(d));
+                  rest.norm() > best.norm())
+                best = rest;
+            axes.push_back(best / best.norm());
+          }
+        Tensor<2, dim> frame;
+        for (unsigned int d = 0; d < dim; ++d)
+          frame[d] = axes[d];
+        oblique.push_back({node, kept, frame});
+        if (is_turned)
+          turned_nodes.push_back({node, frame});
       }
   }
 
@@ -373,19 +393,22 @@ namespace geocone
         scene.dirichlet.list[p.condition]->value(p.component, p.place, t);
     for (const Oblique &o : oblique)
       {
-        double      *at = &v.local_element(dim * o.node);
-        const auto  &k  = o.directions;
-        const double q  = value(k[0].condition, k[0].component, o.node, t);
-        if (k.size() == 1)
+        // One by one, as d_i is of the first axes up to i.
+        const auto    &held = o.directions;
+        Tensor<1, dim> along; // of the axes
+        for (unsigned int i = 0; i < held.size(); ++i)
           {
-            at[0] = q;
-            continue;
+            const Tensor<1, dim> d = o.axes * held[i].d;
+            along[i] = (value(held[i].condition, held[i].component, o.node, t) -
+                        d * along) /
+                       d[i];
           }
-        // d_0 v = q, d_1 v = q_1
-        const double q_1 = value(k[1].condition, k[1].component, o.node, t);
-        const double det = cross(k[0].d, k[1].d);
-        at[0]            = (q * k[1].d[1] - q_1 * k[0].d[1]) / det;
-        at[1]            = (q_1 * k[0].d[0] - q * k[1].d[0]) / det;
+        double *at = &v.local_element(dim * o.node);
+        if (held.size() == dim)
+          put(transpose(o.axes) * along, at);
+        else
+          for (unsigned int i = 0; i < held.size(); ++i)
+            at[i] = along[i];
       }
   }
 
@@ -395,10 +418,8 @@ namespace geocone
     for (const TurnedNode &turned : turned_nodes)
       if (turned.node < space.n_owned_nodes())
         {
-          double      *at = &v.local_element(dim * turned.node);
-          const double x = at[0], y = at[1];
-          at[0] = turned.n_x * x + turned.n_y * y;
-          at[1] = turned.n_x * y - turned.n_y * x;
+          double *at = &v.local_element(dim * turned.node);
+          put(turned.axes * taken(at), at);
         }
     if (!turned_nodes.empty() && v.has_ghost_elements())
       v.update_ghost_values();
@@ -410,10 +431,8 @@ namespace geocone
     for (const TurnedNode &turned : turned_nodes)
       if (turned.node < space.n_owned_nodes())
         {
-          double      *at = &v.local_element(dim * turned.node);
-          const double n = at[0], t = at[1];
-          at[0] = turned.n_x * n - turned.n_y * t;
-          at[1] = turned.n_y * n + turned.n_x * t;
+          double *at = &v.local_element(dim * turned.node);
+          put(transpose(turned.axes) * taken(at), at);
         }
     if (!turned_nodes.empty() && v.has_ghost_elements())
       v.update_ghost_values();
@@ -531,22 +550,20 @@ namespace geocone
       {
         if (o.node >= space.n_owned_nodes())
           continue;
-        const double *f        = residual.begin() + dim * o.node;
-        const auto   &k        = o.directions;
-        double        along[2] = {f[0], 0.};
-        if (k.size() == 2)
+        const auto    &held  = o.directions;
+        Tensor<1, dim> force = taken(residual.begin() + dim * o.node);
+        if (held.size() == dim) // others have it along their axes
+          force = o.axes * force;
+        // f = sum_i along_i d_i, the last one first.
+        for (unsigned int i = held.size(); i-- > 0;)
           {
-            // f = along_0 d_0 + along_1 d_1
-            Tensor<1, dim> force;
-            force[0]         = f[0];
-            force[1]         = f[1];
-            const double det = cross(k[0].d, k[1].d);
-            along[0]         = cross(force, k[1].d) / det;
-            along[1]         = cross(k[0].d, force) / det;
+            const Tensor<1, dim> d     = o.axes * held[i].d;
+            const double         along = force[i] / d[i];
+            force -= along * d;
+            for (unsigned int c = 0; c < dim; ++c)
+              add_force(
+                held[i].condition, o.node, c, along * held[i].d[c], result);
           }
-        for (unsigned int i = 0; i < k.size(); ++i)
-          for (unsigned int d = 0; d < dim; ++d)
-            add_force(k[i].condition, o.node, d, along[i] * k[i].d[d], result);
       }
     sum_states_over_ranks(result, comm);
     return result;

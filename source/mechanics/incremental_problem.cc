@@ -3,6 +3,7 @@
 
 #include <geocone/base/over_ranks.h>
 #include <geocone/mechanics/incremental_problem.h>
+#include <geocone/mechanics/vector_at.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -175,10 +176,8 @@ namespace geocone
       for (const Unknowns::TurnedNode &turned : unknowns.turned_nodes)
         if (dim * turned.node < n_dofs)
           {
-            double      *at = &values[dim * turned.node];
-            const double x = at[0], y = at[1];
-            at[0] = turned.n_x * x + turned.n_y * y;
-            at[1] = turned.n_x * y - turned.n_y * x;
+            double *at = &values[dim * turned.node];
+            put(turned.axes * taken(at), at);
           }
       for (unsigned int i = 0; i < n_dofs; ++i)
         if (!unknowns.is_free(i))

@@ -4,6 +4,7 @@
 #include <geocone/discretisation/point_elasticity.h>
 #include <geocone/mechanics/internal_forces.h>
 #include <geocone/mechanics/point_kernels.h>
+#include <geocone/mechanics/vector_at.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -414,11 +415,7 @@ namespace geocone
               for (unsigned int d = 0; d < dim; ++d)
                 g[d] = points.gradients[n * (dim * p + d) + i];
               if (const TurnedDofs::Turn *turn = turned.turn_of(c, i))
-                {
-                  const double gx = g[0], gy = g[1];
-                  g[0] = turn->n_x * gx + turn->n_y * gy;
-                  g[1] = turn->n_x * gy - turn->n_y * gx;
-                }
+                put(turn->axes * taken(g), g);
               for (unsigned int d = 0; d < dim; ++d)
                 square += g[d] * g[d];
               const unsigned int dof = dim * points.nodes[c * n + i];

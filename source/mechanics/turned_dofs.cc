@@ -3,6 +3,7 @@
 
 #include <geocone/base/types.h>
 #include <geocone/mechanics/turned_dofs.h>
+#include <geocone/mechanics/vector_at.h>
 
 #include <map>
 
@@ -22,7 +23,7 @@ namespace geocone
           if (const auto found =
                 turned.find(points.nodes[c * points.n_nodes + i]);
               found != turned.end())
-            turns.push_back({i, found->second->n_x, found->second->n_y});
+            turns.push_back({i, found->second->axes});
       }
     first_turn.push_back(turns.size());
   }
@@ -42,10 +43,8 @@ namespace geocone
   {
     for (unsigned int i = first_turn[c]; i < first_turn[c + 1]; ++i)
       {
-        double      *v = cell_v + dim * turns[i].node;
-        const double n = v[0], t = v[1];
-        v[0] = turns[i].n_x * n - turns[i].n_y * t;
-        v[1] = turns[i].n_y * n + turns[i].n_x * t;
+        double *v = cell_v + dim * turns[i].node;
+        put(transpose(turns[i].axes) * taken(v), v);
       }
   }
 
@@ -54,10 +53,8 @@ namespace geocone
   {
     for (unsigned int i = first_turn[c]; i < first_turn[c + 1]; ++i)
       {
-        double      *f = cell_f + dim * turns[i].node;
-        const double x = f[0], y = f[1];
-        f[0] = turns[i].n_x * x + turns[i].n_y * y;
-        f[1] = turns[i].n_x * y - turns[i].n_y * x;
+        double *f = cell_f + dim * turns[i].node;
+        put(turns[i].axes * taken(f), f);
       }
   }
 

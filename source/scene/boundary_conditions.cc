@@ -43,13 +43,14 @@ namespace geocone
       unset + "': none.";
     for (unsigned int c = 0; c < dim; ++c)
       add_parameter(quantity + " " + coordinate[c], texts[c], documentation);
-    if ((quantity == "Velocity" && dim == 2) || quantity == "Traction")
+    if (quantity == "Velocity" || quantity == "Traction")
       add_parameter(
         quantity + " normal",
         texts[dim],
         quantity == "Velocity"
           ? "FEM: velocity (m/s) along the outward normal of the "
-            "sides, instead of x and y; the tangential one is free."
+            "sides, instead of those along coordinates; what is across it is "
+            "free."
           : "Traction (Pa) along the outward normal of the sides, -p "
             "for a pressure p; with tangential instead of x and y. "
             "MPM: it follows the side as it turns and stretches.");

@@ -101,7 +101,7 @@ namespace geocone
       return centres[condition];
     }
 
-    /** @name From components along x and y to those of the dofs, and back, in the
+    /** @name From components along the coordinates to those of the dofs, and back, in the
      *  owned entries of a vector */
     /** @{ */
     void
@@ -122,16 +122,20 @@ namespace geocone
     struct Direction
     {
       unsigned int           condition;
-      unsigned int           component; ///< 0, 1, or 2 for the normal
+      unsigned int           component; ///< or dim for the normal
       dealii::Tensor<1, dim> d;
     };
 
-    /** A node that is held along other directions than x and y: one of them, n of
-     *  a turned node, or two that are independent and hold it altogether. */
+    /** A node that is held along other directions than the coordinates: some of them,
+     *  the first ones of a turned node, or as many as are independent and hold it
+     *  altogether. */
     struct Oblique
     {
       unsigned int           node;
       std::vector<Direction> directions;
+      /** Unit vectors by rows, the first i + 1 of which span the first i + 1
+       *  directions. */
+      dealii::Tensor<2, dim> axes;
     };
 
     /** A component that several conditions prescribe. */

@@ -12,7 +12,7 @@
 namespace geocone
 {
   /**
-   * The nodes of cells whose dofs are not along x and y (Unknowns::turned_nodes),
+   * The nodes of cells whose dofs are not along the coordinates (Unknowns::turned_nodes),
    * and what of a cell goes over from one to the other. Without such nodes it is
    * nothing.
    */
@@ -23,8 +23,8 @@ namespace geocone
 
     struct Turn
     {
-      unsigned int node; ///< of the cell
-      double       n_x, n_y;
+      unsigned int           node; ///< of the cell
+      dealii::Tensor<2, dim> axes; ///< by rows
     };
 
     /** That of a node of a cell, or null. */

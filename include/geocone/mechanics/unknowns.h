@@ -56,13 +56,14 @@ namespace geocone
     Multipliers multipliers;
 
     /**
-     * Nodes whose two dofs are not along x and y: vectors of the incremental
-     * problem have there the components along n and (-n_y, n_x).
+     * Nodes whose dofs are not along the coordinates: vectors of the incremental
+     * problem have there the components along other axes, of which the first ones span
+     * what is held.
      */
     struct TurnedNode
     {
-      unsigned int node; ///< local
-      double       n_x, n_y;
+      unsigned int           node; ///< local
+      dealii::Tensor<2, dim> axes; ///< unit vectors, by rows
     };
     std::vector<TurnedNode> turned_nodes;
 
