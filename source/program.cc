@@ -118,18 +118,20 @@ namespace geocone
     print_help(const std::vector<std::string> &overrides)
     {
       // Of lists that are empty by default a name, to show what one of it has.
-      std::vector<std::string> with_names = {"Absorbing boundaries/Names = base",
-                                             "Obstacles/Names = wall",
-                                             "Contacts/Names = joint"};
+      std::vector<std::string> with_names = {
+        "Absorbing boundaries/Names = base",
+        "Obstacles/Names = wall",
+        "Contacts/Names = joint"};
       with_names.insert(with_names.end(), overrides.begin(), overrides.end());
       // In one piece, for the reader of a pipe may have seen enough of it.
       std::ostringstream text;
       print_defaults(text, with_names);
-      std::cout << usage
-                << "\nAll parameters, with their defaults; absorbing boundaries, "
-                   "obstacles and contacts are\nnamed to show theirs, and there "
-                   "are none by default:\n\n"
-                << text.str() << std::flush;
+      std::cout
+        << usage
+        << "\nAll parameters, with their defaults; absorbing boundaries, "
+           "obstacles and contacts are\nnamed to show theirs, and there "
+           "are none by default:\n\n"
+        << text.str() << std::flush;
       if (!std::cout)
         std::_Exit(0); // or else libraries complain of the closed pipe
     }
@@ -171,18 +173,27 @@ namespace geocone
         log.warn(unused);
       Simulation &simulation = methods.chosen();
       bool        ok         = false;
+      const auto  draw_later = [&]() {
+        const OutputBase &output = simulation.output();
+        if (on_first_rank() && !call.dry_run && output.wants_pictures())
+          drawing = {output.folder(), call.quiet};
+      };
       try
         {
           ok = simulation.run(options);
+        }
+      catch (const StepFailure &)
+        {
+          draw_later(); // what led there is to be seen
+          end_if_alone();
+          throw;
         }
       catch (...)
         {
           end_if_alone();
           throw;
         }
-      OutputBase &output = simulation.output();
-      if (on_first_rank() && !call.dry_run && output.wants_pictures())
-        drawing = {output.folder(), call.quiet};
+      draw_later();
       return ok;
     }
 

@@ -30,7 +30,10 @@ namespace geocone
             is_outside || !box.point_inside(points.position[p], 1e-6);
       }
     if (dealii::Utilities::MPI::logical_or(is_outside, comm))
-      throw RunError("the checkpoint has points of another mesh");
+      throw RunError(
+        "the checkpoint has points of another mesh\n"
+        "  remedy:  what the mesh follows has to be the same in both "
+        "runs (sides, 'Water/Table', sizes of cells)");
   }
 
   void

@@ -199,16 +199,16 @@ namespace geocone
           "Materials/" + scene.materials.name(m) + "/Type";
         if (!cone)
           throw InputError(parameter,
-                           "a law without strength",
-                           "Mohr-Coulomb | Tresca with 'Analysis/Kind' = limit "
-                           "load",
-                           "what cannot yield bears any load: give it a "
-                           "strength, or leave it out of the domain");
+                           ParameterFile::value(parameter),
+                           "Mohr-Coulomb | Tresca with 'Analysis/Kind' other "
+                           "than steps",
+                           "bounds are those of laws of the plane; what cannot "
+                           "yield bears any load: leave it out of the domain");
         if (scene.materials[m].hardens())
           throw InputError(parameter,
                            "a law that hardens",
-                           "Mohr-Coulomb | Tresca with 'Analysis/Kind' = limit "
-                           "load",
+                           "Mohr-Coulomb | Tresca with 'Analysis/Kind' other "
+                           "than steps",
                            "take the strength that counts, initial or final");
         flow_cones.push_back(*cone);
         less_dilatant = less_dilatant || cone->b < cone->a * (1. - 1e-12);

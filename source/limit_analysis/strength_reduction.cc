@@ -18,15 +18,15 @@ namespace geocone
 
     /** @throws StepFailure beyond what a factor can be */
     double
-    checked(const double factor, const CertifiedBounds::Side &side)
+    checked(const double factor)
     {
-      if (factor > most || side.solution.grows)
+      if (factor > most)
         throw StepFailure(
           format("no reduction of the strength makes the body fail (tried: "
                  "%g)\n  remedy:  check that it can fail: level ground bears "
                  "its own weight with any strength, and a side of the mesh "
                  "that is too near may confine it",
-                 std::min(factor, most)));
+                 most));
       if (!(factor > least))
         throw StepFailure(
           "no strength bears the loads, a thousand times of the given one "
@@ -59,7 +59,7 @@ namespace geocone
         {
           const double tried =
             factor * std::pow(load, 1. / exponent) * (1. + sign * margin);
-          const CertifiedBounds::Side side = solve(checked(tried, {}));
+          const CertifiedBounds::Side side = solve(checked(tried));
           iterations += side.solution.factorisations;
           if (!is_usable(side))
             return proven;
@@ -93,16 +93,25 @@ namespace geocone
     Level level;
     // The last solution that was far from the root: factor and load.
     std::optional<std::pair<double, double>> last;
+    // Where friction is so large that it bears any weight, the load has no limit: the
+    // body is safe there.
+    std::optional<double> without_limit;
     for (unsigned int attempt = 0;; ++attempt)
       {
-        level.factor = factor;
+        level.factor = checked(factor);
         level.bounds = certified_bounds(reduced(factor), tolerance);
         const auto &[upper, lower, gap, uneven, share] = level.bounds;
         (void)uneven;
         level.iterations_lower += lower.solution.factorisations;
         level.iterations_upper += upper.solution.factorisations;
-        checked(factor, upper);
-        checked(factor, lower);
+        if (upper.solution.grows || lower.solution.grows)
+          {
+            without_limit = factor;
+            factor        = last && last->first > factor
+                              ? std::sqrt(factor * last->first)
+                              : factor * 1.3;
+            continue;
+          }
         if (!is_usable(upper) && !is_usable(lower))
           throw StepFailure(
             format("neither bound of the loads is certified where the strength "
@@ -117,10 +126,12 @@ namespace geocone
                             : !is_usable(upper)
                               ? lower.bound.load
                               : std::sqrt(lower.bound.load * upper.bound.load);
-        const double next =
+        double       next =
           factor * std::clamp(std::pow(load, 1. / exponent), 0.2, 5.);
+        if (without_limit && next <= *without_limit)
+          next = std::sqrt(factor * *without_limit);
         constexpr double near = 0.03;
-        if (std::abs(std::log(next / factor)) < near || attempt == 12)
+        if (std::abs(std::log(next / factor)) < near || attempt == 30)
           {
             if (is_usable(lower))
               level.lower = prove(
@@ -151,8 +162,11 @@ namespace geocone
                                   std::log(factor / last->first),
                                 0.3,
                                 50.);
-        last   = {factor, load};
-        factor = factor * std::clamp(std::pow(load, 1. / exponent), 0.2, 5.);
+        last = {factor, load};
+        next = factor * std::clamp(std::pow(load, 1. / exponent), 0.2, 5.);
+        if (without_limit && next <= *without_limit)
+          next = std::sqrt(factor * *without_limit);
+        factor = next;
       }
   }
 } // namespace geocone

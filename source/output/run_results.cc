@@ -44,23 +44,33 @@ namespace geocone
   Json
   RunOutput::safety() const
   {
-    const auto factor = [&](const double t) {
-      return scene->loading.strength_factor(t);
-    };
-    const double lower  = failure           ? factor(failure->carried_until)
-                          : records.empty() ? 1.
-                                            : factor(records.back().time);
-    const double upper  = failure ? factor(failure->not_until) : 0.;
-    const bool   found  = failure && upper > 1.;
-    const auto   growth = growth_of_displacement();
+    const LoadingProgramme &loading = scene->loading;
+    const double            end = records.empty() ? 0. : records.back().time;
+    if (!failure)
+      {
+        const bool   whole = end >= (1. - 1e-9) * loading.duration();
+        const double borne = loading.strength_factor(end);
+        return {{"factor", Json()},
+                {"displacement_growth", Json()},
+                {"lower", whole || borne != 1. ? Json(borne) : Json()},
+                {"upper", Json()},
+                {"criterion",
+                 whole ? "equilibrium is found for all factors of the stages"
+                       : "the stages have not come to their end"}};
+      }
+    // Where not even the first reduction is borne, the body may have failed before.
+    const double lower = loading.strength_factor(failure->carried_until),
+                 upper = loading.strength_factor(failure->not_until);
+    const bool found   = lower > loading.factor_before(failure->stage);
+    const auto growth  = growth_of_displacement();
     return {{"factor", found ? Json((lower + upper) / 2.) : Json()},
             {"displacement_growth", growth ? Json(*growth) : Json()},
-            {"lower", failure && !found ? Json() : Json(lower)},
-            {"upper", failure ? Json(upper) : Json()},
+            {"lower", found ? Json(lower) : Json()},
+            {"upper", Json(upper)},
             {"criterion",
-             !failure ? "equilibrium is found for all factors of the stages"
-             : found  ? "no equilibrium is found at the upper factor"
-                      : "no equilibrium is found without a reduction"}};
+             found ? "no equilibrium is found at the upper factor"
+                   : "no equilibrium is found at the first reduction: the "
+                     "factor is where the stage begins, or less"}};
   }
 
   Json
@@ -189,7 +199,7 @@ namespace geocone
     const Json  nothing;
     return {
       {"value", limit.found ? Json(limit.value) : nothing},
-      {"unit", unit("N/m")},
+      {"unit", load_is_number() ? "-" : unit("N/m")},
       {"reference", reference ? Json(*reference) : nothing},
       {"reference_name",
        reference ? Json(scene->observation.reference_name) : nothing},
@@ -381,26 +391,8 @@ namespace geocone
                        summary["quality"]["cone_excess_max_Pa"].get<double>()));
     if (remembers())
       warn_of_memory();
-    if (summary.contains("safety") && summary["safety"]["factor"].is_number())
-      log.print(
-        format("factor of safety %.4f (equilibrium is found at %.4f, and "
-               "not at %.4f)",
-               summary["safety"]["factor"].get<double>(),
-               summary["safety"]["lower"].get<double>(),
-               summary["safety"]["upper"].get<double>()));
-    if (summary.contains("safety") &&
-        summary["safety"]["displacement_growth"].is_number())
-      {
-        const double growth =
-          summary["safety"]["displacement_growth"].get<double>();
-        log.print(format("by the last reduction the observed points move %.3g "
-                         "times as fast per factor as by the first one",
-                         growth));
-        if (failure && growth < least_growth)
-          log.warn("a slope that fails moves ever faster, and this one does "
-                   "not: a step may have failed for another reason (log.txt), "
-                   "or the observed points are not on what slides");
-      }
+    if (summary.contains("safety"))
+      print_safety();
     if (summary.contains("limit_load"))
       print_limit_load();
     if (bracket)
@@ -419,15 +411,54 @@ namespace geocone
       write_file("output", [&](std::ostream &out) { report_loads(out); });
   }
 
+  bool
+  RunOutput::load_is_number() const
+  {
+    return scene->observation.of_raised_loads &&
+           std::abs(scene->observation.factor) == 1.;
+  }
+
+  void
+  RunOutput::print_safety() const
+  {
+    const Json &safety = summary["safety"];
+    if (safety["factor"].is_number())
+      log.print(
+        format("factor of safety %.4f (equilibrium is found at %.4f, and "
+               "not at %.4f)",
+               safety["factor"].get<double>(),
+               safety["lower"].get<double>(),
+               safety["upper"].get<double>()));
+    else if (failure)
+      log.warn(format("no factor of safety: no equilibrium is found at the "
+                      "first reduction, by %.4f; the body may fail without "
+                      "any: let the stages begin with a 'Strength factor' "
+                      "below 1, e.g. 0.5, and rise from there",
+                      safety["upper"].get<double>()));
+    else
+      log.warn(format(
+        "no factor of safety: equilibrium is found for all "
+        "factors, up to %.4g: raise 'Strength factor'",
+        safety["lower"].is_number() ? safety["lower"].get<double>() : 1.));
+    if (!safety["displacement_growth"].is_number())
+      return;
+    const double growth = safety["displacement_growth"].get<double>();
+    log.print(format("by the last reduction the observed points move %.3g "
+                     "times as fast per factor as by the first one",
+                     growth));
+    if (growth < least_growth)
+      log.warn("a slope that fails moves ever faster, and this one does "
+               "not: a step may have failed for another reason (log.txt), "
+               "or the observed points are not on what slides");
+  }
+
   void
   RunOutput::print_limit_load() const
   {
-    const Json &limit = summary["limit_load"];
-    // Of raised loads that 'Factor' does not turn into a force it is a number.
-    const bool is_number = scene->observation.of_raised_loads &&
-                           std::abs(scene->observation.factor) == 1.;
-    const std::string of_load = is_number ? "" : " " + unit("N/m");
-    const auto        text    = [&](const char *name) {
+    const Json       &limit     = summary["limit_load"];
+    const bool        is_number = load_is_number();
+    const std::string of_load   = is_number ? "" : " " + unit("N/m");
+    const auto        text      = [&](const char *name) {
       return format(is_number ? "%.4f" : "%.2f", limit[name].get<double>());
     };
     if (limit["value"].is_null())

@@ -208,6 +208,15 @@ namespace geocone
                          " cannot everywhere: loads come out too high; take "
                          "quadrilaterals with Discretisation/B-bar = true" +
                          (method.is_mpm() ? "" : ", or a cubic element"));
+    if (scene.water.acts() && !scene.observation.conditions.empty())
+      warnings.push_back("loads and reactions are those of effective stresses: "
+                         "the pressure of the water on supports comes on top");
+    for (unsigned int m = 0; m < scene.materials.size(); ++m)
+      if (scene.materials[m].fluid_modulus() > 0. &&
+          scene.materials[m].dilates())
+        warnings.push_back("the undrained soil '" + scene.materials.name(m) +
+                           "' dilates, and gets stronger the more it flows: "
+                           "set its Dilatancy angle = 0");
     if (method.is_mpm())
       observed_points.prepare_points(scene, points, comm);
     else
@@ -321,7 +330,14 @@ namespace geocone
     catch (const StepFailure &failure)
       {
         if (!stage.until_failure)
-          throw;
+          {
+            if (scene.loading.reduces_strength() &&
+                scene.loading.strength_factor(place.time) >= 1.)
+              log.warn("a body that does not bear its loads has a factor of "
+                       "safety below 1: let the stages begin with a 'Strength "
+                       "factor' below 1, e.g. 0.5, and rise from there");
+            throw;
+          }
         // What of the step was carried is the end of the curve.
         if (done > 0.)
           {

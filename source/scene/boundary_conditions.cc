@@ -202,16 +202,35 @@ namespace geocone
   bool
   BoundaryCondition::holds_at(const dealii::Point<dim> &x) const
   {
-    if (where && !(where->value(x, 0.) > 0.))
+    if (!formula_holds(x))
       return false;
+    if (const auto corners = wide_box())
+      for (unsigned int c = 0; c < dim; ++c)
+        if (x[c] < (*corners)[0][c] || x[c] > (*corners)[1][c])
+          return false;
+    return true;
+  }
+
+  bool
+  BoundaryCondition::formula_holds(const dealii::Point<dim> &x) const
+  {
+    return !where || where->value(x, 0.) > 0.;
+  }
+
+  std::optional<std::array<dealii::Point<dim>, 2>>
+  BoundaryCondition::wide_box() const
+  {
     if (box.empty())
-      return true;
+      return std::nullopt;
     const double tolerance =
       1e-9 * (1. + box[0].norm() + (box[1] - box[0]).norm());
+    std::array<dealii::Point<dim>, 2> corners = {{box[0], box[1]}};
     for (unsigned int c = 0; c < dim; ++c)
-      if (x[c] < box[0][c] - tolerance || x[c] > box[1][c] + tolerance)
-        return false;
-    return true;
+      {
+        corners[0][c] -= tolerance;
+        corners[1][c] += tolerance;
+      }
+    return corners;
   }
 
   std::optional<std::array<dealii::Point<dim>, 2>>

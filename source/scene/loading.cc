@@ -415,6 +415,29 @@ namespace geocone
     return factor;
   }
 
+  double
+  LoadingProgramme::factor_before(const std::string &stage) const
+  {
+    double factor = 1.;
+    for (const auto &one : stages)
+      {
+        if (one->name == stage)
+          break;
+        if (one->strength_factor > 0.)
+          factor = one->strength_factor;
+      }
+    return factor;
+  }
+
+  double
+  LoadingProgramme::duration() const
+  {
+    double sum = 0.;
+    for (const auto &stage : stages)
+      sum += stage->duration;
+    return sum;
+  }
+
   const Stage &
   LoadingProgramme::stage_at(const double t) const
   {

@@ -44,11 +44,11 @@ namespace geocone
       throw InputError(
         "Water/Unit weight", unit_weight, "> 0 N/m^3, finite", "9810 is usual");
     const Tensor<1, dim> g = gravity.at(1e300);
-    if (!(g[1] < 0.) || g.norm() != -g[1])
+    if (!(g[1] < 0.))
       throw InputError(
         "Gravity/Acceleration",
         dealii::Patterns::Tools::to_string(g),
-        "along -y where there is water",
+        "g_y < 0 where there is water",
         std::string(dim == 2 ? "e.g. 0, -9.81" : "e.g. 0, -9.81, 0") +
           "; or leave 'Water/Table' out");
   }

@@ -7,6 +7,7 @@
 #include <geocone/discretisation/space.h>
 #include <geocone/scene/boundary_conditions.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,12 +23,31 @@ namespace geocone
     std::vector<double>       values; ///< N at the point, per node
   };
 
-  /** Gauss points of a face, exact for degree 2p + 3. */
+  /** A part of a face, in its unit coordinates: all of it, or between two corners. */
+  struct FacePart
+  {
+    dealii::Point<dim - 1> lower, upper;
+
+    static FacePart
+    whole();
+  };
+
+  /** Gauss points of a face, or of a part of it, exact for degree 2p + 3. */
   std::vector<FacePoint>
   points_on_face(const BackgroundMesh       &mesh,
                  const Space                &space,
                  const BackgroundMesh::Cell &cell,
-                 const unsigned int          face);
+                 const unsigned int          face,
+                 const FacePart             &part = FacePart::whole());
+
+  /** What of a face the Box of a condition holds; nothing, or its part, which ends in
+   *  the face. Where a formula selects, faces are whole.
+   *  @throws InputError for a part of a face in space that is not along the axes */
+  std::optional<FacePart>
+  part_of_face(const BoundaryCondition    &condition,
+               const BackgroundMesh       &mesh,
+               const BackgroundMesh::Cell &cell,
+               const unsigned int          face);
 
   /**
    * Calls f(cell, point) for each of these points of the faces, of cells of this rank,
@@ -46,14 +66,14 @@ namespace geocone
     for (const auto &cell : mesh.own_cells())
       for (const unsigned int face : cell->face_indices())
         if (cell->face(face)->at_boundary() &&
-            ids.count(cell->face(face)->boundary_id()) > 0 &&
-            condition.holds_at(cell->face(face)->center()))
-          {
-            ++n_faces;
-            for (const FacePoint &point :
-                 points_on_face(mesh, space, cell, face))
-              f(cell, point);
-          }
+            ids.count(cell->face(face)->boundary_id()) > 0)
+          if (const auto part = part_of_face(condition, mesh, cell, face))
+            {
+              ++n_faces;
+              for (const FacePoint &point :
+                   points_on_face(mesh, space, cell, face, *part))
+                f(cell, point);
+            }
     return n_faces;
   }
 

@@ -231,6 +231,13 @@ namespace geocone
     void
     warn_of_memory() const;
 
+    void
+    print_safety() const;
+
+    /** Whether the load is of raised loads that 'Factor' does not turn into a force. */
+    bool
+    load_is_number() const;
+
     /** Warns of the first load that jumps by more than half and back. */
     void
     warn_of_jump();

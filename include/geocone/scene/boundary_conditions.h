@@ -59,6 +59,14 @@ namespace geocone
     bool
     holds_at(const dealii::Point<dim> &x) const;
 
+    /** Whether the formula of 'Where' selects a place. */
+    bool
+    formula_holds(const dealii::Point<dim> &x) const;
+
+    /** The corners of the Box, a rounding larger; nothing where all is held. */
+    std::optional<std::array<dealii::Point<dim>, 2>>
+    wide_box() const;
+
     /** Lower left and upper right corner of the box, if there is one.
      *  @throws InputError if a formula tells the part */
     std::optional<std::array<dealii::Point<dim>, 2>>

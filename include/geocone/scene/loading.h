@@ -194,6 +194,14 @@ namespace geocone
     double
     strength_factor(const double t) const;
 
+    /** strength_factor() when a stage begins. */
+    double
+    factor_before(const std::string &stage) const;
+
+    /** Of all stages (s). */
+    double
+    duration() const;
+
     std::vector<std::unique_ptr<Stage>> stages;
 
   private:

@@ -100,7 +100,7 @@ def answer_of(run):
                 beside * (quantity == "bounds/middle"))
     if number("limit_load/value") is not None:
         return (f"Limit load: {number('limit_load/value'):.6g} "
-                f"{run.value('limit_load/unit')}" +
+                f"{run.value('limit_load/unit')}".removesuffix("-").rstrip() +
                 beside * (quantity == "limit_load/value"))
     return ""
 
