@@ -134,7 +134,12 @@ namespace geocone
       "depends: take Tresca with that strength, or steps");
     scene.regions.prepare(scene.geometry);
     scene.gravity.prepare();
-    scene.water.prepare(scene.gravity);
+    scene.water.prepare(scene.gravity, scene.geometry);
+    if (scene.water.is_of_grid())
+      scene.water.refuse("'Analysis/Kind' = " + analysis.word(),
+                         "strict bounds need a constant force in each "
+                         "triangle: give a line, 'Water/Table', or reduce the "
+                         "strength by steps (prm/safety/slope_steps.prm)");
     scene.dirichlet.prepare();
     scene.tractions.prepare();
     scene.absorbing.refuse("'Analysis/Kind' = " + analysis.word(),

@@ -15,6 +15,7 @@ namespace geocone
     : geometry(file)
     , materials(file)
     , regions(file)
+    , water(file)
     , dirichlet(
         file,
         "Boundary conditions",
@@ -76,7 +77,7 @@ namespace geocone
                          "weight",
                          "names of tractions where there is no gravity",
                          "set 'Gravity/Acceleration', e.g. 0, -9.81");
-    water.prepare(gravity);
+    water.prepare(gravity, geometry);
     initial_velocity.prepare();
     initial_stress.prepare(gravity, geometry, regions, water, is_added);
     dirichlet.prepare();

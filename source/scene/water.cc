@@ -6,14 +6,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 namespace geocone
 {
   using dealii::Point;
   using dealii::Tensor;
 
-  Water::Water()
+  Water::Water(const ParameterFile &parameters)
     : dealii::ParameterAcceptor("/Water")
+    , folder(parameters.folder())
   {
     add_parameter("Table",
                   table,
@@ -24,12 +26,38 @@ namespace geocone
                   "water outside. Densities are those of the soil with its "
                   "water. In three dimensions it is alike along z. Empty: no "
                   "water.");
+    add_parameter("File",
+                  file,
+                  "A .csv file of pore pressures instead of a table, with the "
+                  "columns x, y (m) and u (Pa), a row for each place of a "
+                  "rectangular grid around the body, e.g. of a program of "
+                  "seepage. At the ground it is the pressure of the water "
+                  "outside.");
     add_parameter("Unit weight", unit_weight, "Of water (N/m^3).");
   }
 
   void
-  Water::prepare(const Gravity &gravity)
+  Water::prepare(const Gravity &gravity, const Geometry &geometry)
   {
+    if (!file.empty() && !table.empty())
+      throw InputError("Water/File",
+                       file,
+                       "empty beside 'Water/Table'",
+                       "give the pressures, or the line");
+    if (!file.empty())
+      {
+        grid.emplace(
+          (std::filesystem::path(folder) / file).string(), file, "Water/File");
+        if (!geometry.outline.empty())
+          if (const auto [lower, upper] = geometry.bounding_box();
+              !grid->covers(lower, upper))
+            throw InputError(
+              "Water/File",
+              file,
+              "pressures all around the body, from (" + text_of_place(lower) +
+                ") to (" + text_of_place(upper) + ")",
+              "they are given from " + grid->extent() + ": add rows");
+      }
     if (!acts())
       return;
     for (std::size_t i = 0; i < table.size(); ++i)
@@ -72,14 +100,17 @@ namespace geocone
   bool
   Water::is_level() const
   {
-    return std::all_of(table.begin(), table.end(), [&](const Point<2> &p) {
-      return p[1] == table.front()[1];
-    });
+    return !grid &&
+           std::all_of(table.begin(), table.end(), [&](const Point<2> &p) {
+             return p[1] == table.front()[1];
+           });
   }
 
   double
   Water::pressure(const Point<dim> &x) const
   {
+    if (grid)
+      return grid->value(x);
     return acts() ? unit_weight * std::max(level(x[0])[0] - x[1], 0.) : 0.;
   }
 
@@ -87,6 +118,8 @@ namespace geocone
   Water::force(const Point<dim> &x) const
   {
     Tensor<1, dim> f;
+    if (grid)
+      return -grid->gradient(x);
     if (!acts())
       return f;
     const auto [y, slope] = level(x[0]);
@@ -102,7 +135,7 @@ namespace geocone
   Water::lines(const Point<dim> &lower, const Point<dim> &upper) const
   {
     std::vector<std::array<Point<dim>, 2>> all;
-    if (!acts())
+    if (table.empty())
       return all;
     // Beyond the box on both sides.
     const double            beyond = 0.1 * (upper[0] - lower[0]);
@@ -138,8 +171,8 @@ namespace geocone
   Water::refuse(const std::string &what, const std::string &remedy) const
   {
     if (acts())
-      throw InputError("Water/Table",
-                       dealii::Patterns::Tools::to_string(table),
+      throw InputError(grid ? "Water/File" : "Water/Table",
+                       grid ? file : dealii::Patterns::Tools::to_string(table),
                        "empty with " + what,
                        remedy);
   }

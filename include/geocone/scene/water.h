@@ -4,11 +4,16 @@
 #ifndef geocone_scene_water_h
 #define geocone_scene_water_h
 
+#include <geocone/base/parameter_file.h>
+#include <geocone/scene/geometry.h>
 #include <geocone/scene/loading.h>
+#include <geocone/scene/pressure_grid.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <array>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace geocone
@@ -16,7 +21,8 @@ namespace geocone
   /**
    * Water at rest below a piezometric line y = Y(x), alike along z in three dimensions,
    * with the pressure
-   *   u = gamma_w max(0, Y(x) - y).
+   *   u = gamma_w max(0, Y(x) - y),
+   * or with pressures that a file gives (PressureGrid), as of water that seeps.
    * Stresses are effective ones, s' = s + u 1 (tension positive), and so
    *   div s' + rho g - grad u = 0,
    * rho the density of the soil with its water. Where the line runs above the
@@ -26,21 +32,29 @@ namespace geocone
   class Water : public dealii::ParameterAcceptor
   {
   public:
-    Water();
+    explicit Water(const ParameterFile &file);
 
-    /** Checks the parameters. @throws InputError */
+    /** Checks the parameters. @param geometry of the body, which is prepared
+     *  @throws InputError */
     void
-    prepare(const Gravity &gravity);
+    prepare(const Gravity &gravity, const Geometry &geometry);
 
     bool
     acts() const
     {
-      return !table.empty();
+      return !table.empty() || grid.has_value();
     }
 
     /** Whether its table is level. */
     bool
     is_level() const;
+
+    /** Whether a file gives the pressures, whose gradient is not constant anywhere. */
+    bool
+    is_of_grid() const
+    {
+      return grid.has_value();
+    }
 
     /** u (Pa). */
     double
@@ -52,7 +66,7 @@ namespace geocone
 
     /**
      * The lines of the plane across which the force jumps, and at which u has a kink: that of the
-     * table, and upright ones below its corners.
+     * table, and upright ones below its corners; none of pressures from a file.
      * @param lower,upper corners of a box around the body
      */
     std::vector<std::array<dealii::Point<dim>, 2>>
@@ -68,6 +82,9 @@ namespace geocone
     std::array<double, 2>
     level(const double x) const;
 
+    const std::string             folder; ///< what the file is relative to
+    std::string                   file;
+    std::optional<PressureGrid>   grid;
     std::vector<dealii::Point<2>> table; ///< x, y
     double                        unit_weight = 9810.;
   };
