@@ -74,23 +74,29 @@ namespace geocone
                           mesh.is_simplicial()
                             ? Quadrature<dim>(QWitherdenVincentSimplex<dim>(3))
                             : Quadrature<dim>(QGauss<dim>(space.degree() + 1)));
-        of_water.reinit(space.partitioner());
+        of_water.resize(scene.water.parts(0.).size());
+        for (Vector &of_line : of_water)
+          of_line.reinit(space.partitioner());
         std::vector<types::global_dof_index> nodes;
         for (const auto &cell : points.cells)
           {
             values.reinit(cell);
             space.cell_nodes(cell, nodes);
             for (unsigned int q = 0; q < values.weight.size(); ++q)
-              {
-                const Tensor<1, dim> f =
-                  values.weight[q] * scene.water.force(values.position[q]);
-                for (unsigned int i = 0; i < nodes.size(); ++i)
-                  for (unsigned int d = 0; d < dim; ++d)
-                    of_water.local_element(dim * space.local_node(nodes[i]) +
-                                           d) += f[d] * values.value(i, q);
-              }
+              for (unsigned int line = 0; line < of_water.size(); ++line)
+                {
+                  const Tensor<1, dim> f =
+                    values.weight[q] *
+                    scene.water.force(values.position[q], line);
+                  for (unsigned int i = 0; i < nodes.size(); ++i)
+                    for (unsigned int d = 0; d < dim; ++d)
+                      of_water[line].local_element(
+                        dim * space.local_node(nodes[i]) + d) +=
+                        f[d] * values.value(i, q);
+                }
           }
-        of_water.compress(VectorOperation::add);
+        for (Vector &of_line : of_water)
+          of_line.compress(VectorOperation::add);
       }
     std::vector<bool> is_there(mesh.triangulation().n_active_cells(), false);
     for (const auto &cell : points.cells)
@@ -157,7 +163,13 @@ namespace geocone
             force.local_element(dof) +=
               g[dof % dim] * weight_per_g.local_element(dof);
         if (scene.water.acts() && !raised)
-          force.add(g[1] / scene.gravity.at(1e300)[1], of_water);
+          {
+            const std::vector<double> parts = scene.water.parts(t);
+            for (unsigned int line = 0; line < of_water.size(); ++line)
+              if (parts[line] != 0.)
+                force.add(parts[line] * g[1] / scene.gravity.at(1e300)[1],
+                          of_water[line]);
+          }
       }
   }
 } // namespace geocone

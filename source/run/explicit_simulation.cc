@@ -31,7 +31,9 @@ namespace geocone
     estimate.check(options.force);
     for (const auto &stage : scene.loading.stages)
       stage->check_explicit();
-    const std::vector<std::string> remarks = stepper.prepare(scene, method);
+    std::vector<std::string> remarks = stepper.prepare(scene, method);
+    if (const std::string warning = scene.warn_of_records(); !warning.empty())
+      remarks.push_back(warning);
     observed_points.prepare_points(scene, stepper.points(), comm);
     return remarks;
   }

@@ -198,6 +198,7 @@ namespace geocone
           stepper->begin_from(archive, kinematics, points);
         },
         "Initial stress/Run");
+    warnings.push_back(scene.warn_of_records());
     warnings.push_back(outside_strength(points, scene.materials, comm));
     warnings.erase(std::remove(warnings.begin(), warnings.end(), ""),
                    warnings.end());

@@ -8,6 +8,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <cmath>
+#include <limits>
 
 namespace geocone
 {
@@ -67,5 +68,13 @@ namespace geocone
       return record->value(t);
     function->set_time(t);
     return function->value(x);
+  }
+
+  double
+  Expression::stays_from() const
+  {
+    return record && record->value(record->end()) != 0.
+             ? record->end()
+             : std::numeric_limits<double>::infinity();
   }
 } // namespace geocone

@@ -29,6 +29,12 @@ namespace geocone
         "= true the factor at which no equilibrium is found is the factor of "
         "safety.");
       stage.add_parameter(
+        "Water table",
+        stage.water_table,
+        "FEM and MPM: the piezometric line at the end of the stage, as "
+        "'Water/Table'; pressures go there from those before in proportion to "
+        "time (a drawdown, a pit that is pumped dry). Empty: as before.");
+      stage.add_parameter(
         "Until failure",
         stage.until_failure,
         "FEM and MPM: the first step that cannot be solved, however it is cut, "
@@ -203,6 +209,7 @@ namespace geocone
             "Added materials",
             added_materials.empty() ? "" : added_materials.front()),
           {"Raised loads", raises_loads() ? raised_loads.front() : ""},
+          {"Water table", water_table.empty() ? "" : "a line"},
           {"Changed materials",
            changed_materials.empty() ? "" : changed_materials.begin()->first}})
       if (!material.empty())

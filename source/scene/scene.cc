@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
 #include <geocone/scene/scene.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -78,6 +79,7 @@ namespace geocone
                          "names of tractions where there is no gravity",
                          "set 'Gravity/Acceleration', e.g. 0, -9.81");
     water.prepare(gravity, geometry);
+    water.prepare_stages(loading);
     initial_velocity.prepare();
     initial_stress.prepare(gravity, geometry, regions, water, is_added);
     dirichlet.prepare();
@@ -117,6 +119,25 @@ namespace geocone
     for (const auto &pair : contacts.list)
       names.push_back(pair->name);
     return names;
+  }
+
+  std::string
+  Scene::warn_of_records() const
+  {
+    for (const auto *conditions : {&dirichlet, &tractions, &absorbing})
+      for (const auto &condition : conditions->list)
+        for (unsigned int d = 0; d < dim; ++d)
+          if (const auto &component = condition->components[d])
+            if (const double end = component->stays_from();
+                end < (1. - 1e-9) * loading.duration())
+              return format(
+                "the record of '%s' ends at t = %g s with %g, which "
+                "stays until the end of the loading, %g s",
+                condition->name.c_str(),
+                end,
+                component->value({}, end),
+                loading.duration());
+    return "";
   }
 
   double

@@ -60,14 +60,7 @@ namespace geocone
       }
     if (!acts())
       return;
-    for (std::size_t i = 0; i < table.size(); ++i)
-      if (!std::isfinite(table[i].square()) ||
-          (i > 0 && !(table[i][0] > table[i - 1][0])))
-        throw InputError("Water/Table",
-                         dealii::Patterns::Tools::to_string(table),
-                         "points x, y; x, y; ... with finite and growing x",
-                         "give the line from left to right; where it is "
-                         "upright, over a small distance");
+    check(table, "Water/Table");
     if (!(unit_weight > 0. && std::isfinite(unit_weight)))
       throw InputError(
         "Water/Unit weight", unit_weight, "> 0 N/m^3, finite", "9810 is usual");
@@ -81,8 +74,64 @@ namespace geocone
           "; or leave 'Water/Table' out");
   }
 
+  void
+  Water::check(const Table &table, const std::string &parameter)
+  {
+    for (std::size_t i = 0; i < table.size(); ++i)
+      if (!std::isfinite(table[i].square()) ||
+          (i > 0 && !(table[i][0] > table[i - 1][0])))
+        throw InputError(parameter,
+                         dealii::Patterns::Tools::to_string(table),
+                         "points x, y; x, y; ... with finite and growing x",
+                         "give the line from left to right; where it is "
+                         "upright, over a small distance");
+  }
+
+  void
+  Water::prepare_stages(const LoadingProgramme &loading)
+  {
+    later.clear();
+    double begin = 0.;
+    for (const auto &stage : loading.stages)
+      {
+        const double end = begin + stage->duration;
+        if (!stage->water_table.empty())
+          {
+            const std::string parameter =
+              "Loading/" + stage->name + "/Water table";
+            if (table.empty())
+              throw InputError(
+                parameter,
+                dealii::Patterns::Tools::to_string(stage->water_table),
+                "empty where there is no 'Water/Table'",
+                "give the line of the start there; one below the "
+                "body leaves it dry");
+            check(stage->water_table, parameter);
+            later.push_back({begin, end, stage->water_table});
+          }
+        begin = end;
+      }
+  }
+
+  std::vector<double>
+  Water::parts(const double t) const
+  {
+    std::vector<double> all(1 + later.size(), 0.);
+    all[0] = 1.;
+    for (std::size_t i = 0; i < later.size(); ++i)
+      if (t > later[i].begin)
+        {
+          const double s = std::min(
+            (t - later[i].begin) / (later[i].end - later[i].begin), 1.);
+          for (std::size_t k = 0; k <= i; ++k)
+            all[k] *= 1. - s;
+          all[i + 1] = s;
+        }
+    return all;
+  }
+
   std::array<double, 2>
-  Water::level(const double x) const
+  Water::level(const Table &table, const double x)
   {
     if (x <= table.front()[0])
       return {{table.front()[1], 0.}};
@@ -111,18 +160,20 @@ namespace geocone
   {
     if (grid)
       return grid->value(x);
-    return acts() ? unit_weight * std::max(level(x[0])[0] - x[1], 0.) : 0.;
+    return acts() ? unit_weight * std::max(level(table, x[0])[0] - x[1], 0.)
+                  : 0.;
   }
 
   Tensor<1, dim>
-  Water::force(const Point<dim> &x) const
+  Water::force(const Point<dim> &x, const std::size_t line) const
   {
     Tensor<1, dim> f;
     if (grid)
       return -grid->gradient(x);
     if (!acts())
       return f;
-    const auto [y, slope] = level(x[0]);
+    const auto [y, slope] =
+      level(line == 0 ? table : later[line - 1].table, x[0]);
     if (x[1] < y)
       {
         f[0] = -unit_weight * slope;
@@ -135,8 +186,19 @@ namespace geocone
   Water::lines(const Point<dim> &lower, const Point<dim> &upper) const
   {
     std::vector<std::array<Point<dim>, 2>> all;
-    if (table.empty())
-      return all;
+    if (!table.empty())
+      add_lines(table, lower, upper, all);
+    for (const Later &of_stage : later)
+      add_lines(of_stage.table, lower, upper, all);
+    return all;
+  }
+
+  void
+  Water::add_lines(const Table                            &table,
+                   const Point<dim>                       &lower,
+                   const Point<dim>                       &upper,
+                   std::vector<std::array<Point<dim>, 2>> &all) const
+  {
     // Beyond the box on both sides.
     const double            beyond = 0.1 * (upper[0] - lower[0]);
     std::vector<Point<dim>> corners;
@@ -164,7 +226,6 @@ namespace geocone
             a[1] > lower[1])
           all.push_back({{in_plane(a[0], lower[1] - beyond), a}});
       }
-    return all;
   }
 
   void

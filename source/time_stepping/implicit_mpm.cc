@@ -443,13 +443,16 @@ namespace geocone
   {
     Vector       of_water(space->partitioner());
     const double part = scene->gravity.at(t)[1] / scene->gravity.at(1e300)[1];
+    const std::vector<double> parts = scene->water.parts(t);
     for_each_point(points,
                    [&](const unsigned int p,
                        const unsigned int /* cell */,
                        const PointFunctions &at) {
-                     const Tensor<1, dim> f =
-                       part * points.weight[p] *
-                       scene->water.force(points.position[p]);
+                     Tensor<1, dim> f;
+                     for (std::size_t line = 0; line < parts.size(); ++line)
+                       if (parts[line] != 0.)
+                         f += parts[line] * part * points.weight[p] *
+                              scene->water.force(points.position[p], line);
                      at.scatter<dim, false>(f.begin_raw(), of_water.begin());
                    });
     of_water.compress(VectorOperation::add);

@@ -68,7 +68,8 @@ namespace geocone
 
     const Scene             &scene;
     std::vector<LoadedPoint> loaded;
-    Vector                   of_water; ///< under the whole gravity (N/m)
+    /** Of each of its lines, under the whole gravity (N/m). */
+    std::vector<Vector> of_water;
   };
 } // namespace geocone
 

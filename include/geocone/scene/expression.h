@@ -37,6 +37,11 @@ namespace geocone
     double
     value(const dealii::Point<dim> &x, const double t) const;
 
+    /** When a record ends with a value that is not zero, which then stays (s); infinite
+     *  otherwise. */
+    double
+    stays_from() const;
+
   private:
     std::optional<double>                        number; ///< formulas are slow
     std::unique_ptr<dealii::FunctionParser<dim>> function;

@@ -86,6 +86,10 @@ namespace geocone
     raises(const std::string &load) const;
     /** @} */
 
+    /** The piezometric line at the end (x, y), to which pressures go from those before
+     *  in proportion to time; empty: as before. */
+    std::vector<dealii::Point<2>> water_table;
+
     /** @name How the body changes at the beginning */
     /** @{ */
 

@@ -30,6 +30,13 @@ namespace geocone
     double
     value(const double t) const;
 
+    /** The time of the last row (s). */
+    double
+    end() const
+    {
+      return times.back();
+    }
+
   private:
     std::vector<double> times, values;
     std::vector<double> derivatives; ///< or empty

@@ -58,6 +58,10 @@ namespace geocone
     double
     time_of_small_motion() const;
 
+    /** What a record leaves as it is before the end of the loading; empty: none does. */
+    std::string
+    warn_of_records() const;
+
     Geometry           geometry;
     Materials          materials;
     Regions            regions;

@@ -56,13 +56,23 @@ namespace geocone
       return grid.has_value();
     }
 
-    /** u (Pa). */
+    /** Takes the lines of stages. @throws InputError where there is no line before them,
+     *  or for one that is none */
+    void
+    prepare_stages(const LoadingProgramme &loading);
+
+    /** u (Pa) at the start. */
     double
     pressure(const dealii::Point<dim> &x) const;
 
-    /** -grad u (N/m^3). */
+    /** -grad u (N/m^3) of one of the lines: the first is the start's, then those of
+     *  stages. */
     dealii::Tensor<1, dim>
-    force(const dealii::Point<dim> &x) const;
+    force(const dealii::Point<dim> &x, const std::size_t line = 0) const;
+
+    /** The part of each line in the pressures at time t, whose sum is 1. */
+    std::vector<double>
+    parts(const double t) const;
 
     /**
      * The lines of the plane across which the force jumps, and at which u has a kink: that of the
@@ -78,15 +88,36 @@ namespace geocone
     refuse(const std::string &what, const std::string &remedy) const;
 
   private:
-    /** Y and its slope. */
-    std::array<double, 2>
-    level(const double x) const;
+    using Table = std::vector<dealii::Point<2>>; ///< x, y
 
-    const std::string             folder; ///< what the file is relative to
-    std::string                   file;
-    std::optional<PressureGrid>   grid;
-    std::vector<dealii::Point<2>> table; ///< x, y
-    double                        unit_weight = 9810.;
+    /** @throws InputError if x does not grow */
+    static void
+    check(const Table &table, const std::string &parameter);
+
+    /** Y and its slope. */
+    static std::array<double, 2>
+    level(const Table &table, const double x);
+
+    void
+    add_lines(const Table                                    &table,
+              const dealii::Point<dim>                       &lower,
+              const dealii::Point<dim>                       &upper,
+              std::vector<std::array<dealii::Point<dim>, 2>> &all) const;
+
+    const std::string           folder; ///< what the file is relative to
+    std::string                 file;
+    std::optional<PressureGrid> grid;
+    Table                       table;
+
+    /** A line that a stage leads to. */
+    struct Later
+    {
+      double begin, end; ///< of the stage (s)
+      Table  table;
+    };
+    std::vector<Later> later;
+
+    double unit_weight = 9810.;
   };
 } // namespace geocone
 
