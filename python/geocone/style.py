@@ -106,24 +106,44 @@ def add_bar(axes, drawn, label, **options):
     axes.figure.colorbar(drawn, cax=bar, label=label, **options)
 
 
-def draw_water(axes, run):
-    """Draws the table of the water of a run, if there is any."""
+def water_tables(run, time=None):
+    """The piezometric lines of a run at a time, or at its end, as arrays of x, y: that of the
+    start or of the last stage that has led to another one; while a stage does, both."""
+    def points_of(text):
+        return np.array([tuple(map(float, point.split(","))) for point in text.split(";")
+                         if point.strip()])
+
     try:
-        text = run.parameters.get("Water/Table", "")
+        tables = [points_of(run.parameters.get("Water/Table", ""))]
     except Missing:
-        return
-    points = [tuple(map(float, point.split(","))) for point in text.split(";")
-              if point.strip()]
-    if not points:
-        return
-    x, y = np.array(points).T
-    low, high = axes.get_xlim()
-    x, y = [min(low, x[0]), *x, max(high, x[-1])], [y[0], *y, y[-1]]
-    axes.autoscale(False)
-    axes.plot(x, y, color="tab:blue", linewidth=1.5, linestyle=(0, (6, 2)))
-    place = low + 0.96 * (high - low)
-    axes.plot(place, np.interp(place, x, y), "v", color="tab:blue", markersize=7,
-              markerfacecolor="white")
+        return []
+    if time is None:
+        try:
+            time = float(run.statistics["time (s)"][-1])
+        except (Missing, KeyError, IndexError):  # of bounds, which know no stages
+            time = 0.
+    begin = 0.
+    for stage in run.parameters.get("Loading/Stages", "").split(","):
+        section = f"Loading/{stage.strip()}/"
+        end = begin + float(run.parameters.get(section + "Duration", 1.))
+        table = points_of(run.parameters.get(section + "Water table", ""))
+        if len(table) and time > begin:
+            tables = [table] if time >= end * (1. - 1e-9) else [tables[-1], table]
+        begin = end
+    return [table for table in tables if len(table)]
+
+
+def draw_water(axes, run, time=None):
+    """Draws the tables of the water of a run, if there are any, at a time or at its end."""
+    for table in water_tables(run, time):
+        x, y = table.T
+        low, high = axes.get_xlim()
+        x, y = [min(low, x[0]), *x, max(high, x[-1])], [y[0], *y, y[-1]]
+        axes.autoscale(False)
+        axes.plot(x, y, color="tab:blue", linewidth=1.5, linestyle=(0, (6, 2)))
+        place = low + 0.96 * (high - low)
+        axes.plot(place, np.interp(place, x, y), "v", color="tab:blue", markersize=7,
+                  markerfacecolor="white")
 
 
 def disks(axes, field, values):

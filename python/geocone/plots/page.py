@@ -31,11 +31,13 @@ TOPICS = {"safety": "Factor of safety", "bounds": "Bounds", "limit_load": "Load"
           "newton": "Newton's method", "quality": "Quality of the solution",
           "state": "State", "start": "At the start", "final": "At the end",
           "extremes": "Least and most", "size": "Size", "cost": "Cost"}
+# What pictures are called, in the order in which a reader wants to see them: the answer, how the
+# body moves and flows, and last what tells about the computation.
 CAPTIONS = {
     "load_displacement.png": "Load against displacement",
     "safety.png": "Displacement while the strength is reduced",
-    "bounds.png": "Both bounds and their gap",
     "mechanism.png": "Where the bounds differ, and the mechanisms of both",
+    "bounds.png": "Both bounds and their gap",
     "plastic_strain_rate.png": "Where the soil flows at the end",
     "plastic_strain_rate_points.png": "The same, of the material points",
     "excess_pore_pressure.png": "Excess pore pressure at the end",
@@ -139,7 +141,7 @@ def frame_of(run, field, look, values, norm):
     drawn = look.collection(axes, field, values)
     drawn.set(cmap=STRAINS, norm=norm)
     axes.add_collection(drawn)
-    draw_water(axes, run)
+    draw_water(axes, run, field.time)
     axes.set_title(f"t = {field.time:.4g} s")
     figure.colorbar(drawn, ax=axes, shrink=0.8)
     stream = io.BytesIO()
@@ -183,7 +185,7 @@ def frames_of(run):
 def write_page(run, folder, names):
     """Writes report.html beside the pictures.
 
-    @param names of the pictures, in their order; those that are not there are left out
+    @param names of the pictures; those that are not there are left out
     @return the path"""
     try:
         import jinja2
@@ -192,7 +194,8 @@ def write_page(run, folder, names):
     frames, shown = frames_of(run)
     size, pictures = sum(len(frame["data"]) for frame in frames), []
     left_out = []
-    for name in names:
+    order = list(CAPTIONS)
+    for name in sorted(names, key=lambda name: order.index(name) if name in order else len(order)):
         path = folder / name
         if name == "plastic_strain.png" and not path.is_file():
             path = path.with_name("shear_stress.png")  # of an elastic body
