@@ -92,7 +92,9 @@ def answer_of(run):
     if number("safety/factor") is not None:
         lower, upper = number("safety/lower"), number("safety/upper")
         between = ("" if lower is None or upper is None else
-                   f" (between {lower:.5g} and {upper:.5g})")
+                   f" (certified: {lower:.5g} to {upper:.5g})"
+                   if run.method == "strength reduction" else
+                   f" (on this mesh: equilibrium at {lower:.5g}, none at {upper:.5g})")
         return (f"Factor of safety: {number('safety/factor'):.5g}{between}" +
                 beside * (quantity == "safety/factor"))
     if number("bounds/lower") is not None and number("bounds/upper") is not None:
