@@ -95,7 +95,10 @@ assert answer(bounds={"lower": 8231.21, "upper": 8303.44, "unit": "N/m"}) == (
     "Between 8231.21 and 8303.44 N/m")
 assert answer(bounds={"lower": 1., "upper": 2., "unit": "-"}, safety={
     "factor": 1.38164, "lower": 1.38123, "upper": 1.38203}) == (
-        "Factor of safety: 1.3816 (between 1.3812 and 1.382)")
+        "Factor of safety: 1.3816 (on this mesh: equilibrium at 1.3812, none at 1.382)")
+assert answer(size={"method": "strength reduction"}, safety={
+    "factor": 1.38164, "lower": 1.3732, "upper": 1.3868}) == (
+        "Factor of safety: 1.3816 (certified: 1.3732 to 1.3868)")
 assert answer(safety={"factor": None, "lower": None, "upper": None}) == ""
 assert page.text_of("failed: it stopped remedy: smaller steps") == (
     "failed: it stopped Remedy: smaller steps")
