@@ -97,10 +97,13 @@ namespace geocone
     if (at[0] > l)
       return at;
     at.setZero();
-    at[0]              = l;
-    const OfNode r     = b + own.col(0) * l;
-    const double bound = node.friction * std::max(r[0], 0.) + node.adhesion;
-    if (m == 0 || (r[0] >= 0. && r.tail(m).norm() <= bound))
+    at[0]               = l;
+    const OfNode r      = b + own.col(0) * l;
+    const double bound  = node.friction * std::max(r[0], 0.) + node.adhesion;
+    double       square = 0.; // of r_T
+    for (unsigned int t = 1; t <= m; ++t)
+      square += r[t] * r[t];
+    if (m == 0 || (r[0] >= 0. && square <= bound * bound))
       return at;
     double least = std::numeric_limits<double>::infinity();
     OfNode best  = at;
