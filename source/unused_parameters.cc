@@ -71,6 +71,7 @@ namespace geocone
       {"Initial stress/Stress xy", "Initial stress/Type", {"given"}},
       {"Initial stress/Stress zz", "Initial stress/Type", {"given"}},
       {"Initial stress/K0", "Initial stress/Type", {"geostatic"}},
+      {"Materials/*/K0", "Initial stress/Type", {"geostatic"}},
       {"Initial stress/Surface level", "Initial stress/Type", {"geostatic"}},
       {"Initial stress/Surcharge", "Initial stress/Type", {"geostatic"}},
       {"Boundary conditions/*/Segments",

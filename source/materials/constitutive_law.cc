@@ -13,6 +13,11 @@ namespace geocone
     : dealii::ParameterAcceptor("/" + section)
   {
     add_parameter("Density", rho, "Mass density rho (kg/m^3), > 0.");
+    add_parameter("K0",
+                  k0,
+                  "Horizontal over vertical effective stress in a geostatic "
+                  "initial stress, of this material. 0: as 'Initial stress/K0' "
+                  "says.");
     add_parameter(
       "Pore fluid bulk modulus",
       pore_fluid,
@@ -39,6 +44,11 @@ namespace geocone
         rho,
         "rho > 0 kg/m^3",
         "without inertia and gravity any positive value will do");
+    require(k0 >= 0. && std::isfinite(k0),
+            "K0",
+            k0,
+            ">= 0, finite",
+            "0.5 is usual; 0 leaves it to 'Initial stress/K0'");
     require(pore_fluid >= 0. && std::isfinite(pore_fluid),
             "Pore fluid bulk modulus",
             pore_fluid,

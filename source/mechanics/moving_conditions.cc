@@ -91,12 +91,16 @@ namespace geocone
                              condition->imposition.word(),
                              "nodes in three dimensions",
                              "hold or move sides of the background mesh");
-        if (!scene.tractions.list.empty())
-          throw InputError("Tractions/Names",
-                           scene.tractions.list[0]->name,
-                           "none on particles in three dimensions",
-                           "prescribe velocities, or set "
-                           "Discretisation/Method = FEM");
+        double longest = 1e300;
+        for (const auto &cell : mesh.own_cells())
+          longest = std::min(longest, BackgroundMesh::size_of(cell));
+        longest =
+          Utilities::MPI::min(longest, mesh.triangulation().get_communicator());
+        for (unsigned int c = 0; c < scene.tractions.list.size(); ++c)
+          surfaces.push_back(
+            {c,
+             MovingSurface(*scene.tractions.list[c], scene.geometry, longest)});
+        return;
       }
     for (unsigned int c = 0; c < list.size(); ++c)
       if (list[c]->holds() == Imposition::On::side)
@@ -157,31 +161,63 @@ namespace geocone
   }
 
   void
-  MovingConditions::add_traction(const BoundaryCondition    &load,
-                                 const MovingBoundary::Line &line,
-                                 const BoundaryPoint        &point,
-                                 const double                t,
-                                 Vector                     &force) const
+  MovingConditions::add_traction(const BoundaryCondition &load,
+                                 const double             size,
+                                 const Tensor<1, dim>    &area,
+                                 const BoundaryPoint     &point,
+                                 const double             t,
+                                 Vector                  &force) const
   {
-    // Dead loads are per length at the start.
+    // Dead loads are per size at the start.
     Tensor<1, dim> f;
     for (unsigned int d = 0; d < dim; ++d)
       if (const auto &traction = load.components[d])
-        f[d] = traction->value(point.position, t) * line.length;
+        f[d] = traction->value(point.position, t) * size;
+    // Pressure acts on the side as it is now.
     if (load.normal || load.tangential)
-      {
-        // Pressure acts on the side as it is now; the body is to its left.
-        const Tensor<1, dim> along = line.b - line.a;
-        f +=
-          along.norm() * load.vector_on_side(
-                           point.position,
-                           Tensor<1, dim>({along[1], -along[0]}) / along.norm(),
-                           t);
-      }
+      f += area.norm() *
+           load.vector_on_side(point.position, area / area.norm(), t);
+    f *= mesh.measure(point.position); // around an axis that of now
     for (unsigned int i = 0; i < point.nodes.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
         force.local_element(dim * space.local_node(point.nodes[i]) + d) +=
           point.weight * point.values[i] * f[d];
+  }
+
+  void
+  MovingConditions::add_tractions_of_surfaces(Vector      &force,
+                                              const double t,
+                                              const Stage *stage,
+                                              const bool   raised) const
+  {
+    for (const auto &[condition, surface] : surfaces)
+      {
+        const BoundaryCondition &load = *scene.tractions.list[condition];
+        const bool               acts =
+          stage == nullptr || stage->raises(load.name) == raised;
+        std::vector<double> parts =
+          surface.for_each_point(mesh,
+                                 space,
+                                 [&](const MovingSurface::Triangle &triangle,
+                                     const BoundaryPoint           &point) {
+                                   if (acts)
+                                     add_traction(load,
+                                                  triangle.area,
+                                                  surface.area_of(triangle),
+                                                  point,
+                                                  t,
+                                                  force);
+                                 });
+        sum_over_ranks(parts, mesh.triangulation().get_communicator());
+        const double least = *std::min_element(parts.begin(), parts.end());
+        if (least < 1. - 1e-6)
+          throw StepFailure("the side of '" + load.name +
+                            format("' has left the background mesh: %.3g %% of "
+                                   "a part of it is outside\n"
+                                   "  remedy:  a larger Mesh/Box, so that the "
+                                   "side stays in it",
+                                   100. * (1. - least)));
+      }
   }
 
   void
@@ -190,8 +226,7 @@ namespace geocone
                                   const Stage *stage,
                                   const bool   raised) const
   {
-    if (loads.empty())
-      return;
+    add_tractions_of_surfaces(force, t, stage, raised);
     std::vector<double> part_in_mesh;
     for (const Side &side : loads)
       for (const MovingBoundary::Line &line : side.boundary.lines)
@@ -205,11 +240,20 @@ namespace geocone
             {
               part_in_mesh.back() += point.weight;
               if (acts)
-                add_traction(load, line, point, t, force);
+                {
+                  // The body is to the left.
+                  const Tensor<1, dim> along = line.b - line.a;
+                  Tensor<1, dim>       area;
+                  area[0] = along[1];
+                  area[1] = -along[0];
+                  add_traction(load, line.length, area, point, t, force);
+                }
             }
         }
-    check_in_mesh(scene.tractions, loads, part_in_mesh);
-    force.compress(VectorOperation::add);
+    if (!loads.empty())
+      check_in_mesh(scene.tractions, loads, part_in_mesh);
+    if (!loads.empty() || !surfaces.empty())
+      force.compress(VectorOperation::add);
   }
 
   void
@@ -381,12 +425,14 @@ namespace geocone
       }
     for (Side &side : loads)
       advect(side.boundary, v, h);
+    for (LoadedSurface &load : surfaces)
+      load.surface.move(mesh, space, v, h);
   }
 
   std::vector<bool>
   MovingConditions::loaded_nodes() const
   {
-    if (supports.empty() && loads.empty())
+    if (supports.empty() && loads.empty() && surfaces.empty())
       return {};
     Vector mark(space.partitioner());
     for (const auto *sides : {&supports, &loads})
@@ -398,6 +444,15 @@ namespace geocone
               if (point.values[i] > 0.)
                 mark.local_element(dim * space.local_node(point.nodes[i])) +=
                   1.;
+    for (const LoadedSurface &load : surfaces)
+      load.surface.for_each_point(
+        mesh,
+        space,
+        [&](const MovingSurface::Triangle &, const BoundaryPoint &point) {
+          for (unsigned int i = 0; i < point.nodes.size(); ++i)
+            if (point.values[i] > 0.)
+              mark.local_element(dim * space.local_node(point.nodes[i])) += 1.;
+        });
     mark.compress(VectorOperation::add);
     mark.update_ghost_values();
     std::vector<bool> is_loaded(space.n_local_nodes());
@@ -465,6 +520,8 @@ namespace geocone
       for (Side &side : *sides)
         for (MovingBoundary::Line &line : side.boundary.lines)
           row(line.a, line.b);
+    for (LoadedSurface &load : surfaces)
+      load.surface.state(row);
   }
 
   std::pair<Point<dim>, Point<dim>>

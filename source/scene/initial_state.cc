@@ -247,10 +247,12 @@ namespace geocone
         top[1]                 = surface;
         vertical += water->pressure(x) - water->pressure(top);
       }
-    const double ratio =
-      k0 ? *k0 : materials.law(material).earth_pressure_at_rest();
-    Mandel stress = ratio * vertical * unit_tensor<n_mandel>();
-    stress[1]     = vertical;
+    const ConstitutiveLaw &law    = materials.law(material);
+    const double           ratio  = law.given_k0() > 0. ? law.given_k0()
+                                    : k0                ? *k0
+                                         : law.earth_pressure_at_rest();
+    Mandel                 stress = ratio * vertical * unit_tensor<n_mandel>();
+    stress[1]                     = vertical;
     return stress;
   }
 

@@ -195,9 +195,6 @@ namespace geocone
     mesh  = &mesh_;
     space = &space_;
     check_parameters();
-    if (!scene->tractions.list.empty())
-      scene->geometry.refuse_axis("tractions on particles",
-                                  "set Discretisation/Method = FEM");
     RaisedLoads::check(*scene);
     check_round_body(*scene, *space);
     check_midpoint(integration, *scene, "Material point method/Integration");

@@ -65,6 +65,13 @@ namespace geocone
       return pore_fluid > 0. ? pressure * pressure / (2. * pore_fluid) : 0.;
     }
 
+    /** Horizontal over vertical effective stress that the file gives, or 0. */
+    double
+    given_k0() const
+    {
+      return k0;
+    }
+
     /**
      * K0 (-), the ratio of horizontal to vertical effective stress in level
      * ground that has never been strained sideways, and which the law can bear
@@ -179,7 +186,7 @@ namespace geocone
 
   private:
     double rho        = 2000.;
-    double pore_fluid = 0.;
+    double pore_fluid = 0., k0 = 0.;
   };
 
   /** One of what a law can show, or not a number if it cannot. */

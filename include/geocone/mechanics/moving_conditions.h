@@ -8,6 +8,7 @@
 #include <geocone/discretisation/material_points.h>
 #include <geocone/mechanics/constraints.h>
 #include <geocone/mechanics/moving_boundary.h>
+#include <geocone/mechanics/moving_surface.h>
 
 #include <optional>
 
@@ -124,13 +125,23 @@ namespace geocone
                Multipliers                                        &rows) const;
     /** @} */
 
-    /** Adds the part of a load that acts at a point of a line. */
+    /** Adds the part of a load that acts at a point of a line, or a triangle.
+     *  @param size of it at the start, on which dead loads act
+     *  @param area its outward normal, as it is, times its size */
     void
-    add_traction(const BoundaryCondition    &load,
-                 const MovingBoundary::Line &line,
-                 const BoundaryPoint        &point,
-                 const double                t,
-                 Vector                     &force) const;
+    add_traction(const BoundaryCondition      &load,
+                 const double                  size,
+                 const dealii::Tensor<1, dim> &area,
+                 const BoundaryPoint          &point,
+                 const double                  t,
+                 Vector                       &force) const;
+
+    /** The same as add_tractions() of surfaces. */
+    void
+    add_tractions_of_surfaces(Vector      &force,
+                              const double t,
+                              const Stage *stage,
+                              const bool   raised) const;
 
     /**
      * Refuses lines of which a part lies outside the mesh, where conditions would
@@ -154,6 +165,14 @@ namespace geocone
     const BackgroundMesh &mesh;
     const Space          &space;
     std::vector<Side>     supports, loads;
+
+    /** A load on sides of a body in three dimensions. */
+    struct LoadedSurface
+    {
+      unsigned int  condition;
+      MovingSurface surface;
+    };
+    std::vector<LoadedSurface> surfaces;
   };
 } // namespace geocone
 
