@@ -69,6 +69,8 @@ namespace geocone
                                const Geometry          &geometry,
                                const double             longest)
   {
+    geometry.refuse_where("tractions on sides of particles",
+                          "they are on sides of a whole box");
     if (geometry.outline.empty())
       throw InputError(condition.parameter("Sides"),
                        Patterns::Tools::to_string(condition.sides),
