@@ -118,11 +118,14 @@ namespace geocone
                        "1e-8 to 1e-2",
                        "1e-3 is usual");
     if (method.is_mpm())
-      throw InputError("Discretisation/Method",
-                       "MPM",
-                       "FEM with 'Analysis/Kind' = " + analysis.word(),
-                       "sums over particles are no exact integrals, which a "
-                       "strict bound needs: set Discretisation/Method = FEM");
+      throw InputError(
+        "Discretisation/Method",
+        "MPM",
+        "FEM with 'Analysis/Kind' = " + analysis.word(),
+        "sums over particles are no exact integrals, which a "
+        "strict bound needs: set Discretisation/Method = FEM, or "
+        "reduce the strength by stages with 'Strength factor' "
+        "and 'Until failure'");
     scene.geometry.prepare();
     scene.geometry.refuse_axis("'Analysis/Kind' = " + analysis.word(),
                                "strict bounds are those of plane strain; take "

@@ -43,5 +43,5 @@ for page in pages:
 assert seen > 100, seen
 PYTHON
 if command -v lintian > /dev/null; then
-  lintian --fail-on error "$package" > lint || { cat lint; false; }
+  lintian --fail-on error,warning "$package" > lint || { cat lint; false; }
 fi
