@@ -113,11 +113,13 @@ namespace geocone
           if (!is_there)
             continue;
           const unsigned int a = (d + 1) % dim, b = (d + 2) % dim;
-          const unsigned int n_a =
-                               std::ceil((high[a] - low[a]) / longest - 1e-9),
-                             n_b =
-                               std::ceil((high[b] - low[b]) / longest - 1e-9);
-          const double area =
+          const auto         parts_of = [&](const unsigned int c) {
+            return std::max(static_cast<unsigned int>(
+                              std::ceil((high[c] - low[c]) / longest - 1e-9)),
+                            1U);
+          };
+          const unsigned int n_a = parts_of(a), n_b = parts_of(b);
+          const double       area =
             (high[a] - low[a]) / n_a * (high[b] - low[b]) / n_b / 2.;
           const unsigned int first = places.size();
           for (unsigned int j = 0; j <= n_b; ++j)
