@@ -200,15 +200,13 @@ namespace geocone
         if (!cone)
           throw InputError(parameter,
                            ParameterFile::value(parameter),
-                           "Mohr-Coulomb | Tresca with 'Analysis/Kind' other "
-                           "than steps",
+                           "Mohr-Coulomb | Tresca where loads are bounded",
                            "bounds are those of laws of the plane; what cannot "
                            "yield bears any load: leave it out of the domain");
         if (scene.materials[m].hardens())
           throw InputError(parameter,
                            "a law that hardens",
-                           "Mohr-Coulomb | Tresca with 'Analysis/Kind' other "
-                           "than steps",
+                           "Mohr-Coulomb | Tresca where loads are bounded",
                            "take the strength that counts, initial or final");
         flow_cones.push_back(*cone);
         less_dilatant = less_dilatant || cone->b < cone->a * (1. - 1e-12);
