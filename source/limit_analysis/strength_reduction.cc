@@ -122,14 +122,18 @@ namespace geocone
             "\n  remedy:  check that the body can fail by its loads, its "
             "supports and strengths, or take other cells");
         // The middle is between 1/5 and 5 times its distance from there.
-        const double load = !is_usable(lower) ? upper.bound.load
-                            : !is_usable(upper)
-                              ? lower.bound.load
-                              : std::sqrt(lower.bound.load * upper.bound.load);
-        double       next =
-          factor * std::clamp(std::pow(load, 1. / exponent), 0.2, 5.);
-        if (without_limit && next <= *without_limit)
-          next = std::sqrt(factor * *without_limit);
+        const double load        = !is_usable(lower) ? upper.bound.load
+                                   : !is_usable(upper)
+                                     ? lower.bound.load
+                                     : std::sqrt(lower.bound.load * upper.bound.load);
+        const auto   next_factor = [&]() {
+          const double next =
+            factor * std::clamp(std::pow(load, 1. / exponent), 0.2, 5.);
+          return without_limit && next <= *without_limit
+                     ? std::sqrt(factor * *without_limit)
+                     : next;
+        };
+        const double     next = next_factor();
         constexpr double near = 0.03;
         if (std::abs(std::log(next / factor)) < near || attempt == 30)
           {
@@ -162,11 +166,8 @@ namespace geocone
                                   std::log(factor / last->first),
                                 0.3,
                                 50.);
-        last = {factor, load};
-        next = factor * std::clamp(std::pow(load, 1. / exponent), 0.2, 5.);
-        if (without_limit && next <= *without_limit)
-          next = std::sqrt(factor * *without_limit);
-        factor = next;
+        last   = {factor, load};
+        factor = next_factor();
       }
   }
 } // namespace geocone

@@ -347,10 +347,9 @@ namespace geocone
     if (space.degree() == 1 || !space.is_non_negative())
       return "";
     std::string names;
-    double      t = 0.; // the end, when formulas have come to all that they are
-    for (const auto &stage : scene.loading.stages)
-      t += stage->duration;
-    const auto &list = scene.dirichlet.list;
+    // The end, when formulas have come to all that they are.
+    const double t    = scene.loading.duration();
+    const auto  &list = scene.dirichlet.list;
     for (unsigned int c = 0; c < list.size(); ++c)
       {
         if (list[c]->moves())

@@ -28,13 +28,6 @@ namespace geocone
                                  "boundary condition, or leave the "
                                  "corner out of the body";
 
-    /** A component of the force, or, after these, of the moment. */
-    double &
-    component(Reaction &of, const unsigned int k)
-    {
-      return k < dim ? of.force[k] : of.moment[k - dim];
-    }
-
     /** A node that comes nearer faster than u_N = least hits in this step. */
     void
     rebound(const double u_n, const InterfaceLaw &law, ContactNode &node)
@@ -425,13 +418,7 @@ namespace geocone
         for (unsigned int d = 0; d < dim; ++d)
           result[o].add(place(nodes[i].node) - about, d, r[d]);
       }
-    constexpr unsigned int n_sums = dim + n_rotations;
-    std::vector<double>    sums(n_sums * n);
-    for (unsigned int k = 0; k < sums.size(); ++k)
-      sums[k] = component(result[k / n_sums], k % n_sums);
-    sum_over_ranks(sums, comm);
-    for (unsigned int k = 0; k < sums.size(); ++k)
-      component(result[k / n_sums], k % n_sums) = sums[k];
+    sum_states_over_ranks(result, comm);
     return result;
   }
 

@@ -146,9 +146,8 @@ namespace geocone
     if (geometry.outline.empty()) // discs, or a file whose sides are not known
       return 0.;
     const dealii::BoundingBox<dim> body(geometry.outline);
-    double                         end = 0., least = 0.;
-    for (const auto &stage : loading.stages)
-      end += stage->duration;
+    const double                   end   = loading.duration();
+    double                         least = 0.;
     // The greatest speed, seen at some times of the run.
     const auto speed_of = [&](const auto &velocity) {
       double                 speed = 0.;
