@@ -3,6 +3,8 @@
 program=$1 root=$2 folder=$3
 rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
 export PYTHONDONTWRITEBYTECODE=1
+# Little compression: much takes most of the time.
+export DPKG_DEB_COMPRESSOR_LEVEL=0
 DEBFULLNAME='Ada Example' DEBEMAIL=ada@example.org \
   "$root/scripts/package" --built "$(dirname "$program")" "$folder" > said
 package=$(echo "$folder"/geocone_*.deb)
