@@ -18,6 +18,8 @@
 
 #include <deal.II/grid/grid_tools.h>
 
+#include <deal.II/lac/la_parallel_vector.h>
+
 #include <filesystem>
 #include <numeric>
 
@@ -265,6 +267,22 @@ namespace geocone
       },
       *tria);
     lines = to;
+  }
+
+  std::vector<bool>
+  BackgroundMesh::is_among(const std::vector<Cell> &cells) const
+  {
+    LinearAlgebra::distributed::Vector<double> flag(
+      tria->global_active_cell_index_partitioner().lock());
+    for (const Cell &cell : cells)
+      flag[cell->global_active_cell_index()] = 1.;
+    flag.update_ghost_values();
+    std::vector<bool> result(tria->n_active_cells(), false);
+    for (const Cell &cell : tria->active_cell_iterators())
+      if (!cell->is_artificial())
+        result[cell->active_cell_index()] =
+          flag[cell->global_active_cell_index()] > 0.;
+    return result;
   }
 
   Point<dim>

@@ -107,7 +107,10 @@ namespace geocone
             const double after = std::sqrt(w.dot(M.col(j).cwiseAbs2()));
             M.col(j) *= after > same_polynomial * before ? 1. / after : 0.;
           }
-        const Eigen::Map<const Values> g(&points.gradients[first * m], n, m);
+        Values g = Eigen::Map<const Values>(&points.gradients[first * m], n, m);
+        if (!points.hoop.empty())
+          g.leftCols(points.n_nodes) += Eigen::Map<const Values>(
+            &points.hoop[first * points.n_nodes], n, points.n_nodes);
         Eigen::Map<Values>(
           &points.volumetric_modes[first * n_modes], n, n_modes) = M;
         Eigen::Map<Values>(&points.volumetric_gradients[first * m], n, m) =

@@ -395,6 +395,16 @@ namespace geocone
   std::vector<unsigned int>
   Space::nodes_on_sides(const std::set<types::boundary_id> &ids) const
   {
+    return nodes_on_faces([&](const Cell &cell, const unsigned int f) {
+      return cell->face(f)->at_boundary() &&
+             ids.count(cell->face(f)->boundary_id()) > 0;
+    });
+  }
+
+  std::vector<unsigned int>
+  Space::nodes_on_faces(
+    const std::function<bool(const Cell &, const unsigned int)> &holds) const
+  {
     const auto on_face = [&](const unsigned int i, const unsigned int f) {
       if (mesh->is_simplicial())
         {
@@ -417,8 +427,7 @@ namespace geocone
     for (const auto &cell : mesh->triangulation().active_cell_iterators())
       if (!cell->is_artificial())
         for (const unsigned int f : cell->face_indices())
-          if (cell->face(f)->at_boundary() &&
-              ids.count(cell->face(f)->boundary_id()) > 0)
+          if (holds(cell, f))
             {
               cell_nodes(cell, nodes);
               for (unsigned int i = 0; i < nodes.size(); ++i)

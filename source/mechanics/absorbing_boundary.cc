@@ -18,7 +18,7 @@ namespace geocone
   AbsorbingBoundary::AbsorbingBoundary(const Scene          &scene,
                                        const BackgroundMesh &mesh,
                                        const Space          &space,
-                                       const bool            of_particles)
+                                       const MaterialPoints *body)
     : conditions(scene.absorbing)
     , space(space)
   {
@@ -35,6 +35,13 @@ namespace geocone
                          "waves",
                          "take linear elastic, or leave out 'Absorbing "
                          "boundaries/Names'");
+    // Of cells that have points, whose stages may have changed it.
+    constexpr unsigned int    none = numbers::invalid_unsigned_int;
+    std::vector<unsigned int> material_of(
+      body == nullptr ? 0 : mesh.triangulation().n_active_cells(), none);
+    for (unsigned int c = 0; body != nullptr && c < body->n_cells(); ++c)
+      material_of[body->cells[c]->active_cell_index()] =
+        body->material[body->first_point[c]];
     incoming.reinit(space.partitioner());
     for (unsigned int c = 0; c < conditions.list.size(); ++c)
       {
@@ -50,13 +57,14 @@ namespace geocone
           [&](const BackgroundMesh::Cell &cell, const FacePoint &point) {
             // Within the body, not on its border.
             const unsigned int material =
-              of_particles
+              body == nullptr
                 ? scene.regions.material_at(
                     point.position - 1e-6 * cell->diameter() * point.normal, 0)
-                : cell->material_id();
-            if (of_particles &&
-                scene.contacts.body_of(material) != mesh.layer_of(cell))
-              return; // of another body
+                : material_of[cell->active_cell_index()];
+            if (material == none ||
+                (body == nullptr &&
+                 scene.contacts.body_of(material) != mesh.layer_of(cell)))
+              return; // not there, or of another body
             const Material   &law = scene.materials[material];
             const Elasticity &e   = law.elasticity();
             const double      rho = law.density(),

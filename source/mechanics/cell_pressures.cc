@@ -90,10 +90,10 @@ namespace geocone
   CellPressures::evaluate(const unsigned int  point,
                           const double        mean_stress,
                           const MandelMatrix &tangent,
-                          const Mandel       &strain)
+                          const double        volumetric_strain)
   {
     const double fluid = materials[points.material[point]].fluid_modulus();
-    mean[point]        = mean_stress + fluid * trace(strain);
+    mean[point]        = mean_stress + fluid * volumetric_strain;
     k[point] =
       std::max(mean_direction().dot(tangent * mean_direction()) + fluid,
                least_modulus[point]);
@@ -220,7 +220,8 @@ namespace geocone
     const std::function<void(const unsigned int, const unsigned int)> &update,
     const std::vector<Mandel>                                         &stress,
     const std::vector<MandelMatrix>                                   &tangent,
-    std::vector<Mandel>                                               &strain)
+    std::vector<Mandel>                                               &strain,
+    const std::vector<double> &strain_zz)
   {
     given = strain;
     std::fill(growth.begin(), growth.end(), 0.);
@@ -250,7 +251,8 @@ namespace geocone
               evaluate(p,
                        trace(stress[p]) / dim - pore_pressure(p),
                        tangent[p],
-                       strain[p]);
+                       trace(strain[p]) +
+                         (strain_zz.empty() ? 0. : strain_zz[p]));
               if (step == 0) // later ones may be far off
                 scale = std::max({scale, stress[p].norm(), std::abs(mean[p])});
             }
@@ -297,17 +299,27 @@ namespace geocone
   }
 
   void
-  CellPressures::equalise_rates(const unsigned int               cell,
-                                const std::vector<MandelMatrix> &tangent,
-                                std::vector<Mandel>             &rate)
+  CellPressures::equalise_rates(
+    const unsigned int                    cell,
+    const std::vector<MandelMatrix>      &tangent,
+    const std::vector<OutOfPlaneTangent> &tangent_zz,
+    std::vector<Mandel>                  &rate,
+    const std::vector<double>            &rate_zz)
   {
     const unsigned int begin = points.first_point[cell],
                        end   = points.first_point[cell + 1];
     for (unsigned int p = begin; p < end; ++p)
       {
-        growth[p] = 0.;
+        growth[p]                = 0.;
+        Mandel stress_rate       = tangent[p] * rate[p];
+        double volumetric_strain = trace(rate[p]);
+        if (!rate_zz.empty())
+          {
+            stress_rate += rate_zz[p] * tangent_zz[p].by_zz;
+            volumetric_strain += rate_zz[p];
+          }
         evaluate(
-          p, mean_direction().dot(tangent[p] * rate[p]), tangent[p], rate[p]);
+          p, mean_direction().dot(stress_rate), tangent[p], volumetric_strain);
       }
     fit(cell);
     shift(cell);
@@ -316,14 +328,17 @@ namespace geocone
   }
 
   void
-  CellPressures::condense(const unsigned int         cell,
-                          const double               factor,
-                          std::vector<MandelMatrix> &C,
-                          Condensed                 &result) const
+  CellPressures::condense(const unsigned int              cell,
+                          const double                    factor,
+                          std::vector<MandelMatrix>      &C,
+                          std::vector<OutOfPlaneTangent> &C_zz,
+                          Condensed                      &result) const
   {
     const unsigned int first = points.first_point[cell];
     result.left.resize(C.size());
     result.right.resize(C.size());
+    result.left_zz.resize(C_zz.size());
+    result.right_zz.resize(C_zz.size());
     std::vector<double> softness_of(C.size());
     for (unsigned int q = 0; q < C.size(); ++q)
       {
@@ -336,6 +351,15 @@ namespace geocone
         result.right[q]      = inverse * b;
         softness_of[q]       = weight * inverse;
         C[q] -= (inverse / weight) * a * b.transpose();
+        if (C_zz.empty())
+          continue;
+        const double a_zz  = C_zz[q].of_zz.dot(mean_direction()),
+                     b_zz  = C_zz[q].by_zz.dot(mean_direction());
+        result.left_zz[q]  = inverse * a_zz;
+        result.right_zz[q] = inverse * b_zz;
+        C_zz[q].by_zz -= (inverse / weight) * b_zz * a;
+        C_zz[q].of_zz -= (inverse / weight) * a_zz * b;
+        C_zz[q].zz -= (inverse / weight) * a_zz * b_zz;
       }
     choose_basis(cell, softness_of, result.basis);
   }

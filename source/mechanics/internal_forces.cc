@@ -88,8 +88,9 @@ namespace geocone
         const double volumetric =
           factor * trace(kernels::strain<n>(
                      &points.volumetric_gradients[dim * n * p], cell_v));
-        result[p] +=
-          ((volumetric - trace(result[p])) / dim) * unit_tensor<n_mandel>();
+        const double hoop = is_axisymmetric() ? result_zz[p] : 0.;
+        result[p] += ((volumetric - trace(result[p]) - hoop) / dim) *
+                     unit_tensor<n_mandel>();
       }
   }
 
@@ -103,38 +104,31 @@ namespace geocone
   {
     const unsigned int begin = points.first_point[c],
                        end   = points.first_point[c + 1];
-    if (is_axisymmetric())
-      for (unsigned int p = begin; p < end; ++p)
-        {
-          const double hoop = weighted_hoop_stress(p);
-          for (int i = 0; i < n; ++i)
-            cell_f[2 * i] += points.hoop[n * p + i] * hoop;
-        }
-    if (points.volumetric_gradients.empty())
-      {
-        for (unsigned int p = begin; p < end; ++p)
-          add_force<n>(
-            &points.gradients[dim * n * p], weighted_stress(p), cell_f);
-        return;
-      }
     for (unsigned int p = begin; p < end; ++p)
       {
-        Mandel       s    = weighted_stress(p);
-        const Mandel mean = (trace(s) / dim) * unit_tensor<n_mandel>();
-        s -= mean;
+        Mandel s    = weighted_stress(p);
+        double mean = 0.;
+        if (!points.volumetric_gradients.empty())
+          {
+            mean = trace(s) / dim;
+            s -= mean * unit_tensor<n_mandel>();
+            add_force<n>(&points.volumetric_gradients[dim * n * p],
+                         mean * unit_tensor<n_mandel>(),
+                         cell_f);
+          }
         add_force<n>(&points.gradients[dim * n * p], s, cell_f);
-        add_force<n>(&points.volumetric_gradients[dim * n * p], mean, cell_f);
+        if (is_axisymmetric())
+          {
+            const double hoop = weighted_hoop_stress(p) - mean;
+            for (int i = 0; i < n; ++i)
+              cell_f[2 * i] += points.hoop[n * p + i] * hoop;
+          }
       }
   }
 
-  template <int n>
-  void
-  InternalForces::add_hoop_stiffness(const unsigned int p,
-                                     const double       blend,
-                                     double            *K) const
+  OutOfPlaneTangent
+  InternalForces::tangent_zz_of(const unsigned int p, const double blend) const
   {
-    constexpr int     m       = dim * n;
-    const double      factor  = h * points.weight[p];
     OutOfPlaneTangent C       = tangent_zz[p];
     const Elasticity  elastic = elasticity_at_start(materials, points, p);
     const double      fluid   = fluid_modulus(p);
@@ -147,20 +141,48 @@ namespace geocone
       }
     C.zz =
       (1. - blend) * C.zz + blend * (elastic.lambda + elastic.two_G) + fluid;
+    const double factor = h * points.weight[p];
+    C.by_zz *= factor;
+    C.of_zz *= factor;
+    C.zz *= factor;
+    return C;
+  }
+
+  template <int n>
+  void
+  InternalForces::add_hoop_stiffness(const unsigned int       p,
+                                     const OutOfPlaneTangent &C,
+                                     double                  *K) const
+  {
+    constexpr int m = dim * n;
     // Forces B' by_zz along the columns of the hoop strain, and alike for its rows.
     double column[m] = {}, row[m] = {};
     add_force<n>(&points.gradients[m * p], C.by_zz, column);
     add_force<n>(&points.gradients[m * p], C.of_zz, row);
     const double *const H = &points.hoop[n * p];
+    if (!points.volumetric_gradients.empty())
+      {
+        const double *const g           = &points.gradients[m * p],
+                            *volumetric = &points.volumetric_gradients[m * p];
+        const double by_zz = trace(C.by_zz) / dim, of_zz = trace(C.of_zz) / dim;
+        for (int i = 0; i < n; ++i)
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              const double change =
+                volumetric[n * d + i] - g[n * d + i] - (d == 0 ? H[i] : 0.);
+              column[dim * i + d] += by_zz * change;
+              row[dim * i + d] += of_zz * change;
+            }
+      }
     for (int i = 0; i < m; ++i)
       for (int j = 0; j < n; ++j)
         {
-          K[m * i + 2 * j] += factor * column[i] * H[j];
-          K[m * 2 * j + i] += factor * H[j] * row[i];
+          K[m * i + 2 * j] += column[i] * H[j];
+          K[m * 2 * j + i] += H[j] * row[i];
         }
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j)
-        K[m * 2 * i + 2 * j] += factor * C.zz * H[i] * H[j];
+        K[m * 2 * i + 2 * j] += C.zz * H[i] * H[j];
   }
 
   template <int n>
@@ -174,7 +196,8 @@ namespace geocone
     const unsigned int first = points.first_point[c];
     using Columns =
       Eigen::Matrix<double, m, Eigen::Dynamic, 0, m, CellPressures::most_modes>;
-    const auto forces_of = [&](const std::vector<Mandel> &stress) {
+    const auto forces_of = [&](const std::vector<Mandel> &stress,
+                               const std::vector<double> &stress_zz) {
       Columns f = Columns::Zero(m, points.n_volumetric_modes);
       for (unsigned int j = 0; j < points.n_volumetric_modes; ++j)
         add_forces_of_cell<n>(
@@ -182,14 +205,18 @@ namespace geocone
           [&](const unsigned int p) -> Mandel {
             return condensed.basis.modes(p - first, j) * stress[p - first];
           },
-          [](const unsigned int) { return 0.; },
+          [&](const unsigned int p) {
+            return condensed.basis.modes(p - first, j) * stress_zz[p - first];
+          },
           f.col(j).data());
       return f;
     };
-    const Columns left  = forces_of(condensed.left),
-                  right = condensed.basis.compliance
-                            .solve(forces_of(condensed.right).transpose())
-                            .transpose();
+    const Columns left = forces_of(condensed.left, condensed.left_zz),
+                  right =
+                    condensed.basis.compliance
+                      .solve(forces_of(condensed.right, condensed.right_zz)
+                               .transpose())
+                      .transpose();
     for (int i = 0; i < m; ++i)
       for (unsigned int k = 0; k < points.n_volumetric_modes; ++k)
         for (int j = 0; j < m; ++j)
@@ -314,7 +341,8 @@ namespace geocone
         },
         stress,
         tangent,
-        strain);
+        strain,
+        strain_zz);
     else
       update_materials(false);
     update_pressures();
@@ -481,11 +509,12 @@ namespace geocone
     update_tangents();
     const bool one_triangle = pattern.is_one_triangle();
     with_n_nodes(points.n_nodes, [&](const auto n_constant) {
-      constexpr int             n = n_constant;
-      std::vector<MandelMatrix> C;
-      std::vector<double>       scratch;
-      CellPressures::Condensed  condensed;
-      double                    K[dim * dim * n * n];
+      constexpr int                  n = n_constant;
+      std::vector<MandelMatrix>      C;
+      std::vector<OutOfPlaneTangent> C_zz;
+      std::vector<double>            scratch;
+      CellPressures::Condensed       condensed;
+      double                         K[dim * dim * n * n];
       for (unsigned int c = 0; c < points.n_cells(); ++c)
         {
           const unsigned int first = points.first_point[c];
@@ -505,23 +534,32 @@ namespace geocone
                         unit_tensor<n_mandel>() *
                         unit_tensor<n_mandel>().transpose();
             }
+          if (is_axisymmetric())
+            {
+              C_zz.resize(n_q);
+              for (unsigned int q = 0; q < n_q; ++q)
+                C_zz[q] = tangent_zz_of(first + q, blend);
+            }
           const double *const g = &points.gradients[dim * n * first];
           const double *const volumetric =
             points.volumetric_gradients.empty() || cell_pressures
               ? nullptr
               : &points.volumetric_gradients[dim * n * first];
+          const double *const hoop =
+            is_axisymmetric() ? &points.hoop[n * first] : nullptr;
           if (cell_pressures)
-            cell_pressures->condense(c, h, C, condensed);
+            cell_pressures->condense(c, h, C, C_zz, condensed);
           if (one_triangle)
-            stiffness<n, true>(g, volumetric, C.data(), n_q, scratch.data(), K);
+            stiffness<n, true>(
+              g, hoop, volumetric, C.data(), n_q, scratch.data(), K);
           else
             stiffness<n, false>(
-              g, volumetric, C.data(), n_q, scratch.data(), K);
+              g, hoop, volumetric, C.data(), n_q, scratch.data(), K);
           if (cell_pressures)
             add_pressure_stiffness<n>(c, condensed, K);
           if (is_axisymmetric())
             for (unsigned int q = 0; q < n_q; ++q)
-              add_hoop_stiffness<n>(first + q, blend, K);
+              add_hoop_stiffness<n>(first + q, C_zz[q], K);
           turned.matrix_to_dofs(c, dim * n, one_triangle, K);
           pattern.add_cell<n>(c, K, matrix);
         }
@@ -549,7 +587,8 @@ namespace geocone
           turned.velocities_to_xy(c, cell_v);
           strains_of_cell<n>(c, cell_v, h, rate, rate_zz);
           if (cell_pressures)
-            cell_pressures->equalise_rates(c, tangent, rate);
+            cell_pressures->equalise_rates(
+              c, tangent, tangent_zz, rate, rate_zz);
           add_forces_of_cell<n>(
             c,
             [&](const unsigned int p) -> Mandel {

@@ -135,24 +135,25 @@ namespace geocone
       }
   }
 
-  std::vector<unsigned int>
-  MovingConditions::count_held(const MaterialPoints &points) const
+  std::vector<double>
+  MovingConditions::sum_held(const MaterialPoints &points) const
   {
-    std::vector<unsigned int> n(scene.dirichlet.list.size());
-    for (const unsigned int held : points.held_by)
-      if (held > 0)
-        ++n[held - 1];
-    sum_over_ranks(n, mesh.triangulation().get_communicator());
-    return n;
+    std::vector<double> sum(scene.dirichlet.list.size());
+    for (unsigned int p = 0; p < points.held_by.size(); ++p)
+      if (const unsigned int held = points.held_by[p]; held > 0)
+        sum[held - 1] += mesh.measure(points.position[p]);
+    sum_over_ranks(sum, mesh.triangulation().get_communicator());
+    return sum;
   }
 
   void
   MovingConditions::check_held_particles(const MaterialPoints &points) const
   {
-    const std::vector<unsigned int> n_held = count_held(points);
-    for (unsigned int c = 0; c < n_held.size(); ++c)
+    const std::vector<double> of_conditions = sum_held(points);
+    for (unsigned int c = 0; c < of_conditions.size(); ++c)
       if (const BoundaryCondition &condition = *scene.dirichlet.list[c];
-          condition.holds() == Imposition::On::particles && n_held[c] == 0)
+          condition.holds() == Imposition::On::particles &&
+          of_conditions[c] == 0.)
         throw InputError(condition.parameter("Box"),
                          condition.part(),
                          "a part of a side with particles under it",
@@ -294,18 +295,29 @@ namespace geocone
             const Tensor<1, dim> part =
               (line.b - line.a) / condition.n_segments;
             for (unsigned int s = 0; s < condition.n_segments; ++s, ++number)
-              for (const BoundaryPoint &point : points_on_line(
-                     mesh, space, line.a + s * part, line.a + (s + 1.) * part))
-                {
-                  part_in_mesh.back() += point.weight / condition.n_segments;
-                  add_to_row(side.condition,
-                             {number, point.weight},
-                             point.position,
-                             t,
-                             point.nodes,
-                             point.values.data(),
-                             rows);
-                }
+              {
+                const Point<dim> a = line.a + s * part,
+                                 b = line.a + (s + 1.) * part;
+                // Of a round body the mean is that over the area; on the axis there
+                // is none.
+                const double mean_measure = mesh.measure(a + part / 2.);
+                for (const BoundaryPoint &point :
+                     points_on_line(mesh, space, a, b))
+                  {
+                    part_in_mesh.back() += point.weight / condition.n_segments;
+                    const double relative =
+                      mean_measure > 0.
+                        ? mesh.measure(point.position) / mean_measure
+                        : 1.;
+                    add_to_row(side.condition,
+                               {number, point.weight * relative},
+                               point.position,
+                               t,
+                               point.nodes,
+                               point.values.data(),
+                               rows);
+                  }
+              }
           }
       }
     if (!supports.empty())
@@ -323,24 +335,30 @@ namespace geocone
             return condition->holds() == Imposition::On::particles;
           }))
       return;
-    const std::vector<unsigned int>      n_held = count_held(points);
+    const std::vector<double>            of_conditions = sum_held(points);
     std::vector<types::global_dof_index> nodes;
+    std::vector<double>                  of_cell(conditions.size());
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       {
-        const auto first = points.held_by.begin() + points.first_point[c],
-                   last  = points.held_by.begin() + points.first_point[c + 1];
+        std::fill(of_cell.begin(), of_cell.end(), 0.);
+        for (unsigned int p = points.first_point[c];
+             p < points.first_point[c + 1];
+             ++p)
+          if (const unsigned int held = points.held_by[p]; held > 0)
+            of_cell[held - 1] += mesh.measure(points.position[p]);
         for (unsigned int p = points.first_point[c];
              p < points.first_point[c + 1];
              ++p)
           if (const unsigned int held = points.held_by[p]; held > 0)
             {
+              const double            size = mesh.measure(points.position[p]);
               const Imposition::Share share =
                 conditions[held - 1]->imposition.get()->share(
                   {points.id[p],
                    static_cast<unsigned int>(
                      points.cells[c]->global_active_cell_index()),
-                   static_cast<unsigned int>(std::count(first, last, held)),
-                   n_held[held - 1]});
+                   size / of_cell[held - 1],
+                   size / of_conditions[held - 1]});
               space.cell_nodes(points.cells[c], nodes);
               add_to_row(held - 1,
                          share,

@@ -44,6 +44,7 @@ namespace geocone
                                    const Space          &space,
                                    const Unknowns       *supports)
     : scene(scene)
+    , mesh(mesh)
     , space(space)
     , comm(mesh.triangulation().get_communicator())
     , mesh_is_body(supports != nullptr)
@@ -74,30 +75,63 @@ namespace geocone
 
     path.reinit(space.partitioner());
     path.update_ghost_values(); // zeros, which are read
-    const auto ids = mesh.triangulation().get_boundary_ids();
-    candidates     = space.nodes_on_sides(
-      std::set<types::boundary_id>(ids.begin(), ids.end()));
-    length.reinit(space.partitioner());
-    for (const auto &cell : mesh.own_cells())
-      for (const unsigned int f : cell->face_indices())
-        if (cell->face(f)->at_boundary())
-          for (const FacePoint &point : points_on_face(mesh, space, cell, f))
-            for (unsigned int i = 0; i < point.nodes.size(); ++i)
-              length.local_element(dim * point.nodes[i]) +=
-                point.weight * point.values[i];
-    length.compress(VectorOperation::add);
-    length.update_ghost_values();
-
     if (!scene.contacts.list.empty())
       bodies.emplace(scene, mesh, space).check_start([this](const auto node) {
         return place(node);
       });
+  }
+
+  void
+  ObstacleContact::take_body(const std::vector<BackgroundMesh::Cell> &cells)
+  {
+    if (!exists())
+      return;
+    using Cell                       = BackgroundMesh::Cell;
+    const std::vector<bool> is_there = mesh.is_among(cells);
+    const auto is_bare = [&](const Cell &cell, const unsigned int f) {
+      return is_there[cell->active_cell_index()] &&
+             (cell->face(f)->at_boundary() ||
+              !is_there[cell->neighbor(f)->active_cell_index()]);
+    };
+    candidates = space.nodes_on_faces(is_bare);
+    length.reinit(space.partitioner());
+    Vector                               of_body(space.partitioner());
+    std::vector<types::global_dof_index> nodes;
+    for (const Cell &cell : cells)
+      {
+        for (const unsigned int f : cell->face_indices())
+          if (is_bare(cell, f))
+            for (const FacePoint &point : points_on_face(mesh, space, cell, f))
+              for (unsigned int i = 0; i < point.nodes.size(); ++i)
+                length.local_element(dim * point.nodes[i]) +=
+                  point.weight * point.values[i];
+        space.cell_nodes(cell, nodes);
+        for (const types::global_dof_index node : nodes)
+          for (unsigned int d = 0; d < dim; ++d)
+            of_body.local_element(dim * space.local_node(node) + d) += 1.;
+      }
+    length.compress(VectorOperation::add);
+    length.update_ghost_values();
+    of_body.compress(VectorOperation::add);
+    path.zero_out_ghost_values();
+    for (unsigned int i = 0; i < of_body.locally_owned_size(); ++i)
+      if (of_body.local_element(i) == 0.)
+        path.local_element(i) = 0.;
+    path.update_ghost_values();
+    check_overlap();
+  }
+
+  void
+  ObstacleContact::check_overlap() const
+  {
+    const auto         &list = scene.obstacles.list;
     std::vector<double> least(list.size(), 0.);
     for (unsigned int o = 0; o < list.size(); ++o)
       {
         for (const unsigned int node : candidates)
-          least[o] =
-            std::min(least[o], list[o]->nearest(place(node), {}, {}).distance);
+          least[o] = std::min(
+            least[o],
+            list[o]->nearest(place(node), displacement[o], {}).distance);
         least[o] = Utilities::MPI::min(least[o], comm);
         if (least[o] < -closed_gap * size)
           list[o]->refuse_overlap(format("it is entered by %.3g m", -least[o]));

@@ -19,13 +19,13 @@ namespace geocone
     Share
     mean_of_cell(const Held &particle)
     {
-      return {particle.cell, 1. / particle.n_in_cell};
+      return {particle.cell, particle.of_cell};
     }
 
     Share
     mean_of_all(const Held &particle)
     {
-      return {0, 1. / particle.n};
+      return {0, particle.of_all};
     }
   } // namespace
 

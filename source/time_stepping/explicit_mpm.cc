@@ -133,7 +133,7 @@ namespace geocone
     b_bar        = space.has_b_bar();
     axisymmetric = scene->geometry.is_axisymmetric();
     check_parameters();
-    check_round_body(*scene, space);
+    check_round_body(*scene);
     seeding.prepare(*scene);
     kernels = &transfer_kernels();
 

@@ -56,6 +56,9 @@ namespace geocone
       average_in_cells([&](const TransferBlock &points) {
         transfer->gather(points, scratch);
         kernels->find_divergence(points, scratch);
+        if (axisymmetric)
+          for (unsigned int k = 0; k < points.n; ++k)
+            scratch.divergence[k] += hoop_rate(k, points.x[0][k]);
         return scratch.divergence;
       });
     for_each_block([&](const TransferBlock &points) {
@@ -110,10 +113,10 @@ namespace geocone
   {
     PointArrays           &group = groups[points.group];
     const ConstitutiveLaw &law   = scene->materials.law(group.of_material);
-    if (b_bar)
-      kernels->replace_divergence(dt, points, scratch);
     if (axisymmetric)
       strain_around_axis(update, dt, points);
+    if (b_bar)
+      kernels->replace_divergence(dt, points, scratch);
     history.resize(group.n_history());
     for (unsigned int k = 0; k < group.n_history(); ++k)
       history[k] = group.history[k] + points.first;
@@ -175,15 +178,24 @@ namespace geocone
     transfer->exchange_cells();
   }
 
+  namespace
+  {
+    /** tr s/dim of a point of a block (Pa). */
+    double
+    mean_stress(const TransferBlock &points, const unsigned int k)
+    {
+      double mean = 0.;
+      for (unsigned int d = 0; d < dim; ++d)
+        mean += points.s[place_of_component[d][d]][k] / dim;
+      return mean;
+    }
+  } // namespace
+
   void
   ExplicitMPM::find_mean_stress(const TransferBlock &points)
   {
     for (unsigned int k = 0; k < points.n; ++k)
-      {
-        scratch.mean_stress[k] = 0.;
-        for (unsigned int d = 0; d < dim; ++d)
-          scratch.mean_stress[k] += points.s[place_of_component[d][d]][k] / dim;
-      }
+      scratch.mean_stress[k] = mean_stress(points, k);
   }
 
   void
@@ -192,20 +204,26 @@ namespace geocone
     const bool force = gives == Gives::force || gives == Gives::all;
     const bool mass  = gives == Gives::momentum_and_mass || gives == Gives::all;
     const bool momentum = gives != Gives::force;
+    if (b_bar && force)
+      transfer->average(points, scratch.mean_stress);
     if (axisymmetric && force)
       force_around_axis(points);
     kernels->prepare_scatter(momentum, force, points, scratch);
     if (b_bar && force)
-      {
-        transfer->average(points, scratch.mean_stress);
-        kernels->replace_mean_stress(points, scratch);
-      }
+      kernels->replace_mean_stress(points, scratch);
     if (force)
       transfer->scatter(points, scratch, mass);
     else
       transfer->scatter_values(points, scratch, mass);
     if (affine && momentum)
       transfer->scatter_affine(points, scratch);
+  }
+
+  double
+  ExplicitMPM::hoop_rate(const unsigned int k, const double r) const
+  {
+    return scratch.gathered[BlockScratch::n_gathered * k] /
+           std::max(r, least_radius);
   }
 
   void
@@ -215,10 +233,13 @@ namespace geocone
   {
     for (unsigned int k = 0; k < points.n; ++k)
       {
-        const double moved =
-          dt * scratch.gathered[BlockScratch::n_gathered * k];
-        const double r  = points.x[0][k] - (update.position ? moved : 0.);
-        scratch.l_zz[k] = moved / std::max(r, least_radius);
+        double r = points.x[0][k]; // before the step
+        if (update.position)
+          r -= dt * scratch.gathered[BlockScratch::n_gathered * k];
+        const double rate = hoop_rate(k, r);
+        scratch.l_zz[k]   = dt * rate;
+        if (b_bar) // the mean has it, too
+          scratch.divergence[k] -= rate;
       }
   }
 
@@ -231,8 +252,10 @@ namespace geocone
     for (unsigned int k = 0; k < points.n; ++k)
       {
         group.copy_history(points.first + k, point_history.data());
-        const double s_zz = law.stress_zz(
-          group.stress_components(points.first + k), point_history.data());
+        double s_zz = law.stress_zz(group.stress_components(points.first + k),
+                                    point_history.data());
+        if (b_bar)
+          s_zz += scratch.mean_stress[k] - mean_stress(points, k);
         scratch.hoop_force[k] =
           -points.volume[k] * s_zz / std::max(points.x[0][k], least_radius);
         hoop_force += scratch.hoop_force[k];

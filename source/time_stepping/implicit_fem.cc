@@ -66,12 +66,14 @@ namespace geocone
                        "0 without inertia",
                        "set Time stepping/Inertia = true");
     RaisedLoads::check(*scene);
-    check_round_body(*scene, space_);
+    check_round_body(*scene);
     check_midpoint(integration, *scene, "Time stepping/Integration");
     points = make_quadrature_points(*scene, mesh_, space_);
     if (scene->loading.changes_body())
       {
-        check_changes();
+        scene->contacts.refuse("stages that remove or add material, with FEM",
+                               "let one of the bodies be an obstacle, or set "
+                               "Discretisation/Method = MPM");
         points = quadrature_points_of(
           *scene, mesh_, space_, {}, [&](const BackgroundMesh::Cell &cell) {
             return !scene->loading.adds(
@@ -93,8 +95,6 @@ namespace geocone
       newton.linear_solver(),
       mesh_.triangulation().get_communicator(),
       scene->materials.symmetric() && !obstacles->exists());
-    absorbing = std::make_unique<AbsorbingBoundary>(*scene, mesh_, space_);
-    absorbing->check(*constraints);
     begin(points, timer);
     constraints->check_axis(mesh_, space_);
     check_resistance(points, mesh_.triangulation().get_communicator());
@@ -120,7 +120,11 @@ namespace geocone
     // Whether obstacles hold the body is not known before they touch.
     if (!inertia && !obstacles->exists())
       constraints->check_support(*mesh, *space, points);
+    obstacles->take_body(points.cells);
     loads = std::make_unique<Loads>(*scene, *mesh, *space, points);
+    absorbing =
+      std::make_unique<AbsorbingBoundary>(*scene, *mesh, *space, &points);
+    absorbing->check(*constraints);
     if (inertia || scene->gravity.acts())
       integrate_density(
         *scene, *mesh, *space, points, weight_per_g, lumped_mass);
@@ -139,16 +143,6 @@ namespace geocone
       problem->add(*absorbing);
     system->set_pattern(*problem, timer);
     begun = true;
-  }
-
-  void
-  ImplicitFEM::check_changes() const
-  {
-    const std::string who    = "stages that remove or add material, with FEM",
-                      remedy = "leave one of them out, or set "
-                               "Discretisation/Method = MPM";
-    scene->refuse_contact(who, remedy);
-    scene->absorbing.refuse(who, "leave one of them out");
   }
 
   Vector

@@ -196,7 +196,7 @@ namespace geocone
     space = &space_;
     check_parameters();
     RaisedLoads::check(*scene);
-    check_round_body(*scene, *space);
+    check_round_body(*scene);
     check_midpoint(integration, *scene, "Material point method/Integration");
 
     for (const auto &condition : scene->dirichlet.list)
@@ -216,7 +216,7 @@ namespace geocone
 
     constraints = std::make_unique<Constraints>(*scene, *mesh, *space);
     absorbing =
-      std::make_unique<AbsorbingBoundary>(*scene, *mesh, *space, true);
+      std::make_unique<AbsorbingBoundary>(*scene, *mesh, *space, nullptr);
     obstacles =
       std::make_unique<ObstacleContact>(*scene, *mesh, *space, nullptr);
     if (!scene->contacts.list.empty())

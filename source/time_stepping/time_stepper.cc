@@ -17,7 +17,7 @@ namespace geocone
   using namespace dealii;
 
   void
-  check_round_body(const Scene &scene, const Space &space)
+  check_round_body(const Scene &scene)
   {
     if (!scene.geometry.is_axisymmetric())
       return;
@@ -25,13 +25,6 @@ namespace geocone
                           "let one of the bodies be an obstacle");
     for (const auto &obstacle : scene.obstacles.list)
       obstacle->check_round();
-    if (space.has_b_bar())
-      throw InputError(
-        "Discretisation/B-bar",
-        "true",
-        "false where Geometry/Symmetry = axisymmetric",
-        "take triangles of degree 3, which lock least: soil that "
-        "keeps its volume is too strong on quadrilaterals");
   }
 
   std::vector<unsigned int>

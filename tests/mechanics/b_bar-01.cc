@@ -43,6 +43,9 @@ mean_gradients(const MaterialPoints &points)
           volume += points.weight[p];
           for (unsigned int i = 0; i < m; ++i)
             mean[i] += points.weight[p] * points.gradients[p * m + i];
+          for (unsigned int i = 0; i < points.n_nodes && !points.hoop.empty();
+               ++i)
+            mean[i] += points.weight[p] * points.hoop[p * points.n_nodes + i];
         }
       for (double &value : mean)
         value /= volume;
@@ -66,17 +69,24 @@ check(const std::string &element,
       const Volume       volume_rule,
       const double       consistent_part,
       const std::string &dilatancy,
-      const std::string &fluid    = "0",
-      const unsigned int n_points = 300)
+      const std::string &fluid       = "0",
+      const unsigned int n_points    = 300,
+      const bool         around_axis = false)
 {
-  Setup setup("discretisation/box.prm",
-              {"Discretisation/Element = " + element,
-               "Boundary conditions/Names = bottom, left",
-               "Particles/Layout = random",
-               "Particles/Number = " + std::to_string(n_points),
-               "Materials/soil/Cohesion = 50",
-               "Materials/soil/Dilatancy angle = " + dilatancy,
-               "Materials/soil/Pore fluid bulk modulus = " + fluid});
+  std::vector<std::string> values = {
+    "Discretisation/Element = " + element,
+    "Boundary conditions/Names = bottom, left",
+    "Particles/Layout = random",
+    "Particles/Number = " + std::to_string(n_points),
+    "Materials/soil/Cohesion = 50",
+    "Materials/soil/Dilatancy angle = " + dilatancy,
+    "Materials/soil/Pore fluid bulk modulus = " + fluid};
+  if (around_axis)
+    {
+      values.push_back("Geometry/Symmetry = axisymmetric");
+      values.push_back("Materials/soil/Type = Drucker-Prager");
+    }
+  Setup setup("discretisation/box.prm", values);
   setup.prepare();
   MaterialPoints points;
   setup.particles.prepare(setup.scene, setup.mesh, setup.space, points);
@@ -95,7 +105,7 @@ check(const std::string &element,
                         -300. + 50. * some(7 * p + 1),
                         30. * some(7 * p + 2)};
   if (speaks())
-    std::printf("%s, %s, consistent part %g, dilatancy %s%s%s\n",
+    std::printf("%s, %s, consistent part %g, dilatancy %s%s%s%s\n",
                 element.c_str(),
                 cell_pressures ? "pressures of cells"
                 : b_bar        ? "B-bar"
@@ -103,7 +113,8 @@ check(const std::string &element,
                 consistent_part,
                 dilatancy.c_str(),
                 fluid == "0" ? "" : ", undrained",
-                n_points == 300 ? "" : ", few points");
+                n_points == 300 ? "" : ", few points",
+                around_axis ? ", around an axis" : "");
 
   const auto &layout = setup.space.partitioner();
   Vector      mass(layout);
@@ -147,18 +158,21 @@ check(const std::string &element,
         report.n_cone > n_points / 15 &&
           report.n_cone + report.n_apex + n_points / 15 < n_points);
 
-  // Strains: those of B v, with the mean of their traces.
+  // Strains: those of B v, with the mean of their traces, which around an axis have the
+  // hoop strains.
   const unsigned int nn = points.n_nodes;
   double trace_error = 0., shear_error = 0., spread = 0., pressure_error = 0.;
   for (unsigned int c = 0; c < points.n_cells(); ++c)
     {
       std::vector<Mandel> e;
+      std::vector<double> hoop;
       double              mean = 0., volume = 0.;
       for (unsigned int p = points.first_point[c];
            p < points.first_point[c + 1];
            ++p)
         {
           e.push_back(Mandel::Zero());
+          hoop.push_back(0.);
           for (unsigned int i = 0; i < nn; ++i)
             {
               const unsigned int dof = dim * points.nodes[c * nn + i];
@@ -167,8 +181,10 @@ check(const std::string &element,
               const double vx        = h * v.local_element(dof),
                            vy        = h * v.local_element(dof + 1);
               e.back() += Mandel(gx * vx, gy * vy, (gy * vx + gx * vy) / sqrt2);
+              if (around_axis)
+                hoop.back() += points.hoop[p * nn + i] * vx;
             }
-          mean += points.weight[p] * (e.back()[0] + e.back()[1]);
+          mean += points.weight[p] * (e.back()[0] + e.back()[1] + hoop.back());
           volume += points.weight[p];
         }
       mean /= volume;
@@ -185,15 +201,16 @@ check(const std::string &element,
           for (unsigned int j = 0; j < n_modes; ++j)
             {
               const double weight = points.weight[p] * mode(q)[j];
-              got_part[j] += weight * (got[0] + got[1]);
-              part[j] += weight * (e[q][0] + e[q][1]);
+              got_part[j] += weight * (got[0] + got[1] + hoop[q]);
+              part[j] += weight * (e[q][0] + e[q][1] + hoop[q]);
               pressure[j] += weight * (total[0] + total[1]);
             }
-          const double trace = e[q][0] + e[q][1];
+          const double trace = e[q][0] + e[q][1] + hoop[q];
           spread             = std::max(spread, std::abs(trace - mean));
           if (!cell_pressures)
             trace_error = std::max(
-              trace_error, std::abs(got[0] + got[1] - (b_bar ? mean : trace)));
+              trace_error,
+              std::abs(got[0] + got[1] + hoop[q] - (b_bar ? mean : trace)));
           shear_error = std::max({shear_error,
                                   std::abs(got[0] - got[1] - e[q][0] + e[q][1]),
                                   std::abs(got[2] - e[q][2])});
@@ -325,4 +342,11 @@ main(int argc, char **argv)
   check("Q3", Volume::cell_pressures, 0.6, "10", "0", 60);
   check("B-spline 3", Volume::cell_pressures, 0., "10");
   check("B-spline 3", Volume::cell_pressures, 0.6, "25", "1e8");
+  const unsigned int n = 300;
+  check("Q1", Volume::of_points, 0.6, "25", "0", n, true);
+  check("Q1", Volume::b_bar, 0.6, "25", "0", n, true);
+  check("Q1", Volume::b_bar, 0.6, "10", "1e8", n, true);
+  check("Q1", Volume::cell_pressures, 0.6, "25", "0", n, true);
+  check("B-spline 3", Volume::cell_pressures, 0.6, "10", "0", n, true);
+  check("Q2", Volume::cell_pressures, 0.6, "25", "1e8", n, true);
 }

@@ -104,6 +104,11 @@ namespace geocone
       return owners;
     }
 
+    /** Whether a cell, of this rank or beside it, is one of those that the ranks give,
+     *  each of its own; by the active cell index. Collective. */
+    std::vector<bool>
+    is_among(const std::vector<Cell> &cells) const;
+
     /** Whether x is the radius of a round body. */
     bool
     is_axisymmetric() const

@@ -55,7 +55,7 @@ namespace geocone
 
     /**
      * What the volumetric strain at a point comes from in place of grad N, laid out as
-     * gradients (B-bar). Empty without B-bar.
+     * gradients (B-bar); of round bodies with the hoop strain. Empty without B-bar.
      */
     std::vector<double> volumetric_gradients;
     /** Number of the polynomials in a cell that they are projected onto; 0 where they
@@ -96,9 +96,9 @@ namespace geocone
     append(const double *row);
   };
 
-  /** Fills the volumetric gradients: in each cell the projection of grad N, weighted by
-   *  volume, onto the polynomials of x of a degree, 0 being the mean. With no more points
-   *  than polynomials nothing changes in a cell. */
+  /** Fills the volumetric gradients: in each cell the projection of grad N (of d/dr + 1/r
+   *  around an axis), weighted by volume, onto the polynomials of x of a degree, 0 being
+   *  the mean. With no more points than polynomials nothing changes in a cell. */
   void
   project_gradients(const unsigned int degree, MaterialPoints &points);
 } // namespace geocone

@@ -17,6 +17,7 @@
 
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -204,6 +205,11 @@ namespace geocone
      */
     std::vector<unsigned int>
     nodes_on_sides(const std::set<dealii::types::boundary_id> &ids) const;
+
+    /** The same of the faces of cells, of this rank or beside it, that @p holds. */
+    std::vector<unsigned int>
+    nodes_on_faces(
+      const std::function<bool(const Cell &, const unsigned int)> &holds) const;
 
   private:
     /** A finite element of deal.II. @return the nodes that this rank owns */

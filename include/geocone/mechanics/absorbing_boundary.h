@@ -4,6 +4,7 @@
 #ifndef geocone_mechanics_absorbing_boundary_h
 #define geocone_mechanics_absorbing_boundary_h
 
+#include <geocone/discretisation/material_points.h>
 #include <geocone/mechanics/term.h>
 #include <geocone/mechanics/unknowns.h>
 #include <geocone/scene/scene.h>
@@ -23,12 +24,13 @@ namespace geocone
   class AbsorbingBoundary : public Term
   {
   public:
-    /** @param of_particles whether the soil at a side is that of the regions, and not
-     *  of the cells @throws InputError if a part has no face */
+    /** @param body the points of the cells that there are, whose soil it is; null where
+     *  they move: then it is that of the regions @throws InputError if a part has no
+     *  face */
     AbsorbingBoundary(const Scene          &scene,
                       const BackgroundMesh &mesh,
                       const Space          &space,
-                      const bool            of_particles = false);
+                      const MaterialPoints *body);
 
     /** Whether the scene has any. */
     bool

@@ -28,7 +28,8 @@ namespace geocone
    * and B_p that of B-bar: the stationary point of the functional of strains, where it
    * has one, with the mean stress such a polynomial in each cell. Without dilatancy and
    * with one elasticity the changes of pi_p are such a polynomial already, and this is
-   * B-bar.
+   * B-bar. Around an axis n = 2 too: hoop strains are those of the points, and tr(e) has
+   * them.
    *
    * The t_p follow from Newton's method in the cell, with k_p = I'C_p I/n^2 and steps
    * that are shortened where they go too far:
@@ -52,13 +53,15 @@ namespace geocone
      * Adds t_p I/n to the strains.
      * @param update finds stresses and tangents of the strains of points from the
      * first to before the second number
+     * @param strain_zz hoop strains, empty but around an axis
      */
     void
     equalise(
       const std::function<void(const unsigned int, const unsigned int)> &update,
       const std::vector<Mandel>                                         &stress,
       const std::vector<MandelMatrix> &tangent,
-      std::vector<Mandel>             &strain);
+      std::vector<Mandel>             &strain,
+      const std::vector<double>       &strain_zz);
 
     /** What is left of the differences from polynomials, over the greatest stress of
      *  the points of this rank, after equalise(). */
@@ -70,9 +73,11 @@ namespace geocone
 
     /** Of the rates of the points of a cell by B-bar: adds those of t_p I/n. */
     void
-    equalise_rates(const unsigned int               cell,
-                   const std::vector<MandelMatrix> &tangent,
-                   std::vector<Mandel>             &rate);
+    equalise_rates(const unsigned int                    cell,
+                   const std::vector<MandelMatrix>      &tangent,
+                   const std::vector<OutOfPlaneTangent> &tangent_zz,
+                   std::vector<Mandel>                  &rate,
+                   const std::vector<double>            &rate_zz);
 
     /** Q3 has the most polynomials in a cell, those of degree 2. */
     static constexpr int most_modes = dim == 2 ? 6 : 10;
@@ -99,6 +104,7 @@ namespace geocone
     struct Condensed
     {
       std::vector<Mandel> left, right; ///< a_p/k_p, b_p/k_p, times the weight
+      std::vector<double> left_zz, right_zz; ///< around an axis, along the hoop
       Basis               basis;
     };
 
@@ -109,12 +115,14 @@ namespace geocone
      *   L G^-1 R',   L_j = sum_p B_p' (V/k M_j)_p a_p,   R_j = sum_p B_p' (V/k M_j)_p b_p.
      * @param C tangents, with the fluid's part, times a factor and the weight V of
      * their points; @p factor is that factor
+     * @param C_zz those out of the plane around an axis, treated alike; else empty
      */
     void
-    condense(const unsigned int         cell,
-             const double               factor,
-             std::vector<MandelMatrix> &C,
-             Condensed                 &result) const;
+    condense(const unsigned int              cell,
+             const double                    factor,
+             std::vector<MandelMatrix>      &C,
+             std::vector<OutOfPlaneTangent> &C_zz,
+             Condensed                      &result) const;
 
   private:
     /** p_n of a point (Pa); 0 where no soil is undrained. */
@@ -127,7 +135,7 @@ namespace geocone
     evaluate(const unsigned int  point,
              const double        mean_stress,
              const MandelMatrix &tangent,
-             const Mandel       &strain);
+             const double        volumetric_strain);
 
     /**
      * Chooses the points with M_j = 1 where the soil is softest, so that large and

@@ -267,12 +267,17 @@ namespace geocone
                const HoopStress          &hoop_stress,
                Vector                    &part) const;
 
-    /** K += the parts of a point's tangent out of the plane. */
+    /** The parts of a point's tangent out of the plane, with the fluid's, times h and
+     *  the weight. */
+    OutOfPlaneTangent
+    tangent_zz_of(const unsigned int p, const double blend) const;
+
+    /** K += those parts. */
     template <int n>
     void
-    add_hoop_stiffness(const unsigned int p,
-                       const double       blend,
-                       double            *K) const;
+    add_hoop_stiffness(const unsigned int       p,
+                       const OutOfPlaneTangent &C,
+                       double                  *K) const;
 
     bool
     is_axisymmetric() const

@@ -100,9 +100,10 @@ namespace geocone
       std::vector<MovingBoundary::Line> before = {};
     };
 
-    /** Held particles of each condition, of all ranks. Collective. */
-    std::vector<unsigned int>
-    count_held(const MaterialPoints &points) const;
+    /** The number of held particles of each condition, around an axis the sum of their
+     *  circumferences (m); of all ranks. Collective. */
+    std::vector<double>
+    sum_held(const MaterialPoints &points) const;
 
     /** @name The rows of supports, as they are at time t */
     /** @{ */

@@ -76,6 +76,14 @@ namespace geocone
                     const Space          &space,
                     const Unknowns       *supports);
 
+    /**
+     * Of a mesh that is the body: these cells of this rank are there from now on, with
+     * what bounds them. Nodes that come to the body have moved nothing.
+     * @throws InputError if an obstacle overlaps with them. Collective.
+     */
+    void
+    take_body(const std::vector<BackgroundMesh::Cell> &cells);
+
     /** Whether there are obstacles, or bodies that may touch each other. */
     bool
     exists() const
@@ -176,11 +184,17 @@ namespace geocone
     /** @} */
 
   private:
-    const Scene    &scene;
-    const Space    &space;
-    const MPI_Comm  comm;
-    const bool      mesh_is_body;
-    const Unknowns *supports;
+    const Scene          &scene;
+    const BackgroundMesh &mesh;
+    const Space          &space;
+    const MPI_Comm        comm;
+    const bool            mesh_is_body;
+    const Unknowns       *supports;
+
+    /** @throws InputError if a body whose mesh it is overlaps with obstacles.
+     *  Collective. */
+    void
+    check_overlap() const;
 
     /** Whether boundary conditions hold a node of the mesh against something with this
      *  normal. */

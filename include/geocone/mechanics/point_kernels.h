@@ -228,11 +228,13 @@ namespace geocone::kernels
    * tensor the strain is B + I a'/dim, a the difference of the gradients, so that with
    * w = C I/dim
    * K += sum_q a_q (C_q' I/dim)' B_q + (B_q' w_q) a_q' + (I' w_q/dim) a_q a_q'.
+   * @param hoop N/r around an axis, which the volumetric strain has, too; or null
    * @param volumetric those gradients, laid out as g
    */
   template <int n, bool upper>
   [[gnu::always_inline]] inline void
   add_volumetric_stiffness(const double       *g,
+                           const double       *hoop,
                            const double       *volumetric,
                            const MandelMatrix *C,
                            const unsigned int  n_points,
@@ -247,6 +249,9 @@ namespace geocone::kernels
         for (int i = 0; i < n; ++i)
           for (unsigned int d = 0; d < dim; ++d)
             a[dim * i + d] = volumetric[n * d + i] - g[n * d + i];
+        if (hoop != nullptr)
+          for (int i = 0; i < n; ++i)
+            a[dim * i] -= hoop[n * q + i];
         add_force<n>(g, w, left);
         add_force<n>(g, C[q].transpose() * I, right);
         const double square = I.dot(w);
@@ -261,6 +266,7 @@ namespace geocone::kernels
   template <int n, bool upper>
   [[gnu::always_inline]] inline void
   stiffness_body(const double       *g,
+                 const double       *hoop,
                  const double       *volumetric,
                  const MandelMatrix *C,
                  const unsigned int  n_points,
@@ -272,7 +278,7 @@ namespace geocone::kernels
     else
       stiffness_of_space<n, upper>(g, C, n_points, scratch, K);
     if (volumetric != nullptr)
-      add_volumetric_stiffness<n, upper>(g, volumetric, C, n_points, K);
+      add_volumetric_stiffness<n, upper>(g, hoop, volumetric, C, n_points, K);
   }
 
 #if defined(__x86_64__)
@@ -280,21 +286,23 @@ namespace geocone::kernels
   template <int n, bool upper>
   [[gnu::target("avx2,fma")]] void
   stiffness_avx2(const double       *g,
+                 const double       *hoop,
                  const double       *volumetric,
                  const MandelMatrix *C,
                  const unsigned int  n_points,
                  double             *scratch,
                  double             *K)
   {
-    stiffness_body<n, upper>(g, volumetric, C, n_points, scratch, K);
+    stiffness_body<n, upper>(g, hoop, volumetric, C, n_points, scratch, K);
   }
 #endif
 
-  /** K by the fastest variant that the processor has.
+  /** K by the fastest variant that the processor has, without what is out of the plane.
    *  @param volumetric those of B-bar, or null */
   template <int n, bool upper>
   void
   stiffness(const double       *g,
+            const double       *hoop,
             const double       *volumetric,
             const MandelMatrix *C,
             const unsigned int  n_points,
@@ -305,9 +313,10 @@ namespace geocone::kernels
     static const bool avx2 =
       __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
     if (avx2)
-      return stiffness_avx2<n, upper>(g, volumetric, C, n_points, scratch, K);
+      return stiffness_avx2<n, upper>(
+        g, hoop, volumetric, C, n_points, scratch, K);
 #endif
-    stiffness_body<n, upper>(g, volumetric, C, n_points, scratch, K);
+    stiffness_body<n, upper>(g, hoop, volumetric, C, n_points, scratch, K);
   }
 
   /** Copies the entries of a cell's nodes between a cell vector and a vector. */

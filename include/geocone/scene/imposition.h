@@ -28,9 +28,10 @@ namespace geocone
     struct Held
     {
       unsigned int id;
-      unsigned int cell;      ///< number of its cell
-      unsigned int n_in_cell; ///< held particles in the cell
-      unsigned int n;         ///< held particles of the condition, all ranks
+      unsigned int cell; ///< number of its cell
+      /** Its part of the held particles in its cell, and of all of the condition: one
+       *  over their number, around an axis by circumferences. */
+      double of_cell, of_all;
     };
 
     /** The row that a particle takes part in, and with which weight. */

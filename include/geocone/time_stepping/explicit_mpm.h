@@ -305,6 +305,10 @@ namespace geocone
     /** @name Around an axis: what the strain out of the plane is, in a pass after
      *  points may have moved, and the force by the stress there */
     /** @{ */
+    /** v_r/r of what a point of a block has gathered (1/s). */
+    double
+    hoop_rate(const unsigned int k, const double r) const;
+
     void
     strain_around_axis(const Update         update,
                        const double         dt,

@@ -91,10 +91,6 @@ namespace geocone
     void
     check_resistance(const MaterialPoints &points, const MPI_Comm comm) const;
 
-    /** @throws InputError for what a body that changes cannot have */
-    void
-    check_changes() const;
-
     /** Unknowns, loads, problem and pattern: all that depends on which cells there
      *  are. @throws InputError if nothing holds them */
     void

@@ -139,7 +139,7 @@ namespace geocone
 
   /** @throws InputError for what a scene around an axis cannot have */
   void
-  check_round_body(const Scene &scene, const Space &space);
+  check_round_body(const Scene &scene);
 
   /** Energies::elastic over the points of all ranks (J/m). */
   double
