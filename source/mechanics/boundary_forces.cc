@@ -18,7 +18,7 @@ namespace geocone
     : space(space)
     , has_tractions(!scene.tractions.list.empty())
     , moving(scene, mesh, space)
-    , absorbing(scene, mesh, space, true)
+    , absorbing(scene, mesh, space, nullptr)
     , tractions(space.partitioner())
     , coefficient(space.partitioner())
     , incoming(space.partitioner())
