@@ -321,10 +321,12 @@ namespace geocone
                                std::string       &refusal,
                                ContactStep       &step) const
   {
-    // Obstacles come before bodies that are as near.
+    // What may be met in the step comes before what is nearer but is not, and obstacles
+    // before bodies that are as near.
     std::stable_sort(
       near.begin(), near.end(), [](const Near &a, const Near &b) {
-        return a.gap < b.gap;
+        const bool a_is_far = a.gap > a.reach, b_is_far = b.gap > b.reach;
+        return a_is_far != b_is_far ? b_is_far : a.gap < b.gap;
       });
     std::vector<const Near *> taken;
     for (const Near &at : near)
