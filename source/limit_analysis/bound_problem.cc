@@ -17,6 +17,18 @@ namespace geocone
   using dealii::Point;
   using dealii::Tensor;
 
+  void
+  BoundScene::change(const unsigned int material,
+                     const double       tan_phi,
+                     const double       k_factor)
+  {
+    const double cos_phi = 1. / std::sqrt(1. + tan_phi * tan_phi);
+    PointCone   &cone    = cones[material];
+    cone.a               = tan_phi * cos_phi;
+    cone.k *= k_factor * cos_phi;
+    growth[material].slope *= k_factor * cos_phi;
+  }
+
   bool
   BoundProblem::has_cylinders() const
   {
@@ -72,7 +84,9 @@ namespace geocone
         for (unsigned int i = 0; i < 3; ++i)
           {
             problem.volume.push_back(triangles.area(c) / 3. / (L * L));
-            problem.cone.push_back(bound.cones[triangles.material[c]]);
+            problem.cone.push_back(
+              bound.cone_at(triangles.material[c],
+                            triangles.vertices[triangles.cells[c][i]]));
           }
       problem.n_triangles = triangles.cells.size();
       problem.is_prescribed.assign(n_dofs, false);
@@ -361,10 +375,25 @@ namespace geocone
       return B;
     }
 
-  } // namespace
+    /**
+     * Strength that is linear in a cell times a convex function D of rates that are
+     * linear is at most sum_ij l_i l_j k_i D(e_j), l_i the barycentric coordinates, whose
+     * integral is A/3 sum_j D(e_j) (k_j + sum_i k_i)/4.
+     */
+    void
+    bound_dissipation_from_above(BoundProblem &problem)
+    {
+      for (unsigned int c = 0; c < problem.n_triangles; ++c)
+        {
+          PointCone *const cone = &problem.cone[3 * c];
+          const double     k[3] = {cone[0].k, cone[1].k, cone[2].k};
+          if (k[0] == k[1] && k[1] == k[2])
+            continue;
+          for (unsigned int i = 0; i < 3; ++i)
+            cone[i].k = (k[i] + k[0] + k[1] + k[2]) / 4.;
+        }
+    }
 
-  namespace
-  {
     /** Takes the stress out where soil without cohesion is free.
      *  @param end_dof (edge, vertex) -> its x dof */
     template <typename EndDof>
@@ -393,9 +422,9 @@ namespace geocone
                 is_apex[v] = true;
             }
       for (unsigned int c = 0; c < triangles.cells.size(); ++c)
-        if (problem.cone[3 * c].k > 0.)
-          for (const unsigned int v : triangles.cells[c])
-            is_apex[v] = false;
+        for (unsigned int i = 0; i < 3; ++i)
+          if (problem.cone[3 * c + i].k > 0.)
+            is_apex[triangles.cells[c][i]] = false;
       for (unsigned int c = 0; c < triangles.cells.size(); ++c)
         for (unsigned int i = 0; i < 3; ++i)
           if (const unsigned int v = triangles.cells[c][i]; is_apex[v])
@@ -424,6 +453,7 @@ namespace geocone
     const unsigned int n_nodes    = n_vertices + triangles.edges.size();
     BoundProblem       problem =
       begin_problem(bound, 10, dim * n_nodes + n_dofs_of_obstacles(bound));
+    bound_dissipation_from_above(problem);
     std::vector<bool> is_used(n_vertices, false);
     for (unsigned int c = 0; c < triangles.cells.size(); ++c)
       {

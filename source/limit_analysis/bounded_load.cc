@@ -156,7 +156,10 @@ namespace geocone
                        "and tractions");
     if (std::all_of(flow_cones.begin(),
                     flow_cones.end(),
-                    [](const FlowCone &cone) { return cone.k == 0.; }))
+                    [](const FlowCone &cone) { return cone.k == 0.; }) &&
+        std::all_of(growth.begin(), growth.end(), [](const auto &more) {
+          return more.slope == 0.;
+        }))
       throw InputError("Materials/" + scene.materials.name(0) + "/Cohesion",
                        0,
                        "> 0 Pa for some material where the strength is reduced",
@@ -167,8 +170,22 @@ namespace geocone
   }
 
   void
+  BoundedLoad::check_strength(const Scene     &scene,
+                              const Triangles &triangles) const
+  {
+    for (unsigned int c = 0; c < triangles.cells.size(); ++c)
+      {
+        const Material     &law = scene.materials[triangles.material[c]];
+        std::vector<double> history(law.n_history());
+        for (const unsigned int v : triangles.cells[c])
+          law.take_place(triangles.vertices[v], history.data());
+      }
+  }
+
+  void
   BoundedLoad::check_loads(const Scene &scene, const Triangles &triangles)
   {
+    check_strength(scene, triangles);
     choose_units(scene, triangles);
     const BoundScene   bound   = on(scene, triangles);
     const BoundProblem problem = upper_problem(bound);
@@ -192,6 +209,7 @@ namespace geocone
   {
     scene.materials.check_closed_form("limit load");
     flow_cones.clear();
+    growth.clear();
     for (unsigned int m = 0; m < scene.materials.size(); ++m)
       {
         const auto        cone = scene.materials[m].initial_cone();
@@ -209,6 +227,7 @@ namespace geocone
                            "Mohr-Coulomb | Tresca where loads are bounded",
                            "take the strength that counts, initial or final");
         flow_cones.push_back(*cone);
+        growth.push_back(scene.materials[m].growth());
         less_dilatant = less_dilatant || cone->b < cone->a * (1. - 1e-12);
       }
   }
@@ -307,8 +326,11 @@ namespace geocone
     height       = highest - lowest;
     units.length = std::sqrt(area) / 8.;
     units.stress = 0.;
-    for (const FlowCone &cone : flow_cones)
-      units.stress = std::max(units.stress, cone.k);
+    for (unsigned int m = 0; m < flow_cones.size(); ++m)
+      for (const double y : {lowest, highest})
+        units.stress =
+          std::max(units.stress,
+                   flow_cones[m].k + growth[m].slope * (growth[m].level - y));
     double dead = 0.; // what there is to bear
     for (unsigned int m = 0; m < scene.materials.size(); ++m)
       dead =
@@ -346,9 +368,14 @@ namespace geocone
   BoundedLoad::on(const Scene &scene, const Triangles &triangles) const
   {
     BoundScene bound = {
-      scene, triangles, chosen, units, {}, interfaces(scene, triangles)};
-    for (const FlowCone &cone : flow_cones)
-      bound.cones.push_back({cone.a, cone.k / units.stress});
+      scene, triangles, chosen, units, {}, interfaces(scene, triangles), {}};
+    for (unsigned int m = 0; m < flow_cones.size(); ++m)
+      {
+        bound.cones.push_back(
+          {flow_cones[m].a, flow_cones[m].k / units.stress});
+        bound.growth.push_back(
+          {growth[m].slope / units.stress, growth[m].level});
+      }
     return bound;
   }
 
@@ -358,13 +385,12 @@ namespace geocone
                        const double     F) const
   {
     BoundScene bound = on(scene, triangles);
-    for (PointCone &cone : bound.cones)
-      {
-        const double cos_phi = std::sqrt(1. - cone.a * cone.a),
-                     tan_phi = cone.a / cos_phi / F,
-                     reduced = 1. / std::sqrt(1. + tan_phi * tan_phi);
-        cone = {tan_phi * reduced, cone.k / cos_phi / F * reduced};
-      }
+    for (unsigned int m = 0; m < flow_cones.size(); ++m)
+      if (scene.materials[m].is_reduced())
+        {
+          const double a = flow_cones[m].a, cos_phi = std::sqrt(1. - a * a);
+          bound.change(m, a / cos_phi / F, 1. / cos_phi / F);
+        }
     return bound;
   }
 
@@ -378,11 +404,9 @@ namespace geocone
       {
         const FlowCone &cone      = flow_cones[m];
         const double    cos_theta = std::sqrt(1. - cone.b * cone.b),
-                     reduction    = cos_theta / (1. - cone.a * cone.b) / F,
-                     tan_phi      = reduction * cone.a,
-                     cos_phi      = 1. / std::sqrt(1. + tan_phi * tan_phi);
-        bound.cones[m]            = {tan_phi * cos_phi,
-                                     cone.k / units.stress * reduction * cos_phi};
+                     by           = scene.materials[m].is_reduced() ? F : 1.,
+                     reduction    = cos_theta / (1. - cone.a * cone.b) / by;
+        bound.change(m, reduction * cone.a, reduction);
       }
     return bound;
   }

@@ -29,6 +29,20 @@ namespace geocone
   }
 
   void
+  FrictionalStrength::declare_growth(dealii::ParameterAcceptor &law)
+  {
+    law.add_parameter("Cohesion gradient",
+                      gradient,
+                      "By how much the cohesion grows with depth (Pa/m): c + "
+                      "gradient (level - y). A point keeps what it has at the "
+                      "place where it begins.");
+    law.add_parameter("Cohesion level",
+                      level,
+                      "y (m) of the level at which the cohesion is 'Cohesion', "
+                      "with a 'Cohesion gradient'.");
+  }
+
+  void
   FrictionalStrength::check(const std::string &section) const
   {
     if (!(phi >= 0. && phi < 90.))
@@ -47,7 +61,7 @@ namespace geocone
     if (!(c >= 0.))
       throw InputError(
         section + "/Cohesion", c, "c >= 0 Pa", "give the cohesion in Pa");
-    if (c == 0. && phi == 0.)
+    if (c == 0. && phi == 0. && gradient == 0.)
       throw InputError(section + "/Cohesion",
                        c,
                        "c > 0 Pa where phi = 0",
@@ -61,6 +75,10 @@ namespace geocone
     if (F == 1.)
       return *this;
     const double angle = std::atan(std::tan(radians(phi)) / F) * 180. / pi;
-    return {c / F, angle, theta == phi ? angle : std::min(theta, angle)};
+    return {c / F,
+            angle,
+            theta == phi ? angle : std::min(theta, angle),
+            gradient / F,
+            level};
   }
 } // namespace geocone

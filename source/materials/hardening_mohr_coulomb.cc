@@ -45,6 +45,11 @@ namespace geocone
   HardeningMohrCoulomb::prepare()
   {
     MohrCoulomb::prepare();
+    if (cohesion_grows())
+      throw InputError(parameter("Cohesion gradient"),
+                       growth().slope,
+                       "0 for a law that hardens",
+                       "take Mohr-Coulomb, or layers of several materials");
     if (!(modulus >= 0.))
       throw InputError(
         parameter("Hardening modulus"),

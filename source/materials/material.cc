@@ -22,6 +22,12 @@ namespace geocone
     add_parameter("Poisson ratio",
                   poisson_ratio,
                   "nu (-), between -1 and 0.5, both excluded.");
+    add_parameter("Reduce strength",
+                  reduced,
+                  "Whether the search for a factor of safety ('Analysis/Kind' "
+                  "= strength reduction, or a 'Strength factor' of a stage) "
+                  "reduces the strength of this material; false for a "
+                  "structure, whose strength is not in doubt.");
   }
 
   void

@@ -288,7 +288,8 @@ namespace geocone
   {
     for (const auto &law : list)
       if (auto *material = dynamic_cast<Material *>(law.get()))
-        material->reduce_strength(F);
+        if (material->is_reduced())
+          material->reduce_strength(F);
   }
 
   std::string

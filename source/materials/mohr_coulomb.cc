@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
 #include <geocone/materials/cone_kernel.h>
 #include <geocone/materials/mohr_coulomb.h>
 #include <geocone/materials/varying_cone.h>
@@ -15,6 +16,7 @@ namespace geocone
     : Material(section)
   {
     given.declare(*this);
+    given.declare_growth(*this);
     memory.declare(*this);
   }
 
@@ -24,6 +26,7 @@ namespace geocone
     , memory("0")
   {
     given.declare_cohesion(*this, "Undrained shear strength c (Pa), > 0.");
+    given.declare_growth(*this);
   }
 
   void
@@ -40,6 +43,33 @@ namespace geocone
   {
     const FrictionalStrength now = given.reduced(F);
     cone                         = cone_of(now.c, now.phi, now.theta);
+    k_per_cohesion               = cone_of(1. / F, now.phi, now.theta).k;
+  }
+
+  std::optional<FlowCone>
+  MohrCoulomb::flow_cone(const double *history) const
+  {
+    FlowCone here = cone;
+    if (cohesion_grows() && history != nullptr)
+      here.k += k_per_cohesion * history[place_of_growth()];
+    return here;
+  }
+
+  void
+  MohrCoulomb::take_place(const dealii::Point<dim> &place,
+                          double                   *history) const
+  {
+    if (!cohesion_grows())
+      return;
+    const double more = given.growth(place[1]), here = given.c + more;
+    if (!(here > 0. || (here == 0. && given.phi > 0.)))
+      throw InputError(
+        parameter("Cohesion gradient"),
+        given.gradient,
+        format("a cohesion > 0 Pa everywhere; here it is %g Pa", here),
+        "give 'Cohesion' at the top of the soil, and its y as "
+        "'Cohesion level'");
+    history[place_of_growth()] = more;
   }
 
   FlowCone
@@ -85,6 +115,8 @@ namespace geocone
     std::vector<Shown> all = Material::shown();
     if (memory.time() > 0.)
       all.push_back({"remembered_normal_stress", "remembered s_n (Pa)"});
+    if (cohesion_grows())
+      all.push_back({"cohesion", "cohesion (Pa)"});
     return all;
   }
 
@@ -94,8 +126,11 @@ namespace geocone
                     double           *values) const
   {
     Material::show(stress, history, values);
+    values += Material::shown().size();
     if (memory.time() > 0.)
-      values[Material::shown().size()] = history[place_of_memory];
+      *values++ = history[place_of_memory];
+    if (cohesion_grows())
+      *values = given.c + history[place_of_growth()];
   }
 
   std::optional<FlowCone>
@@ -161,8 +196,8 @@ namespace geocone
   void
   MohrCoulomb::advance(const PointBlock &block, LawCounts &counts) const
   {
-    const bool only_remembers =
-      memory.time() > 0. && n_history() == MohrCoulomb::n_history();
+    const bool only_remembers = memory.time() > 0. && !cohesion_grows() &&
+                                n_history() == MohrCoulomb::n_history();
     if (!only_remembers)
       return Material::advance(block, counts);
     counts.updates += block.n_points;

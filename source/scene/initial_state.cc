@@ -87,6 +87,11 @@ namespace geocone
                     i == 0 ? std::string("For 'given': formula in ") +
                                coordinates + " (Pa, tension positive)."
                            : std::string("As Stress xx."));
+    of_added.declare(
+      *this,
+      "Of added materials",
+      ": the stress of what stages add ('Added materials'). Geostatic: of the "
+      "weight of what comes at the same time, and K0.");
     if (dim == 2)
       add_parameter(
         "Stress zz", text_zz, "For 'given': as Stress xx; empty: equal to it.");
@@ -104,16 +109,26 @@ namespace geocone
                   "For 'geostatic': vertical pressure on the surface (Pa).");
   }
 
+  bool
+  InitialStress::has(const Type one) const
+  {
+    return type == one ||
+           (of_added == one &&
+            std::any_of(stage_of.begin(), stage_of.end(), [](const int stage) {
+              return stage >= 0;
+            }));
+  }
+
   void
-  InitialStress::prepare(const Gravity           &gravity,
-                         const Geometry          &geometry,
-                         const Regions           &regions,
-                         const Water             &water_of_scene,
-                         const std::vector<bool> &is_added_later)
+  InitialStress::prepare(const Gravity          &gravity,
+                         const Geometry         &geometry,
+                         const Regions          &regions,
+                         const Water            &water_of_scene,
+                         const std::vector<int> &stage_that_adds)
   {
     water    = water_of_scene.acts() ? &water_of_scene : nullptr;
-    is_added = is_added_later;
-    if (type == Type::given)
+    stage_of = stage_that_adds;
+    if (has(Type::given))
       {
         for (unsigned int i = 0; i < texts.size(); ++i)
           components[i].prepare(texts[i],
@@ -121,28 +136,51 @@ namespace geocone
         if (!text_zz.empty())
           component_zz.prepare(text_zz, "Initial stress/Stress zz");
       }
-    else if (type == Type::geostatic)
+    if (has(Type::geostatic))
       {
-        // The final value: a geostatic state is one under full gravity.
-        const dealii::Tensor<1, dim> full = gravity.at(1e300);
-        if (full[0] != 0. || full[1] > 0. || (dim == 3 && full[dim - 1] != 0.))
-          throw InputError("Gravity/Acceleration",
-                           dealii::Patterns::Tools::to_string(full),
-                           "g_x = 0 and g_y <= 0 with a geostatic initial "
-                           "stress",
-                           "give the initial stress by formulas instead");
         prepare_k0();
-        g = -full[1];
-        if (regions.have_numbers())
-          throw InputError("Initial stress/Type",
-                           type.word(),
-                           "zero | given, where materials are found by their "
-                           "region numbers",
-                           "give the stress by formulas, or the materials by "
-                           "region polygons");
+        // The final value: a geostatic state is one under full gravity.
+        g = -gravity.at(1e300)[1];
+      }
+    if (type == Type::geostatic)
+      {
+        check_geostatic("Initial stress/Type", type.word(), gravity, regions);
         check_level_ground(geometry);
         check_level_water();
       }
+    if (has(Type::geostatic) && of_added == Type::geostatic)
+      {
+        const std::string parameter = "Initial stress/Of added materials";
+        if (geometry.shape == Geometry::Shape::file)
+          throw InputError(parameter,
+                           of_added.word(),
+                           "zero | given, where the body is that of a file",
+                           "give the stress by formulas");
+        check_geostatic(parameter, of_added.word(), gravity, regions);
+        top = geometry.bounding_box().second[1];
+      }
+  }
+
+  void
+  InitialStress::check_geostatic(const std::string &parameter,
+                                 const std::string &word,
+                                 const Gravity     &gravity,
+                                 const Regions     &regions) const
+  {
+    const dealii::Tensor<1, dim> full = gravity.at(1e300);
+    if (full[0] != 0. || full[1] > 0. || (dim == 3 && full[dim - 1] != 0.))
+      throw InputError("Gravity/Acceleration",
+                       dealii::Patterns::Tools::to_string(full),
+                       "g_x = 0 and g_y <= 0 with a geostatic initial "
+                       "stress",
+                       "give the initial stress by formulas instead");
+    if (regions.have_numbers())
+      throw InputError(parameter,
+                       word,
+                       "zero | given, where materials are found by their "
+                       "region numbers",
+                       "give the stress by formulas, or the materials by "
+                       "region polygons");
   }
 
   void
@@ -212,41 +250,67 @@ namespace geocone
                        "give the level of the ground");
   }
 
+  double
+  InitialStress::vertical_stress(const dealii::Point<dim> &x,
+                                 const int                 stage,
+                                 const Materials          &materials,
+                                 const Regions            &regions) const
+  {
+    // By a midpoint sum that is exact for one material and within a 400th of the
+    // depth at layer boundaries.
+    const double       depth = (stage < 0 ? surface : top) - x[1];
+    const unsigned int n     = materials.size() == 1 ? 1 : 400;
+    const double       part  = depth / n;
+    double             mass = 0., of_water = 0.;
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        dealii::Point<dim> above = x;
+        above[1] += part * (i + 0.5);
+        const unsigned int m = regions.material_at(above, -1);
+        if (stage_of[m] != stage)
+          continue;
+        mass += materials.law(m).density() * part;
+        if (water == nullptr || stage < 0)
+          continue;
+        dealii::Point<dim> low = above, high = above;
+        low[1] -= part / 2.;
+        high[1] += part / 2.;
+        of_water += water->pressure(low) - water->pressure(high);
+      }
+    if (stage >= 0)
+      return of_water - g * mass;
+    double vertical = -(surcharge + g * mass);
+    if (water != nullptr)
+      {
+        dealii::Point<dim> ground = x;
+        ground[1]                 = surface;
+        vertical += water->pressure(x) - water->pressure(ground);
+      }
+    return vertical;
+  }
+
   Mandel
   InitialStress::at(const dealii::Point<dim> &x,
                     const unsigned int        material,
                     const Materials          &materials,
                     const Regions            &regions) const
   {
-    if (type == Type::zero || is_added[material])
-      return Mandel::Zero();
-    if (type == Type::given)
+    switch (type_of(material))
       {
-        std::array<double, n_mandel> values;
-        for (int i = 0; i < n_mandel; ++i)
-          values[i] = components[i].value(x, 0.);
-        return mandel_of_components(values);
+        case Type::zero:
+          return Mandel::Zero();
+        case Type::given:
+          {
+            std::array<double, n_mandel> values;
+            for (int i = 0; i < n_mandel; ++i)
+              values[i] = components[i].value(x, 0.);
+            return mandel_of_components(values);
+          }
+        case Type::geostatic:
+          break;
       }
-
-    // Weight of the column above x, by a midpoint sum that is exact
-    // for one material and within a 400th of the depth at layer boundaries.
-    const double       depth = surface - x[1];
-    const unsigned int n     = materials.size() == 1 ? 1 : 400;
-    double             mass  = 0.;
-    for (unsigned int i = 0; i < n; ++i)
-      {
-        dealii::Point<dim> above = x;
-        above[1] += depth * (i + 0.5) / n;
-        if (const unsigned int m = regions.material_at(above, -1); !is_added[m])
-          mass += materials.law(m).density() * depth / n;
-      }
-    double vertical = -(surcharge + g * mass);
-    if (water != nullptr)
-      {
-        dealii::Point<dim> top = x;
-        top[1]                 = surface;
-        vertical += water->pressure(x) - water->pressure(top);
-      }
+    const double vertical =
+      vertical_stress(x, stage_of[material], materials, regions);
     const ConstitutiveLaw &law    = materials.law(material);
     const double           ratio  = law.given_k0() > 0. ? law.given_k0()
                                     : k0                ? *k0
@@ -261,7 +325,7 @@ namespace geocone
                        const unsigned int        material,
                        const Mandel             &in_plane) const
   {
-    return type == Type::given && !text_zz.empty() && !is_added[material]
+    return type_of(material) == Type::given && !text_zz.empty()
              ? component_zz.value(x, 0.)
              : in_plane[0];
   }

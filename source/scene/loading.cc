@@ -134,7 +134,8 @@ namespace geocone
         stage.added_materials,
         "FEM and MPM: names of materials whose regions are empty before this "
         "stage (an embankment, a backfill): they are there from its beginning "
-        "on, without stress, with what is elastic of them at once.");
+        "on, with what is elastic of them at once, and with the stress of "
+        "'Initial stress/Of added materials'.");
       stage.add_parameter(
         "Addition duration",
         stage.addition_duration,
@@ -471,13 +472,14 @@ namespace geocone
     });
   }
 
-  bool
-  LoadingProgramme::adds(const std::string &material) const
+  int
+  LoadingProgramme::stage_that_adds(const std::string &material) const
   {
-    return std::any_of(stages.begin(), stages.end(), [&](const auto &stage) {
-      const auto &added = stage->added_materials;
-      return std::find(added.begin(), added.end(), material) != added.end();
-    });
+    for (unsigned int i = 0; i < stages.size(); ++i)
+      if (const auto &added = stages[i]->added_materials;
+          std::find(added.begin(), added.end(), material) != added.end())
+        return i;
+    return -1;
   }
 
   bool

@@ -59,11 +59,12 @@ namespace geocone
     if (geometry.is_axisymmetric())
       materials.set_axisymmetric();
     std::vector<std::string> names;
-    std::vector<bool>        is_added, is_made;
+    std::vector<int>         stage_that_adds;
+    std::vector<bool>        is_made;
     for (unsigned int i = 0; i < materials.size(); ++i)
       {
         names.push_back(materials.name(i));
-        is_added.push_back(loading.adds(names.back()));
+        stage_that_adds.push_back(loading.stage_that_adds(names.back()));
         is_made.push_back(loading.makes(names.back()));
       }
     std::vector<std::string> loads;
@@ -81,7 +82,7 @@ namespace geocone
     water.prepare(gravity, geometry);
     water.prepare_stages(loading);
     initial_velocity.prepare();
-    initial_stress.prepare(gravity, geometry, regions, water, is_added);
+    initial_stress.prepare(gravity, geometry, regions, water, stage_that_adds);
     dirichlet.prepare();
     tractions.prepare();
     absorbing.prepare();

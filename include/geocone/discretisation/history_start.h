@@ -30,6 +30,7 @@ namespace geocone
     {
       try
         {
+          law.take_place(place, history);
           const std::string remark = law.initialise(stress, size, history);
           if (!remark.empty() && n_changed++ == 0)
             change = remark;

@@ -116,6 +116,24 @@ namespace geocone
     BoundUnits             units;
     std::vector<PointCone> cones; ///< of the materials, in units
     std::vector<Interface> interfaces;
+
+    /** How the k of cones grow with depth, of the materials (in units, per m). */
+    std::vector<Material::Growth> growth;
+
+    PointCone
+    cone_at(const unsigned int material, const dealii::Point<dim> &x) const
+    {
+      const Material::Growth &more = growth[material];
+      return {cones[material].a,
+              cones[material].k + more.slope * (more.level - x[1])};
+    }
+
+    /** Makes a material's strength another one: tan(phi), and k over cos(phi) times a
+     *  factor. */
+    void
+    change(const unsigned int material,
+           const double       tan_phi,
+           const double       k_factor);
   };
 
   /**

@@ -97,6 +97,9 @@ namespace geocone
     BoundUnits units;
 
   private:
+    /** @throws InputError where strength that grows with depth is not there */
+    void
+    check_strength(const Scene &scene, const Triangles &triangles) const;
     void
     check_loads(const Scene &scene, const Triangles &triangles);
     void
@@ -117,7 +120,9 @@ namespace geocone
     LoadFactor            chosen    = LoadFactor::automatic;
     double                load_unit = 1.;
     std::vector<FlowCone> flow_cones;
-    bool                  less_dilatant = false;
+    /** How their k grow with depth (Pa/m). */
+    std::vector<Material::Growth> growth;
+    bool                          less_dilatant = false;
   };
 } // namespace geocone
 

@@ -126,6 +126,12 @@ namespace geocone
                const double  size,
                double       *history) const = 0;
 
+    /** Sets what of the history depends on where a point begins, before initialise().
+     *  @throws InputError for a place where the law cannot be */
+    virtual void
+    take_place(const dealii::Point<dim> & /*place*/, double * /*history*/) const
+    {}
+
     /** The size that a point was given by initialise(), of laws that need it (m). */
     virtual double
     size(const double * /*history*/) const

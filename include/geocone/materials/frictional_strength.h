@@ -17,6 +17,16 @@ namespace geocone
     double phi   = 25.;   ///< friction angle (degrees)
     double theta = 25.;   ///< dilatancy angle (degrees)
 
+    double gradient = 0.; ///< of the cohesion with depth (Pa/m)
+    double level    = 0.; ///< where it is c: y (m)
+
+    /** By how much the cohesion at y is more than c (Pa). */
+    double
+    growth(const double y) const
+    {
+      return gradient * (level - y);
+    }
+
     /** Of clay: phi = theta = 0. */
     static FrictionalStrength
     without_friction()
@@ -32,6 +42,10 @@ namespace geocone
     void
     declare_cohesion(dealii::ParameterAcceptor &law,
                      const std::string         &documentation);
+
+    /** Declares how the cohesion grows with depth. */
+    void
+    declare_growth(dealii::ParameterAcceptor &law);
 
     /** @throws InputError @param section of the law */
     void

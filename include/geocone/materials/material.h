@@ -282,6 +282,25 @@ namespace geocone
     virtual void
     reduce_strength(const double F);
 
+    /** Whether the search for a factor of safety reduces the strength of this one. */
+    bool
+    is_reduced() const
+    {
+      return reduced;
+    }
+
+    /** How the k of flow_cone() grows with depth: by slope (level - y). */
+    struct Growth
+    {
+      double slope = 0.; ///< (Pa/m)
+      double level = 0.; ///< (m)
+    };
+    virtual Growth
+    growth() const
+    {
+      return {};
+    }
+
     /**
      * Largest (a - b)/a for which the line search alone was seen to be enough
      * on most meshes: theta >= phi/2 is (nearly) 1/2.
@@ -372,6 +391,7 @@ namespace geocone
   private:
     double     young_modulus = 1e8;
     double     poisson_ratio = 0.3;
+    bool       reduced       = true;
     Elasticity elastic;
   };
 } // namespace geocone

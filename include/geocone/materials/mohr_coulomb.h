@@ -28,6 +28,9 @@ namespace geocone
    * a - lambda mu and the same flow, FlowCone::delayed(lambda, p_n). A state that
    * does not change has p = s_n, the exact strength; tau = 0 is the exact law. The
    * plastic work is never negative, since p >= -k/a for ever.
+   *
+   * The cohesion may grow with depth, c(y) = c + gradient (level - y); the growth of a
+   * point is then the last history variable of this class.
    */
   class MohrCoulomb : public Material
   {
@@ -42,10 +45,16 @@ namespace geocone
 
     /** Exact, without memory. */
     std::optional<FlowCone>
-    flow_cone(const double *) const override
+    flow_cone(const double *history) const override;
+
+    Growth
+    growth() const override
     {
-      return cone;
+      return {k_per_cohesion * given.gradient, given.level};
     }
+
+    void
+    take_place(const dealii::Point<dim> &place, double *history) const override;
 
     std::optional<FlowCone>
     step_cone(const Mandel  &stress_n,
@@ -58,7 +67,7 @@ namespace geocone
     unsigned int
     n_history() const override
     {
-      return Material::n_history() + (memory.time() > 0.);
+      return Material::n_history() + (memory.time() > 0.) + cohesion_grows();
     }
 
     std::string
@@ -112,6 +121,12 @@ namespace geocone
       return given.theta;
     }
 
+    bool
+    cohesion_grows() const
+    {
+      return given.gradient != 0.;
+    }
+
   protected:
     /** Whether the slip of a step changes its cone, by end_cone(), otherwise than by a
      *  modulus. */
@@ -149,10 +164,18 @@ namespace geocone
   private:
     FrictionalStrength given;
     FlowCone           cone;
+    double             k_per_cohesion = 0.; ///< of what is left of it (-)
 
     /** Place of p in the history, if there is a memory. */
     static constexpr unsigned int place_of_memory = 1;
     FrictionMemory                memory;
+
+    /** Place of what the cohesion has grown by (Pa), if it does. */
+    unsigned int
+    place_of_growth() const
+    {
+      return place_of_memory + (memory.time() > 0.);
+    }
 
     /**
      * The one-point problem of a step, in cone axes.

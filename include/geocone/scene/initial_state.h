@@ -62,11 +62,11 @@ namespace geocone
     InitialStress();
 
     void
-    prepare(const Gravity           &gravity,
-            const Geometry          &geometry,
-            const Regions           &regions,
-            const Water             &water,
-            const std::vector<bool> &is_added);
+    prepare(const Gravity          &gravity,
+            const Geometry         &geometry,
+            const Regions          &regions,
+            const Water            &water,
+            const std::vector<int> &stage_that_adds);
 
     /** Stress at a point x of a material (Pa). */
     Mandel
@@ -100,9 +100,38 @@ namespace geocone
       given,
       geostatic
     };
-    Choice<Type> type = {{{"zero", Type::zero},
-                          {"given", Type::given},
-                          {"geostatic", Type::geostatic}}};
+    Choice<Type> type     = {{{"zero", Type::zero},
+                              {"given", Type::given},
+                              {"geostatic", Type::geostatic}}};
+    Choice<Type> of_added = {{{"zero", Type::zero},
+                              {"given", Type::given},
+                              {"geostatic", Type::geostatic}}};
+
+    /** What the stress of a material comes from. */
+    Type
+    type_of(const unsigned int material) const
+    {
+      return stage_of[material] < 0 ? type.get() : of_added.get();
+    }
+
+    /** Whether some soil has a stress of this type. */
+    bool
+    has(const Type one) const;
+
+    /** @throws InputError where a column of soil has no weight of its own */
+    void
+    check_geostatic(const std::string &parameter,
+                    const std::string &word,
+                    const Gravity     &gravity,
+                    const Regions     &regions) const;
+
+    /** Vertical effective stress of a column above x (Pa): of what has been there from the
+     *  beginning, or of what comes with a material. */
+    double
+    vertical_stress(const dealii::Point<dim> &x,
+                    const int                 stage,
+                    const Materials          &materials,
+                    const Regions            &regions) const;
 
     std::array<std::string, n_mandel> texts;
     std::array<Expression, n_mandel>  components;
@@ -114,7 +143,9 @@ namespace geocone
     double                            surcharge = 0.;
     double                            g         = 0.;
     const Water                      *water = nullptr; ///< where there is some
-    std::vector<bool>                 is_added;        ///< by material
+    /** By material: the stage that adds it, counted from 0, or -1. */
+    std::vector<int> stage_of;
+    double           top = 0.; ///< of the body (m)
   };
 } // namespace geocone
 

@@ -186,9 +186,16 @@ namespace geocone
     bool
     changes_body() const;
 
+    /** The stage that adds a material, counted from 0; -1 if it is there at once. */
+    int
+    stage_that_adds(const std::string &material) const;
+
     /** Whether a material is not there before a stage adds it. */
     bool
-    adds(const std::string &material) const;
+    adds(const std::string &material) const
+    {
+      return stage_that_adds(material) >= 0;
+    }
 
     /** Whether another material becomes this one in a stage. */
     bool
