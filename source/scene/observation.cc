@@ -182,6 +182,12 @@ namespace geocone
                        surcharge,
                        ">= 0 Pa, finite",
                        "give the pressure beside the footing");
+    if (law->gradient != 0.)
+      throw InputError("Observation/Reference",
+                       value,
+                       "none or a number (N/m) where the cohesion grows with "
+                       "depth",
+                       "Prandtl's soil has the same strength everywhere");
     const double phi = law->phi;
     if (materials.law(index).fluid_modulus() > 0.)
       throw InputError(
