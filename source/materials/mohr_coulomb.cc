@@ -13,7 +13,7 @@
 namespace geocone
 {
   MohrCoulomb::MohrCoulomb(const std::string &section)
-    : Material(section)
+    : WithFrictionMemory(section)
   {
     given.declare(*this);
     given.declare_growth(*this);
@@ -21,10 +21,10 @@ namespace geocone
   }
 
   MohrCoulomb::MohrCoulomb(const std::string &section, const WithoutFriction &)
-    : Material(section)
+    : WithFrictionMemory(section)
     , given(FrictionalStrength::without_friction())
-    , memory("0")
   {
+    memory = FrictionMemory("0");
     given.declare_cohesion(*this, "Undrained shear strength c (Pa), > 0.");
     given.declare_growth(*this);
   }
@@ -99,22 +99,10 @@ namespace geocone
       memory.set_automatic(time);
   }
 
-  std::string
-  MohrCoulomb::initialise(const Stress &stress,
-                          const double  size,
-                          double       *history) const
-  {
-    if (memory.time() > 0.)
-      history[place_of_memory] = -(stress[0] + stress[1]) / sqrt2;
-    return Material::initialise(stress, size, history);
-  }
-
   std::vector<ConstitutiveLaw::Shown>
   MohrCoulomb::shown() const
   {
-    std::vector<Shown> all = Material::shown();
-    if (memory.time() > 0.)
-      all.push_back({"remembered_normal_stress", "remembered s_n (Pa)"});
+    std::vector<Shown> all = WithFrictionMemory::shown();
     if (cohesion_grows())
       all.push_back({"cohesion", "cohesion (Pa)"});
     return all;
@@ -125,12 +113,10 @@ namespace geocone
                     const double     *history,
                     double           *values) const
   {
-    Material::show(stress, history, values);
-    values += Material::shown().size();
-    if (memory.time() > 0.)
-      *values++ = history[place_of_memory];
+    WithFrictionMemory::show(stress, history, values);
     if (cohesion_grows())
-      *values = given.c + history[place_of_growth()];
+      values[WithFrictionMemory::shown().size()] =
+        given.c + history[place_of_growth()];
   }
 
   std::optional<FlowCone>
@@ -152,7 +138,7 @@ namespace geocone
       {
         const double part = memory.remembered(step.size);
         return exact.delayed(part + (1. - part) * step.friction_lag,
-                             history_n[place_of_memory]);
+                             history_n[place_of_memory()]);
       }
     return step.friction_lag > 0.
              ? exact.delayed(step.friction_lag, to_cone_axes(stress_n)[0])
@@ -189,7 +175,7 @@ namespace geocone
   MohrCoulomb::strength(const double *history) const
   {
     const std::optional<FlowCone> exact = flow_cone(history);
-    return memory.time() > 0. ? exact->delayed(1., history[place_of_memory])
+    return memory.time() > 0. ? exact->delayed(1., history[place_of_memory()])
                               : exact;
   }
 
@@ -205,7 +191,7 @@ namespace geocone
                  elasticity(),
                  block,
                  memory.remembered(block.step),
-                 place_of_memory);
+                 place_of_memory());
   }
 
   void
@@ -241,8 +227,8 @@ namespace geocone
           {
             double *history = response.history + first;
             if (memory.time() > 0.)
-              history[place_of_memory] = memory.next(
-                history[place_of_memory], returned[0], increment.step.size);
+              history[place_of_memory()] = memory.next(
+                history[place_of_memory()], returned[0], increment.step.size);
             add_to_history(slip, history);
           }
         // An elastic point keeps its trial stress to the last digit.

@@ -53,7 +53,7 @@ namespace geocone
   }
 
   FrictionalSpatialLaw::FrictionalSpatialLaw(const std::string &section)
-    : SpatialReturnMap(section)
+    : WithFrictionMemory(section)
   {
     given.declare(*this);
     memory.declare(*this);
@@ -61,51 +61,20 @@ namespace geocone
 
   FrictionalSpatialLaw::FrictionalSpatialLaw(const std::string &section,
                                              const std::string &cohesion)
-    : SpatialReturnMap(section)
+    : WithFrictionMemory(section)
     , given(FrictionalStrength::without_friction())
-    , memory("0")
   {
+    memory = FrictionMemory("0");
     given.declare_cohesion(*this, cohesion);
   }
 
   void
   FrictionalSpatialLaw::prepare()
   {
-    SpatialReturnMap::prepare();
+    WithFrictionMemory::prepare();
     given.check(parameter());
     set_strength(given);
     memory.prepare(*this, non_associativity() > 0.);
-  }
-
-  std::string
-  FrictionalSpatialLaw::initialise(const Stress &stress,
-                                   const double  size,
-                                   double       *history) const
-  {
-    const std::string refusal =
-      SpatialReturnMap::initialise(stress, size, history);
-    if (memory.time() > 0.)
-      history[place_of_memory()] = normal_stress(spatial_of(stress));
-    return refusal;
-  }
-
-  std::vector<ConstitutiveLaw::Shown>
-  FrictionalSpatialLaw::shown() const
-  {
-    std::vector<Shown> all = SpatialReturnMap::shown();
-    if (memory.time() > 0.)
-      all.push_back({"remembered_normal_stress", "remembered s_n (Pa)"});
-    return all;
-  }
-
-  void
-  FrictionalSpatialLaw::show(const Components &stress,
-                             const double     *history,
-                             double           *values) const
-  {
-    SpatialReturnMap::show(stress, history, values);
-    if (memory.time() > 0.)
-      values[SpatialReturnMap::shown().size()] = history[place_of_memory()];
   }
 
   SpatialReturnMap::Past

@@ -4,9 +4,9 @@
 #ifndef geocone_materials_mohr_coulomb_h
 #define geocone_materials_mohr_coulomb_h
 
-#include <geocone/materials/friction_memory.h>
 #include <geocone/materials/frictional_strength.h>
 #include <geocone/materials/material.h>
+#include <geocone/materials/with_friction_memory.h>
 
 namespace geocone
 {
@@ -32,7 +32,7 @@ namespace geocone
    * The cohesion may grow with depth, c(y) = c + gradient (level - y); the growth of a
    * point is then the last history variable of this class.
    */
-  class MohrCoulomb : public Material
+  class MohrCoulomb : public WithFrictionMemory<Material>
   {
   public:
     explicit MohrCoulomb(const std::string &section);
@@ -67,13 +67,8 @@ namespace geocone
     unsigned int
     n_history() const override
     {
-      return Material::n_history() + (memory.time() > 0.) + cohesion_grows();
+      return WithFrictionMemory::n_history() + cohesion_grows();
     }
-
-    std::string
-    initialise(const Stress &stress,
-               const double  size,
-               double       *history) const override;
 
     std::vector<Shown>
     shown() const override;
@@ -82,12 +77,6 @@ namespace geocone
     show(const Components &stress,
          const double     *history,
          double           *values) const override;
-
-    double
-    friction_memory() const override
-    {
-      return memory.time();
-    }
 
     void
     set_friction_memory(const double tau) override;
@@ -156,6 +145,12 @@ namespace geocone
     std::optional<FlowCone>
     strength(const double *history) const override;
 
+    double
+    remembered_stress(const Stress &stress) const override
+    {
+      return -(stress[0] + stress[1]) / sqrt2;
+    }
+
     /** For laws that fix phi = theta = 0 and do not declare the angles. */
     struct WithoutFriction
     {};
@@ -166,15 +161,11 @@ namespace geocone
     FlowCone           cone;
     double             k_per_cohesion = 0.; ///< of what is left of it (-)
 
-    /** Place of p in the history, if there is a memory. */
-    static constexpr unsigned int place_of_memory = 1;
-    FrictionMemory                memory;
-
     /** Place of what the cohesion has grown by (Pa), if it does. */
     unsigned int
     place_of_growth() const
     {
-      return place_of_memory + (memory.time() > 0.);
+      return WithFrictionMemory::n_history();
     }
 
     /**

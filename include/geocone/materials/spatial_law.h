@@ -4,9 +4,9 @@
 #ifndef geocone_materials_spatial_law_h
 #define geocone_materials_spatial_law_h
 
-#include <geocone/materials/friction_memory.h>
 #include <geocone/materials/frictional_strength.h>
 #include <geocone/materials/material.h>
+#include <geocone/materials/with_friction_memory.h>
 
 #include <string>
 
@@ -121,7 +121,7 @@ namespace geocone
    * A spatial law with cohesion, friction and dilatancy. Friction may remember the stress
    * on which it depends (FrictionMemory): p is the last history variable then.
    */
-  class FrictionalSpatialLaw : public SpatialReturnMap
+  class FrictionalSpatialLaw : public WithFrictionMemory<SpatialReturnMap>
   {
   public:
     void
@@ -136,31 +136,6 @@ namespace geocone
     /** Jaky's 1 - sin(phi). */
     double
     earth_pressure_at_rest() const override;
-
-    unsigned int
-    n_history() const override
-    {
-      return SpatialReturnMap::n_history() + (memory.time() > 0.);
-    }
-
-    std::string
-    initialise(const Stress &stress,
-               const double  size,
-               double       *history) const override;
-
-    std::vector<Shown>
-    shown() const override;
-
-    void
-    show(const Components &stress,
-         const double     *history,
-         double           *values) const override;
-
-    double
-    friction_memory() const override
-    {
-      return memory.time();
-    }
 
   protected:
     /** The stress (Pa), positive in compression, on which strength depends. */
@@ -187,16 +162,13 @@ namespace geocone
     virtual void
     set_strength(const FrictionalStrength &strength) = 0;
 
-    FrictionalStrength given;
-    FrictionMemory     memory;
-
-  private:
-    /** Place of p in the history, if there is a memory. */
-    unsigned int
-    place_of_memory() const
+    double
+    remembered_stress(const Stress &stress) const override
     {
-      return SpatialReturnMap::n_history();
+      return normal_stress(spatial_of(stress));
     }
+
+    FrictionalStrength given;
   };
 } // namespace geocone
 

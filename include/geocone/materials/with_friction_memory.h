@@ -1,0 +1,87 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_materials_with_friction_memory_h
+#define geocone_materials_with_friction_memory_h
+
+#include <geocone/materials/friction_memory.h>
+
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * A law whose friction may remember the stress on which it depends, p (Pa): where it
+   * does, p is the history variable that follows those of the base class.
+   * @tparam Base Material, or a class derived from it
+   */
+  template <typename Base>
+  class WithFrictionMemory : public Base
+  {
+  public:
+    using Stress     = typename Base::Stress;
+    using Shown      = typename Base::Shown;
+    using Components = typename Base::Components;
+
+    unsigned int
+    n_history() const override
+    {
+      return Base::n_history() + (memory.time() > 0.);
+    }
+
+    std::string
+    initialise(const Stress &stress,
+               const double  size,
+               double       *history) const override
+    {
+      const std::string remark = Base::initialise(stress, size, history);
+      if (memory.time() > 0.)
+        history[place_of_memory()] = remembered_stress(stress);
+      return remark;
+    }
+
+    std::vector<Shown>
+    shown() const override
+    {
+      std::vector<Shown> all = Base::shown();
+      if (memory.time() > 0.)
+        all.push_back({"remembered_normal_stress", "remembered s_n (Pa)"});
+      return all;
+    }
+
+    void
+    show(const Components &stress,
+         const double     *history,
+         double           *values) const override
+    {
+      Base::show(stress, history, values);
+      if (memory.time() > 0.)
+        values[Base::shown().size()] = history[place_of_memory()];
+    }
+
+    double
+    friction_memory() const override
+    {
+      return memory.time();
+    }
+
+  protected:
+    using Base::Base;
+
+    /** What p becomes where a stress does not change (Pa). */
+    virtual double
+    remembered_stress(const Stress &stress) const = 0;
+
+    /** Place of p in the history, if there is a memory. */
+    unsigned int
+    place_of_memory() const
+    {
+      return Base::n_history();
+    }
+
+    FrictionMemory memory;
+  };
+} // namespace geocone
+
+#endif
