@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/hdf5_file.h>
 #include <geocone/command_line.h>
 #include <geocone/output/run_folder.h>
 #include <geocone/program.h>
@@ -35,8 +36,14 @@ namespace
         if (const auto resumed = call.own.find("--resume");
             resumed != call.own.end())
           return parameters_of_run(resumed->second).peek(parameter, plane);
-        if (call.own.count("--replay") > 0)
-          return plane;
+        if (const auto frozen = call.own.find("--replay");
+            frozen != call.own.end())
+          {
+            const Hdf5File file(frozen->second, Hdf5File::Access::read);
+            return file.has("dimension")
+                     ? std::to_string(file.read_integers("dimension").at(0))
+                     : plane;
+          }
         if (call.file.empty())
           return ParameterFile::from_text("", "call", call.overrides)
             .peek(parameter, plane);

@@ -89,6 +89,8 @@ namespace geocone
       NonsmoothNewton newton;
       file.parse();
       materials.prepare();
+      if (!frozen.points.hoop.empty())
+        materials.set_axisymmetric();
       newton.prepare();
 
       ThawedProblem thawed(frozen, materials);

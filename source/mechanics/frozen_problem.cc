@@ -5,6 +5,7 @@
 #include <geocone/base/gather.h>
 #include <geocone/base/hdf5_file.h>
 #include <geocone/base/largest_quantity.h>
+#include <geocone/base/log.h>
 #include <geocone/discretisation/spline_basis.h>
 #include <geocone/mechanics/frozen_problem.h>
 
@@ -30,7 +31,7 @@ namespace geocone
       return std::vector<int>(values.begin(), values.end());
     }
 
-    /** Mandel vectors as three numbers each. */
+    /** Mandel vectors, number by number. */
     std::vector<double>
     flat(const std::vector<Mandel> &values)
     {
@@ -40,17 +41,17 @@ namespace geocone
       return result;
     }
 
-    /** Points as two numbers each. */
+    /** Points, number by number. */
     std::vector<double>
     flat(const std::vector<Point<dim>> &values)
     {
       std::vector<double> result;
       for (const Point<dim> &value : values)
-        result.insert(result.end(), {value[0], value[1]});
+        for (unsigned int d = 0; d < dim; ++d)
+          result.push_back(value[d]);
       return result;
     }
 
-    /** Mandel vectors of three numbers each. */
     std::vector<Mandel>
     mandel_vectors(const std::vector<double> &numbers)
     {
@@ -60,13 +61,12 @@ namespace geocone
       return result;
     }
 
-    /** Points of two numbers each. */
     std::vector<Point<dim>>
     points_from(const std::vector<double> &numbers)
     {
-      std::vector<Point<dim>> result;
-      for (std::size_t i = 0; i < numbers.size(); i += dim)
-        result.emplace_back(numbers[i], numbers[i + 1]);
+      std::vector<Point<dim>> result(numbers.size() / dim);
+      for (std::size_t i = 0; i < numbers.size(); ++i)
+        result[i / dim][i % dim] = numbers[i];
       return result;
     }
 
@@ -142,7 +142,10 @@ namespace geocone
     p.nodes                = gather(p.nodes, comm);
     p.gradients            = gather(points.gradients, comm);
     p.values               = gather(points.values, comm);
+    p.hoop                 = gather(points.hoop, comm);
     p.volumetric_gradients = gather(points.volumetric_gradients, comm);
+    p.n_volumetric_modes   = points.n_volumetric_modes;
+    p.volumetric_modes     = gather(points.volumetric_modes, comm);
     p.material             = gather(points.material, comm);
     p.weight               = gather(points.weight, comm);
     p.mass                 = gather(points.mass, comm);
@@ -196,6 +199,7 @@ namespace geocone
   {
     Hdf5File file(file_name, Hdf5File::Access::create);
     file.write("format", frozen_format);
+    file.write("dimension", std::vector<int>{dim});
     file.write("materials", materials);
     file.write("step", std::vector<double>{h, consistent_part});
     file.write("particles", std::vector<int>{particles});
@@ -204,7 +208,9 @@ namespace geocone
     file.write("points/nodes", integers(points.nodes));
     file.write("points/gradients", points.gradients);
     file.write("points/values", points.values);
+    file.write("points/hoop", points.hoop);
     file.write("points/mean_gradients", points.volumetric_gradients);
+    file.write("points/volumetric_modes", points.volumetric_modes);
     file.write("points/material", integers(points.material));
     file.write("points/weight", points.weight);
     file.write("points/mass", points.mass);
@@ -283,6 +289,10 @@ namespace geocone
     {
       in.check(in.file.read_text("format") == frozen_format,
                "its format is another one than '" + frozen_format + "'");
+      if (in.file.has("dimension")) // older files lack it
+        in.check(in.unsigned_array("dimension") ==
+                   std::vector<unsigned int>{dim},
+                 format("its dimension is not %u", dim));
       frozen.materials            = in.file.read_text("materials");
       const std::string objection = objection_to_materials(frozen.materials);
       in.check(objection.empty(), objection);
@@ -296,9 +306,9 @@ namespace geocone
       const auto n_nodes     = in.unsigned_array("points/n_nodes");
       in.check(particles.size() == 1 && n_nodes.size() == 1,
                "it lacks numbers");
-      in.check(n_nodes[0] >= 1 &&
-                 n_nodes[0] <= (max_degree + 1) * (max_degree + 1),
-               "cells have 1 to 16 nodes");
+      constexpr unsigned int most_nodes = Utilities::pow(max_degree + 1, dim);
+      in.check(n_nodes[0] >= 1 && n_nodes[0] <= most_nodes,
+               format("cells have 1 to %u nodes", most_nodes));
       frozen.particles      = particles[0] != 0;
       frozen.points.n_nodes = n_nodes[0];
     }
@@ -314,11 +324,15 @@ namespace geocone
       p.gradients            = in.doubles("points/gradients");
       p.values               = in.doubles("points/values");
       p.volumetric_gradients = in.doubles("points/mean_gradients");
-      p.material             = in.unsigned_array("points/material");
-      p.weight               = in.doubles("points/weight");
-      p.mass                 = in.doubles("points/mass");
-      flat.stress            = in.doubles("points/stress");
-      flat.position          = in.doubles("points/position");
+      if (in.file.has("points/hoop"))
+        p.hoop = in.doubles("points/hoop");
+      if (in.file.has("points/volumetric_modes"))
+        p.volumetric_modes = in.doubles("points/volumetric_modes");
+      p.material    = in.unsigned_array("points/material");
+      p.weight      = in.doubles("points/weight");
+      p.mass        = in.doubles("points/mass");
+      flat.stress   = in.doubles("points/stress");
+      flat.position = in.doubles("points/position");
       if (in.file.has("points/history")) // older files lack it
         p.history = in.doubles("points/history");
       if (in.file.has("ghosts/nodes"))
@@ -383,8 +397,17 @@ namespace geocone
       in.check((p.values.empty() ||
                 p.values.size() == std::size_t(p.n_points()) * p.n_nodes) &&
                  (p.volumetric_gradients.empty() ||
-                  p.volumetric_gradients.size() == p.gradients.size()),
+                  p.volumetric_gradients.size() == p.gradients.size()) &&
+                 (p.hoop.empty() ||
+                  (dim == 2 &&
+                   p.hoop.size() == std::size_t(p.n_points()) * p.n_nodes)),
                "the functions of its points differ in number");
+      in.check(
+        p.volumetric_modes.size() % p.n_points() == 0 &&
+          p.volumetric_modes.size() / p.n_points() <=
+            CellPressures::most_modes &&
+          (p.volumetric_modes.empty() || !p.volumetric_gradients.empty()),
+        "the polynomials of its cells differ in number");
       for (const double weight : p.weight)
         in.check(weight > 0., "it has points without a volume");
       for (const std::vector<double> *masses :
@@ -464,7 +487,8 @@ namespace geocone
     const FlatArrays flat = read_arrays(in, frozen);
     MaterialPoints  &p    = frozen.points;
     check_lengths(in, p, flat);
-    p.history.width = p.history.size() / p.n_points();
+    p.history.width      = p.history.size() / p.n_points();
+    p.n_volumetric_modes = p.volumetric_modes.size() / p.n_points();
     give_points_gradients_of_cells(p);
     check_points(in, frozen);
     check_ghosts(in, frozen);

@@ -3,7 +3,6 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/stop_request.h>
-#include <geocone/mechanics/cell_pressures.h>
 #include <geocone/output/run_status.h>
 #include <geocone/run/implicit_simulation.h>
 #include <geocone/run/run_estimate.h>
@@ -230,20 +229,7 @@ namespace geocone
           condition->refuse_normal("free where problems are frozen",
                                    "give Velocity x and y, or " + remedy);
         scene.refuse_contact("frozen problems", remedy);
-        if (CellPressures::are_those_of(points, scene.materials))
-          throw InputError("Discretisation/B-bar",
-                           "true",
-                           "false for soil that dilates where problems are "
-                           "frozen",
-                           "set it to false, or " + remedy);
         scene.absorbing.refuse("frozen problems", remedy);
-        scene.geometry.refuse_axis("frozen problems", remedy);
-        if (dim == 3 || scene.materials.are_spatial())
-          throw InputError("Output/Freeze steps",
-                           "not empty",
-                           "nothing with laws that are spatial, or in three "
-                           "dimensions",
-                           remedy);
       }
     freezer.check(scene.loading);
     return warnings;

@@ -29,7 +29,7 @@ namespace geocone
     /** Only what an incremental problem takes of them. */
     MaterialPoints points;
 
-    /** @name By dof, two per node */
+    /** @name By dof, dim per node */
     /** @{ */
     /** 0, Unknowns::prescribed_row or Unknowns::massless_row. */
     std::vector<int>    kind;
