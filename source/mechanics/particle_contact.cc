@@ -200,24 +200,26 @@ namespace geocone
                             const Unknowns       &unknowns) const
   {
     std::vector<Share> shares;
-    for_each_point(points,
-                   [&](const unsigned int p,
-                       const unsigned int /* cell */,
-                       const PointFunctions &at) {
-                     const unsigned int layer = layer_of[at.nodes[0]];
-                     if (layer != pair.first && layer != pair.other)
-                       return;
-                     const Point<dim> x = position_of(scene, points, p);
-                     for (unsigned int i = 0; i < at.n; ++i)
-                       if (const unsigned int place = place_of[at.nodes[i]];
-                           at.N[i] > least_share &&
-                           unknowns.has_mass(dim * nodes[place][pair.first]) &&
-                           unknowns.has_mass(dim * nodes[place][pair.other]))
-                         shares.push_back({place,
-                                           layer == pair.first,
-                                           x,
-                                           length_of(points.weight[p]) / 2.});
-                   });
+    for_each_point(
+      points,
+      [&](const unsigned int p,
+          const unsigned int /* cell */,
+          const PointFunctions &at) {
+        const unsigned int layer = layer_of[at.nodes[0]];
+        if (layer != pair.first && layer != pair.other)
+          return;
+        const Point<dim> x = position_of(scene, points, p);
+        for (unsigned int i = 0; i < at.n; ++i)
+          if (const unsigned int place = place_of[at.nodes[i]];
+              at.N[i] > least_share &&
+              unknowns.has_mass(dim * nodes[place][pair.first]) &&
+              unknowns.has_mass(dim * nodes[place][pair.other]))
+            shares.push_back(
+              {place,
+               layer == pair.first,
+               x,
+               scene.geometry.size_of_point(x, points.weight[p]) / 2.});
+      });
     return shares;
   }
 
@@ -231,7 +233,7 @@ namespace geocone
       of_place[share.place][share.is_first].push_back(share.x);
 
     // Others have more of the particles at places that they share: the number of
-    // the place, the side, x and y, of corners of hulls only.
+    // the place, the side, and coordinates, in the plane of corners of hulls only.
     const auto &layout = *space.partitioner();
     const auto  number = [&](const unsigned int place) {
       return layout.local_to_global(dim * nodes[place][pair.first]);
@@ -241,10 +243,15 @@ namespace geocone
         std::vector<double> corners;
         for (unsigned int place = 0; place < nodes.size(); ++place)
           for (const bool is_first : {false, true})
-            for (const Point<dim> &x : convex_hull(of_place[place][is_first]))
-              corners.insert(
-                corners.end(),
-                {double(number(place)), is_first ? 1. : 0., x[0], x[1]});
+            for (const Point<dim> &x :
+                 dim == 2 ? convex_hull(of_place[place][is_first])
+                          : of_place[place][is_first])
+              {
+                corners.insert(corners.end(),
+                               {double(number(place)), is_first ? 1. : 0.});
+                for (unsigned int d = 0; d < dim; ++d)
+                  corners.push_back(x[d]);
+              }
         std::map<types::global_dof_index, unsigned int> here;
         for (unsigned int place = 0; place < nodes.size(); ++place)
           {
@@ -253,12 +260,13 @@ namespace geocone
           }
         for (const auto &of_rank :
              Utilities::MPI::all_gather(layout.get_mpi_communicator(), corners))
-          for (std::size_t i = 0; i < of_rank.size(); i += 4)
+          for (std::size_t i = 0; i < of_rank.size(); i += 2 + dim)
             if (const auto at = here.find(types::global_dof_index(of_rank[i]));
                 at != here.end())
               {
                 Point<dim> x;
-                std::copy_n(&of_rank[i + 2], 2, x.begin_raw());
+                for (unsigned int d = 0; d < dim; ++d)
+                  x[d] = of_rank[i + 2 + d];
                 of_place[at->second][of_rank[i + 1] > 0.].push_back(x);
               }
       }

@@ -98,10 +98,6 @@ namespace geocone
                        "other names than those of boundary conditions, "
                        "obstacles and contacts",
                        "all can be observed by name: rename one of them");
-    if (dim == 3)
-      contacts.refuse("Geometry/Dimension = 3",
-                      "bodies touch in plane scenes so far: let one of them be "
-                      "an obstacle");
     observation.prepare(supports(), materials, gravity, loading.raises_loads());
     if (observation.reference_name == "Prandtl")
       geometry.refuse_axis("'Observation/Reference' = Prandtl",

@@ -21,8 +21,6 @@ namespace geocone
   {
     if (!scene.geometry.is_axisymmetric())
       return;
-    scene.contacts.refuse("Geometry/Symmetry = axisymmetric",
-                          "let one of the bodies be an obstacle");
     for (const auto &obstacle : scene.obstacles.list)
       obstacle->check_round();
   }

@@ -20,8 +20,8 @@ namespace geocone
 
   /**
    * The unit vector along the shortest way from the convex hull of some points to that of
-   * others: the normal of the plane that parts them with the greatest margin. Zero
-   * where they meet, or where there are no points.
+   * others: the normal of the plane that parts them with the greatest margin (Gilbert,
+   * Johnson and Keerthi 1988). Zero where they meet, or where there are no points.
    */
   dealii::Tensor<1, dim>
   way_between(const std::vector<dealii::Point<dim>> &from,
