@@ -250,42 +250,75 @@ namespace geocone
                        "give the level of the ground");
   }
 
+  namespace
+  {
+    /** A part of a column of soil that is of one material. */
+    struct Layer
+    {
+      unsigned int material;
+      double       low, high; ///< y (m)
+    };
+
+    /** What is above x up to y = top, from below. Layers thinner than a 400th of all may
+     *  be missed. */
+    std::vector<Layer>
+    column_above(const dealii::Point<dim> &x,
+                 const double              top,
+                 const Materials          &materials,
+                 const Regions            &regions)
+    {
+      const auto material_at = [&](const double y) {
+        dealii::Point<dim> place = x;
+        place[1]                 = y;
+        return regions.material_at(place, -1);
+      };
+      const unsigned int n    = materials.size() == 1 ? 1 : 400;
+      const double       part = (top - x[1]) / n;
+      std::vector<Layer> layers;
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          const double       middle   = x[1] + (i + 0.5) * part;
+          const unsigned int material = material_at(middle);
+          if (layers.empty())
+            layers.push_back({material, x[1], top});
+          else if (material != layers.back().material)
+            {
+              double below = middle - part, above = middle;
+              for (unsigned int step = 0; step < 50; ++step)
+                {
+                  const double half = (below + above) / 2.;
+                  (material_at(half) == material ? above : below) = half;
+                }
+              layers.back().high = above;
+              layers.push_back({material, above, top});
+            }
+        }
+      return layers;
+    }
+  } // namespace
+
   double
   InitialStress::vertical_stress(const dealii::Point<dim> &x,
                                  const int                 stage,
                                  const Materials          &materials,
                                  const Regions            &regions) const
   {
-    // By a midpoint sum that is exact for one material and within a 400th of the
-    // depth at layer boundaries.
-    const double       depth = (stage < 0 ? surface : top) - x[1];
-    const unsigned int n     = materials.size() == 1 ? 1 : 400;
-    const double       part  = depth / n;
-    double             mass = 0., of_water = 0.;
-    for (unsigned int i = 0; i < n; ++i)
-      {
-        dealii::Point<dim> above = x;
-        above[1] += part * (i + 0.5);
-        const unsigned int m = regions.material_at(above, -1);
-        if (stage_of[m] != stage)
-          continue;
-        mass += materials.law(m).density() * part;
-        if (water == nullptr || stage < 0)
-          continue;
-        dealii::Point<dim> low = above, high = above;
-        low[1] -= part / 2.;
-        high[1] += part / 2.;
-        of_water += water->pressure(low) - water->pressure(high);
-      }
-    if (stage >= 0)
-      return of_water - g * mass;
-    double vertical = -(surcharge + g * mass);
-    if (water != nullptr)
-      {
-        dealii::Point<dim> ground = x;
-        ground[1]                 = surface;
-        vertical += water->pressure(x) - water->pressure(ground);
-      }
+    const auto pressure = [&](const double y) {
+      dealii::Point<dim> place = x;
+      place[1]                 = y;
+      return water == nullptr ? 0. : water->pressure(place);
+    };
+    double vertical =
+      stage < 0 ? pressure(x[1]) - pressure(surface) - surcharge : 0.;
+    for (const Layer &layer :
+         column_above(x, stage < 0 ? surface : top, materials, regions))
+      if (stage_of[layer.material] == stage)
+        {
+          vertical -= g * materials.law(layer.material).density() *
+                      (layer.high - layer.low);
+          if (stage >= 0)
+            vertical += pressure(layer.low) - pressure(layer.high);
+        }
     return vertical;
   }
 
