@@ -113,22 +113,30 @@ namespace geocone
     length.compress(VectorOperation::add);
     length.update_ghost_values();
     of_body.compress(VectorOperation::add);
+    of_body.update_ghost_values();
+    std::vector<unsigned int> come;
+    for (const unsigned int node : candidates)
+      if (had_cells.empty() || !had_cells[node])
+        come.push_back(node);
+    had_cells.resize(space.n_local_nodes());
+    for (unsigned int node = 0; node < had_cells.size(); ++node)
+      had_cells[node] = of_body.local_element(dim * node) > 0.;
     path.zero_out_ghost_values();
     for (unsigned int i = 0; i < of_body.locally_owned_size(); ++i)
       if (of_body.local_element(i) == 0.)
         path.local_element(i) = 0.;
     path.update_ghost_values();
-    check_overlap();
+    check_overlap(come);
   }
 
   void
-  ObstacleContact::check_overlap() const
+  ObstacleContact::check_overlap(const std::vector<unsigned int> &nodes) const
   {
     const auto         &list = scene.obstacles.list;
     std::vector<double> least(list.size(), 0.);
     for (unsigned int o = 0; o < list.size(); ++o)
       {
-        for (const unsigned int node : candidates)
+        for (const unsigned int node : nodes)
           least[o] = std::min(
             least[o],
             list[o]->nearest(place(node), displacement[o], {}).distance);

@@ -191,10 +191,10 @@ namespace geocone
     const bool            mesh_is_body;
     const Unknowns       *supports;
 
-    /** @throws InputError if a body whose mesh it is overlaps with obstacles.
-     *  Collective. */
+    /** @throws InputError if an obstacle overlaps with these nodes of a body whose mesh
+     *  it is. Collective. */
     void
-    check_overlap() const;
+    check_overlap(const std::vector<unsigned int> &nodes) const;
 
     /** Whether boundary conditions hold a node of the mesh against something with this
      *  normal. */
@@ -258,10 +258,11 @@ namespace geocone
     force(const Contact &contact, const unsigned int i);
 
     std::vector<unsigned int> candidates; ///< local nodes, with ghosts
-    Vector                    length;     ///< int N_i dA (m)
-    double                    size = 0.;  ///< of a cell (m)
-    std::vector<RigidMotion>  displacement, velocity;
-    Vector                    path; ///< of the nodes of the body (m)
+    std::vector<bool> had_cells; ///< nodes of the body, before take_body()
+    Vector            length;    ///< int N_i dA (m)
+    double            size = 0.; ///< of a cell (m)
+    std::vector<RigidMotion> displacement, velocity;
+    Vector                   path; ///< of the nodes of the body (m)
 
     std::optional<BodyContact> bodies; ///< where there are contacts
   };
