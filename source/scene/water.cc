@@ -71,7 +71,7 @@ namespace geocone
         dealii::Patterns::Tools::to_string(g),
         "g_y < 0 where there is water",
         std::string(dim == 2 ? "e.g. 0, -9.81" : "e.g. 0, -9.81, 0") +
-          "; or leave 'Water/Table' out");
+          "; or leave the water out");
   }
 
   void
