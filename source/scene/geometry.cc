@@ -559,9 +559,11 @@ namespace geocone
     add_parameter(
       "Region polygon",
       polygon,
-      "Vertices x, y; x, y; ... (m) of the part of the domain that "
-      "this material fills. Empty: the first material fills what no "
-      "other one does.");
+      std::string(dim == 2 ? "Vertices x, y; x, y; ... (m)"
+                           : "Lowest and highest corner x, y, z; x, y, z of "
+                             "a box (m)") +
+        ": the part of the domain that this material fills. Empty: the first "
+        "material fills what no other one does.");
     add_parameter("Region number",
                   id,
                   "Number of the physical surface of the .msh file that this "
