@@ -11,7 +11,7 @@ freeze() { # NAME FILE STEP
 }
 freeze round tests/fem/circular_footing-02.prm 3 0.0035
 freeze pressures tests/mpm/circular_footing-02.prm 3 0.35
-freeze three tests/three/circular_footing-01.prm 2 0.0003
+freeze three tests/three/circular_footing-01.prm 2 0.01
 cat >check.py <<'PYTHON'
 import csv
 import json
