@@ -219,13 +219,9 @@ namespace geocone
           frozen != call.own.end())
         {
           check_replay(call);
-          if constexpr (dim == 2) // frozen problems are those of plane scenes
-            {
-              Log log(MPI_COMM_WORLD, call.quiet);
-              return replay(frozen->second, call.overrides, call.folder, log)
-                       ? 0
-                       : 1;
-            }
+          Log log(MPI_COMM_WORLD, call.quiet);
+          return replay(frozen->second, call.overrides, call.folder, log) ? 0
+                                                                          : 1;
         }
       if (call.own.count("--resume") > 0)
         check_resume(call);

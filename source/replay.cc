@@ -4,10 +4,10 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/files.h>
 #include <geocone/base/parameter_file.h>
-#include <geocone/mechanics/cone_files.h>
 #include <geocone/mechanics/frozen_problem.h>
 #include <geocone/output/run_folder.h>
 #include <geocone/replay.h>
+#include <geocone/replay_parts.h>
 #include <geocone/scene/geometry.h>
 #include <geocone/solvers/nonsmooth_newton.h>
 
@@ -15,6 +15,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <filesystem>
 #include <iostream>
 
@@ -22,57 +23,6 @@ namespace geocone
 {
   namespace
   {
-    /** Where the results go. */
-    class ResultFolder : public dealii::ParameterAcceptor
-    {
-    public:
-      explicit ResultFolder(const std::string &path)
-        : dealii::ParameterAcceptor("/Output")
-        , path(path)
-      {
-        if_exists.declare(
-          *this, "If folder exists", ". What to do if it is not empty.");
-      }
-
-      /** Makes it, if there is to be one. @throws InputError */
-      void
-      make()
-      {
-        if (!path.empty())
-          path = make_run_folder(MPI_COMM_SELF, path, true, if_exists);
-      }
-
-      std::string path; ///< empty: nowhere
-
-    private:
-      Choice<IfExists> if_exists = if_exists_choice();
-    };
-
-    /** What read() makes of a file; also what this lacks is said with a remedy. */
-    template <typename Read>
-    auto
-    read_with_remedy(const Read &read, const std::string &remedy)
-    {
-      try
-        {
-          return read();
-        }
-      catch (const RunError &error)
-        {
-          const std::string text = error.what();
-          if (text.find("\n  remedy:") != std::string::npos)
-            throw;
-          throw RunError(text + "\n  remedy:  " + remedy);
-        }
-    }
-
-    /** What is left of a replay: numbers to compare, and stresses (Pa). */
-    struct Outcome
-    {
-      nlohmann::json      summary;
-      std::vector<Mandel> stress;
-    };
-
     Outcome
     replay_incremental(const std::string              &file_name,
                        const std::vector<std::string> &overrides,
@@ -129,58 +79,32 @@ namespace geocone
       return outcome;
     }
 
-    /** Whether it is a problem file of Siconos. */
-    bool
-    is_text(const std::string &file_name)
-    {
-      return std::filesystem::path(file_name).extension() == ".dat";
-    }
-
+    /** Whatever a file holds; in three dimensions there are no reduced problems. */
+    template <unsigned int dimension>
     Outcome
-    replay_reduced(const std::string              &file_name,
+    replay_problem(const std::string              &file_name,
                    const std::vector<std::string> &overrides,
                    ResultFolder                   &folder)
     {
-      const ReducedProblem problem = read_with_remedy(
-        [&]() {
-          return is_text(file_name) ? read_siconos(file_name)
-                                    : read_fclib(file_name);
-        },
-        "copy it again, or write it anew");
-      const ParameterFile file =
-        ParameterFile::from_text("", file_name, overrides);
-      NonsmoothNewton newton;
-      file.parse();
-      newton.prepare();
-      folder.make();
+      if constexpr (dimension == 2)
+        if (is_reduced_problem(file_name))
+          return replay_reduced(file_name, overrides, folder);
+      return replay_incremental(file_name, overrides, folder);
+    }
 
-      Eigen::VectorXd     s      = Eigen::VectorXd::Zero(3 * problem.n_cones());
-      const ReducedReport report = newton.solve_reduced(problem, s);
-
-      double non_associativity = 0.;
-      for (const FlowCone &cone : problem.cones)
-        if (cone.a > 0.)
-          non_associativity =
-            std::max(non_associativity, (cone.a - cone.b) / cone.a);
-      Outcome outcome;
-      outcome.summary = {
-        {"kind", "reduced"},
-        {"unknowns", s.size()},
-        {"points", problem.n_cones()},
-        {"constraints", problem.n_multipliers()},
-        {"non_associativity", non_associativity},
-        {"converged", report.converged},
-        {"iterations", report.iterations},
-        {"factorisations", 0},
-        {"residual", report.error},
-        {"friction_lag", 0.},
-        {"natural_map_error", problem.natural_map_error(s)},
-        {"cone_excess_Pa", 0.},
-        {"reason", report.converged ? "" : "it did not converge"},
-        {"cpu_s", report.cpu_seconds}};
-      for (unsigned int p = 0; p < problem.n_cones(); ++p)
-        outcome.stress.push_back(from_cone_axes(Mandel(s.segment<3>(3 * p))));
-      return outcome;
+    /** Names of the components of a Mandel vector, as a line of a table. */
+    std::string
+    names_of_components()
+    {
+      std::array<std::string, n_mandel> names;
+      for (unsigned int d = 0; d < dim; ++d)
+        names[place_of_normal[d]] = std::string(2, coordinate[d]);
+      for (const auto [place, a, b] : shears)
+        names[place] = std::string("sqrt2 ") + coordinate[a] + coordinate[b];
+      std::string line;
+      for (const std::string &name : names)
+        line += (line.empty() ? "" : ",") + name + " (Pa)";
+      return line + "\n";
     }
   } // namespace
 
@@ -192,10 +116,7 @@ namespace geocone
   {
     const std::filesystem::path path(file_name);
     ResultFolder                results(folder);
-    const Outcome               outcome =
-      is_text(file_name) || is_fclib(file_name)
-                      ? replay_reduced(file_name, overrides, results)
-                      : replay_incremental(file_name, overrides, results);
+    const Outcome  outcome = replay_problem<dim>(file_name, overrides, results);
     nlohmann::json summary = outcome.summary;
     summary["name"]        = path.stem().string();
     log.print(format(
@@ -220,9 +141,10 @@ namespace geocone
         write_file(results.path + "/summary.json",
                    [&](std::ostream &out) { out << summary.dump(2) << "\n"; });
         write_file(results.path + "/stress.csv", [&](std::ostream &out) {
-          out << "xx (Pa),yy (Pa),sqrt2 xy (Pa)\n";
+          out << names_of_components();
           for (const Mandel &s : outcome.stress)
-            out << format("%.17g,%.17g,%.17g\n", s[0], s[1], s[2]);
+            for (int i = 0; i < n_mandel; ++i)
+              out << format("%.17g", s[i]) << (i + 1 < n_mandel ? "," : "\n");
         });
       }
     return summary["converged"].get<bool>();

@@ -1,0 +1,84 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_replay_parts_h
+#define geocone_replay_parts_h
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/types.h>
+#include <geocone/output/run_folder.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+// What replays of incremental and of reduced problems share.
+namespace geocone
+{
+  /** Where the results go. */
+  class ResultFolder : public dealii::ParameterAcceptor
+  {
+  public:
+    explicit ResultFolder(const std::string &path)
+      : dealii::ParameterAcceptor("/Output")
+      , path(path)
+    {
+      if_exists.declare(
+        *this, "If folder exists", ". What to do if it is not empty.");
+    }
+
+    /** Makes it, if there is to be one. @throws InputError */
+    void
+    make()
+    {
+      if (!path.empty())
+        path = make_run_folder(MPI_COMM_SELF, path, true, if_exists);
+    }
+
+    std::string path; ///< empty: nowhere
+
+  private:
+    Choice<IfExists> if_exists = if_exists_choice();
+  };
+
+  /** What read() makes of a file; also what this lacks is said with a remedy. */
+  template <typename Read>
+  auto
+  read_with_remedy(const Read &read, const std::string &remedy)
+  {
+    try
+      {
+        return read();
+      }
+    catch (const RunError &error)
+      {
+        const std::string text = error.what();
+        if (text.find("\n  remedy:") != std::string::npos)
+          throw;
+        throw RunError(text + "\n  remedy:  " + remedy);
+      }
+  }
+
+  /** What is left of a replay: numbers to compare, and stresses (Pa). */
+  struct Outcome
+  {
+    nlohmann::json      summary;
+    std::vector<Mandel> stress;
+  };
+
+  /** Whether a file holds a reduced problem: of Siconos or of FCLib. Those are of plane
+   *  scenes. */
+  bool
+  is_reduced_problem(const std::string &file_name);
+
+  /** Solves one. */
+  Outcome
+  replay_reduced(const std::string              &file_name,
+                 const std::vector<std::string> &overrides,
+                 ResultFolder                   &folder);
+} // namespace geocone
+
+#endif

@@ -1,0 +1,76 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/parameter_file.h>
+#include <geocone/mechanics/cone_files.h>
+#include <geocone/replay_parts.h>
+#include <geocone/solvers/nonsmooth_newton.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace geocone
+{
+  namespace
+  {
+    /** Whether it is a problem file of Siconos. */
+    bool
+    is_text(const std::string &file_name)
+    {
+      return std::filesystem::path(file_name).extension() == ".dat";
+    }
+  } // namespace
+
+  bool
+  is_reduced_problem(const std::string &file_name)
+  {
+    return is_text(file_name) || is_fclib(file_name);
+  }
+
+  Outcome
+  replay_reduced(const std::string              &file_name,
+                 const std::vector<std::string> &overrides,
+                 ResultFolder                   &folder)
+  {
+    const ReducedProblem problem = read_with_remedy(
+      [&]() {
+        return is_text(file_name) ? read_siconos(file_name)
+                                  : read_fclib(file_name);
+      },
+      "copy it again, or write it anew");
+    const ParameterFile file =
+      ParameterFile::from_text("", file_name, overrides);
+    NonsmoothNewton newton;
+    file.parse();
+    newton.prepare();
+    folder.make();
+
+    Eigen::VectorXd     s      = Eigen::VectorXd::Zero(3 * problem.n_cones());
+    const ReducedReport report = newton.solve_reduced(problem, s);
+
+    double non_associativity = 0.;
+    for (const FlowCone &cone : problem.cones)
+      if (cone.a > 0.)
+        non_associativity =
+          std::max(non_associativity, (cone.a - cone.b) / cone.a);
+    Outcome outcome;
+    outcome.summary = {
+      {"kind", "reduced"},
+      {"unknowns", s.size()},
+      {"points", problem.n_cones()},
+      {"constraints", problem.n_multipliers()},
+      {"non_associativity", non_associativity},
+      {"converged", report.converged},
+      {"iterations", report.iterations},
+      {"factorisations", 0},
+      {"residual", report.error},
+      {"friction_lag", 0.},
+      {"natural_map_error", problem.natural_map_error(s)},
+      {"cone_excess_Pa", 0.},
+      {"reason", report.converged ? "" : "it did not converge"},
+      {"cpu_s", report.cpu_seconds}};
+    for (unsigned int p = 0; p < problem.n_cones(); ++p)
+      outcome.stress.push_back(from_cone_axes(Mandel(s.segment<3>(3 * p))));
+    return outcome;
+  }
+} // namespace geocone
