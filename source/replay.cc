@@ -99,8 +99,11 @@ namespace geocone
       std::array<std::string, n_mandel> names;
       for (unsigned int d = 0; d < dim; ++d)
         names[place_of_normal[d]] = std::string(2, coordinate[d]);
-      for (const auto [place, a, b] : shears)
-        names[place] = std::string("sqrt2 ") + coordinate[a] + coordinate[b];
+      for (int k = 0; k < n_shears; ++k)
+        {
+          const auto [place, a, b] = shears[k];
+          names[place] = std::string("sqrt2 ") + coordinate[a] + coordinate[b];
+        }
       std::string line;
       for (const std::string &name : names)
         line += (line.empty() ? "" : ",") + name + " (Pa)";
