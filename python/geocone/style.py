@@ -10,7 +10,7 @@ import textwrap
 import matplotlib
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.collections import EllipseCollection
+from matplotlib.collections import EllipseCollection, PolyCollection
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
@@ -18,7 +18,7 @@ from matplotlib.ticker import MaxNLocator
 from matplotlib.tri import Triangulation
 
 from geocone.files import add_to_list
-from geocone.reader import Missing
+from geocone.reader import Missing, nearest
 
 # Okabe and Ito's colours and these maps are clear to colour-blind readers too.
 BLUE, ORANGE, GREY = "#0072B2", "#E69F00", "#a0a0a0"
@@ -144,6 +144,39 @@ def draw_water(axes, run, time=None):
         place = low + 0.96 * (high - low)
         axes.plot(place, np.interp(place, x, y), "v", color="tab:blue", markersize=7,
                   markerfacecolor="white")
+
+
+def obstacles_of(run, time=None):
+    """The triangles (n, 3, 2) that the obstacles of a run in the plane fill at a time, or at
+    its end; none where there are no obstacles."""
+    try:
+        places = (-1,) if time is None else tuple(nearest(run.times("obstacles"), [time]))
+        field, = run.states("obstacles", places)
+    except Missing:
+        return np.empty((0, 3, 2))
+    if field.points.shape[1] == 3:
+        return np.empty((0, 3, 2))
+    return field.points[field.cells]
+
+
+def draw_obstacles(axes, run, time=None):
+    """Draws the obstacles of a run in the plane. @return what is drawn"""
+    drawn = PolyCollection(obstacles_of(run, time), facecolors="#8c8c8c", edgecolors="face",
+                           linewidths=0.5)
+    axes.add_collection(drawn, autolim=False)
+    return drawn
+
+
+def with_obstacles(run, view, time=None):
+    """A view (low, high) made so large that obstacles which reach into it are seen, by a
+    tenth of its size at most."""
+    low, high = (np.array(corner, dtype=float) for corner in view)
+    margin = 0.1 * np.max(high - low)
+    corners = obstacles_of(run, time).reshape(-1, 2)
+    near = corners[np.all((corners >= low - margin) & (corners <= high + margin), axis=1)]
+    if len(near):
+        low, high = np.minimum(low, near.min(axis=0)), np.maximum(high, near.max(axis=0))
+    return low, high
 
 
 def disks(axes, field, values):

@@ -3,6 +3,7 @@
 
 #include <geocone/output/fields.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -287,5 +288,56 @@ namespace geocone
                 comm);
     point_clouds.write(
       table_of_points(mesh, points, materials, moving), folder, time, comm);
+  }
+
+  void
+  Fields::write_obstacles(const std::string              &folder,
+                          const double                    time,
+                          const BackgroundMesh           &mesh,
+                          const Obstacles                &obstacles,
+                          const std::vector<RigidMotion> &moved)
+  {
+    if (obstacles.list.empty())
+      return;
+    const MPI_Comm comm = mesh.triangulation().get_communicator();
+    Point<dim>     low, high;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        low[d]  = 1e300;
+        high[d] = -1e300;
+      }
+    for (const auto &cell : mesh.own_cells())
+      for (const unsigned int v : cell->vertex_indices())
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            low[d]  = std::min(low[d], cell->vertex(v)[d]);
+            high[d] = std::max(high[d], cell->vertex(v)[d]);
+          }
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        low[d]  = Utilities::MPI::min(low[d], comm);
+        high[d] = Utilities::MPI::max(high[d], comm);
+      }
+
+    // All of them by the first rank.
+    std::vector<double> places, numbers;
+    if (Utilities::MPI::this_mpi_process(comm) == 0)
+      for (unsigned int o = 0; o < obstacles.list.size(); ++o)
+        for (const ObstacleShape::Triangle &triangle :
+             obstacles.list[o]->triangles(
+               moved[o], low + (high - low) / 2., low.distance(high)))
+          for (const Point<dim> &x : triangle)
+            {
+              for (unsigned int d = 0; d < dim; ++d)
+                places.push_back(x[d]);
+              numbers.push_back(o);
+            }
+    FieldTable table;
+    table.cell      = FieldTable::Cell::triangle;
+    table.n_nodes   = numbers.size();
+    table.positions = [&](std::vector<double> &values) { values = places; };
+    table.columns   = {
+        {"obstacle", 1, [&](std::vector<double> &values) { values = numbers; }}};
+    solids.write(table, folder, time, comm);
   }
 } // namespace geocone

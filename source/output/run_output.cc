@@ -297,15 +297,19 @@ namespace geocone
   }
 
   void
-  RunOutput::write_fields(const double          time,
-                          const BackgroundMesh &mesh,
-                          const Space          &space,
-                          const MaterialPoints &points,
-                          const Kinematics     &kinematics)
+  RunOutput::write_fields(const double                    time,
+                          const BackgroundMesh           &mesh,
+                          const Space                    &space,
+                          const MaterialPoints           &points,
+                          const Kinematics               &kinematics,
+                          const std::vector<RigidMotion> &moved_obstacles)
   {
-    if (with_fields)
-      fields->write(
-        path, time, mesh, space, points, scene->materials, kinematics);
+    if (!with_fields)
+      return;
+    fields->write(
+      path, time, mesh, space, points, scene->materials, kinematics);
+    fields->write_obstacles(
+      path, time, mesh, scene->obstacles, moved_obstacles);
   }
 
   bool

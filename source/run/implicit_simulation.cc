@@ -511,7 +511,8 @@ namespace geocone
   void
   ImplicitSimulation::write_fields(const double t)
   {
-    run_output.write_fields(t, mesh, space, points, kinematics);
+    run_output.write_fields(
+      t, mesh, space, points, kinematics, stepper->moved_obstacles());
   }
 
   void

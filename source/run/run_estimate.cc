@@ -159,7 +159,9 @@ namespace geocone
       e.driver = seeding->size_parameter();
     if (fields.are_written)
       {
-        e.files = outputs * fields.n_formats * (method.is_explicit() ? 1 : 2);
+        e.files =
+          outputs * fields.n_formats *
+          ((method.is_explicit() ? 1 : 2) + !scene.obstacles.list.empty());
         e.file_bytes =
           outputs * fields.n_formats *
           (60. * e.points +

@@ -422,4 +422,96 @@ namespace geocone
           directions.push_back((end.b - end.a) / end.a.distance(end.b));
     return directions;
   }
+
+  std::vector<ObstacleShape::Triangle>
+  HalfSpace::triangles(const Point &body, const double size) const
+  {
+    const Point foot(body - ((body - place) * normal) * normal);
+    Vector      a = size * some_normal_to(normal), b;
+    if constexpr (dim == 3)
+      b = dealii::cross_product_3d(normal, a);
+    else
+      b = -size / 20. * normal; // a strip behind the line
+    const Point first(dim == 3 ? foot - b : foot), last(foot + b);
+    return {{{Point(first - a), Point(first + a), Point(last + a)}},
+            {{Point(first - a), Point(last + a), Point(last - a)}}};
+  }
+
+  std::vector<ObstacleShape::Triangle>
+  Ball::triangles(const Point &, const double) const
+  {
+    constexpr unsigned int n     = dim == 2 ? 64 : 32; // around
+    constexpr unsigned int rings = dim == 2 ? 1 : n / 2;
+    // A place on the boundary; of a disc ring 0 is its middle.
+    const auto at = [&](const unsigned int i, const unsigned int ring) {
+      const double angle = 2. * pi * (i % n) / n;
+      Point        x     = middle;
+      if constexpr (dim == 2)
+        {
+          x[0] += ring * radius * std::cos(angle);
+          x[1] += ring * radius * std::sin(angle);
+        }
+      else
+        {
+          const double latitude = pi * ring / rings,
+                       r        = radius * std::sin(latitude);
+          x[0] += r * std::cos(angle);
+          x[1] -= radius * std::cos(latitude);
+          x[2] += r * std::sin(angle);
+        }
+      return x;
+    };
+    std::vector<Triangle> all;
+    for (unsigned int ring = 0; ring < rings; ++ring)
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          all.push_back({{at(i, ring), at(i, ring + 1), at(i + 1, ring + 1)}});
+          if (ring > 0)
+            all.push_back(
+              {{at(i, ring), at(i + 1, ring + 1), at(i + 1, ring)}});
+        }
+    return all;
+  }
+
+  std::vector<ObstacleShape::Triangle>
+  Cylinder::triangles(const Point &, const double) const
+  {
+    std::vector<Triangle> all;
+    if constexpr (dim == 3)
+      {
+        constexpr unsigned int n = 32;
+        const Vector           a = some_normal_to(axis),
+                     b           = dealii::cross_product_3d(axis, a);
+        const auto at            = [&](const unsigned int i, const double end) {
+          const double angle = 2. * pi * i / n;
+          return Point(middle + end * half_height * axis +
+                       radius * (std::cos(angle) * a + std::sin(angle) * b));
+        };
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            for (const double end : {-1., 1.})
+              all.push_back({{Point(middle + end * half_height * axis),
+                              at(i, end),
+                              at(i + 1, end)}});
+            all.push_back({{at(i, -1.), at(i + 1, -1.), at(i + 1, 1.)}});
+            all.push_back({{at(i, -1.), at(i + 1, 1.), at(i, 1.)}});
+          }
+      }
+    return all;
+  }
+
+  std::vector<ObstacleShape::Triangle>
+  Polytope::triangles(const Point &, const double) const
+  {
+    std::vector<Triangle> all;
+    if constexpr (dim == 2)
+      for (std::size_t i = 0; i < vertices.size(); ++i)
+        all.push_back(
+          {{centre(), vertices[i], vertices[(i + 1) % vertices.size()]}});
+    else
+      for (const Side &side : sides)
+        for (const End &end : side.ends)
+          all.push_back({{side.middle, end.a, end.b}});
+    return all;
+  }
 } // namespace geocone

@@ -284,6 +284,18 @@ namespace geocone
     return X + moved.centre + moved.turned(x - X);
   }
 
+  std::vector<ObstacleShape::Triangle>
+  Obstacle::triangles(const RigidMotion &moved,
+                      const Point<dim>  &body_of_soil,
+                      const double       size) const
+  {
+    auto all = body->triangles(own_place(body_of_soil, moved), size);
+    for (ObstacleShape::Triangle &triangle : all)
+      for (Point<dim> &x : triangle)
+        x = moved_place(x, moved);
+    return all;
+  }
+
   Obstacle::Nearest
   Obstacle::nearest_to_start(const Point<dim>     &start,
                              const Point<dim>     &x,

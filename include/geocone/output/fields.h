@@ -7,6 +7,7 @@
 #include <geocone/discretisation/material_points.h>
 #include <geocone/discretisation/space.h>
 #include <geocone/output/field_files.h>
+#include <geocone/scene/obstacles.h>
 #include <geocone/time_stepping/time_stepper.h>
 
 #include <string>
@@ -25,7 +26,8 @@ namespace geocone
    *    pressure (Pa), plastic strain, plastic strain rate (1/s), cumulative plastic
    *    strain, and what the laws show; of points that move also their number,
    *    velocity and displacement;
-   *  - cells.pvd, points.pvd: the series in time.
+   *  - obstacles-NNNN.vtu: where the obstacles are, of which each has its number;
+   *  - cells.pvd, points.pvd, obstacles.pvd: the series in time.
    * On several ranks a file per rank, and .pvtu records that join them. Or, one
    * file of all ranks for each time, cells-NNNN.h5 and points-NNNN.h5 with the
    * series cells.xdmf and points.xdmf.
@@ -36,6 +38,7 @@ namespace geocone
     explicit Fields(const FieldsFormat format)
       : cells("cells", format)
       , point_clouds("points", format)
+      , solids("obstacles", format)
     {}
 
     void
@@ -47,15 +50,24 @@ namespace geocone
           const Materials      &materials,
           const Kinematics     &kinematics);
 
+    /** Writes where the obstacles are, if there are any. Collective.
+     *  @param moved since the start, one by one */
+    void
+    write_obstacles(const std::string              &folder,
+                    const double                    time,
+                    const BackgroundMesh           &mesh,
+                    const Obstacles                &obstacles,
+                    const std::vector<RigidMotion> &moved);
+
     /** The series so far, for a checkpoint. */
     void
     state(StateRow &row)
     {
-      row(cells, point_clouds);
+      row(cells, point_clouds, solids);
     }
 
   private:
-    FieldFiles cells, point_clouds;
+    FieldFiles cells, point_clouds, solids;
   };
 } // namespace geocone
 

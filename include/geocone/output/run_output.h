@@ -126,11 +126,12 @@ namespace geocone
 
     /** Writes fields, if wanted. */
     void
-    write_fields(const double          time,
-                 const BackgroundMesh &mesh,
-                 const Space          &space,
-                 const MaterialPoints &points,
-                 const Kinematics     &kinematics);
+    write_fields(const double                    time,
+                 const BackgroundMesh           &mesh,
+                 const Space                    &space,
+                 const MaterialPoints           &points,
+                 const Kinematics               &kinematics,
+                 const std::vector<RigidMotion> &moved_obstacles);
 
     /** Writes summary.json. @param status running | finished | failed: why */
     void

@@ -8,6 +8,7 @@
 
 #include <deal.II/base/point.h>
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -78,6 +79,14 @@ namespace geocone
       return {};
     }
     /** @} */
+
+    using Triangle = std::array<Point, 3>;
+
+    /** What pictures show: triangles that fill it, in three dimensions those of its
+     *  surface. Of what has no end a part beside a body.
+     *  @param body a place in it @param size its width (m) */
+    virtual std::vector<Triangle>
+    triangles(const Point &body, const double size) const = 0;
   };
 
   /** What is behind a plane; in two dimensions behind a line. */
@@ -100,6 +109,8 @@ namespace geocone
     width() const override;
     double
     reach(const Vector &n) const override;
+    std::vector<Triangle>
+    triangles(const Point &body, const double size) const override;
     std::vector<Vector>
     side_normals() const override
     {
@@ -133,6 +144,8 @@ namespace geocone
     }
     double
     reach(const Vector &n) const override;
+    std::vector<Triangle>
+    triangles(const Point &body, const double size) const override;
 
   private:
     const Point  middle;
@@ -162,6 +175,8 @@ namespace geocone
     width() const override;
     double
     reach(const Vector &n) const override;
+    std::vector<Triangle>
+    triangles(const Point &body, const double size) const override;
     std::vector<Vector>
     side_normals() const override
     {
@@ -194,6 +209,8 @@ namespace geocone
     width() const override;
     double
     reach(const Vector &n) const override;
+    std::vector<Triangle>
+    triangles(const Point &body, const double size) const override;
     std::vector<Vector>
     side_normals() const override;
     std::vector<Vector>

@@ -171,6 +171,12 @@ namespace geocone
       return body->width();
     }
 
+    /** ObstacleShape::triangles() after a motion. */
+    std::vector<ObstacleShape::Triangle>
+    triangles(const RigidMotion        &moved,
+              const dealii::Point<dim> &body_of_soil,
+              const double              size) const;
+
     /** A place that moves with it, which moments are about: the mean of a polygon's
      *  vertices, at the start. */
     dealii::Point<dim>

@@ -83,6 +83,12 @@ namespace geocone
       return system->n_nonzeros();
     }
 
+    const std::vector<RigidMotion> &
+    moved_obstacles() const override
+    {
+      return obstacles->moved();
+    }
+
   private:
     void
     take_points(const Archive &archive, MaterialPoints &points) override;

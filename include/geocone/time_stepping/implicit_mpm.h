@@ -110,6 +110,12 @@ namespace geocone
       return system->n_nonzeros();
     }
 
+    const std::vector<RigidMotion> &
+    moved_obstacles() const override
+    {
+      return obstacles->moved();
+    }
+
     unsigned int
     n_lost() const override
     {

@@ -288,6 +288,10 @@ namespace geocone
       return false;
     }
 
+    /** What the obstacles of the scene have moved, one by one. */
+    virtual const std::vector<RigidMotion> &
+    moved_obstacles() const = 0;
+
     /** Points that left the mesh. */
     virtual unsigned int
     n_lost() const

@@ -11,7 +11,7 @@ from PIL import Image
 
 from geocone.files import add_to_list, write_whole
 from geocone.plots.points import look_at, strain_or_shear
-from geocone.style import STRAINS, Skipped, panels, plain
+from geocone.style import STRAINS, Skipped, draw_obstacles, panels, plain
 
 SECONDS = 8.  # that a film takes
 MOST = 200  # pictures
@@ -34,6 +34,7 @@ def draw(run, paths):
         drawn = look.collection(axes, field, value)
         drawn.set(cmap=STRAINS, norm=norm)
         axes.add_collection(drawn)
+        obstacles = draw_obstacles(axes, run, field.time)
         bar = bar or figure.colorbar(drawn, ax=axes, label=label, aspect=40,
                                      location="bottom", extend=extend)
         axes.set_title(f"{plain(run.name)}: t = {field.time:.4g} s")
@@ -42,6 +43,7 @@ def draw(run, paths):
         for path, frames in films.items():
             frames.append(frame.quantize(128) if path.suffix == ".gif" else frame)
         drawn.remove()
+        obstacles.remove()
     for path, frames in films.items():
         film = io.BytesIO()
         frames[0].save(film, format=path.suffix[1:], save_all=True,

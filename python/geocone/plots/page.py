@@ -16,7 +16,7 @@ from PIL import Image
 from geocone.files import add_to_list, write_whole
 from geocone.plots import points, rates
 from geocone.reader import Missing, ReadError
-from geocone.style import STRAINS, PlotError, Skipped, draw_water
+from geocone.style import STRAINS, PlotError, Skipped, draw_obstacles, draw_water
 
 TEMPLATE = Path(__file__).with_name("run.html")
 MOST_FRAMES = 16
@@ -143,6 +143,7 @@ def frame_of(run, field, look, values, norm):
     drawn = look.collection(axes, field, values)
     drawn.set(cmap=STRAINS, norm=norm)
     axes.add_collection(drawn)
+    draw_obstacles(axes, run, field.time)
     draw_water(axes, run, field.time)
     axes.set_title(f"t = {field.time:.4g} s")
     figure.colorbar(drawn, ax=axes, shrink=0.8)

@@ -8,7 +8,7 @@ from matplotlib.colors import LogNorm, Normalize
 from matplotlib.ticker import MaxNLocator
 
 from geocone.reader import nearest
-from geocone.style import STRAINS, Skipped, disks, panels, plain, save
+from geocone.style import STRAINS, Skipped, disks, draw_obstacles, panels, plain, save
 
 STRAIN = "cumulative_plastic_strain"
 SHEAR = "largest shear stress in the plane (Pa)"
@@ -99,6 +99,7 @@ def draw_panels(run, path, fields, look, values, norm, label, colors=STRAINS,
         drawn = look.collection(ax, field, value)
         drawn.set(cmap=colors, norm=norm)
         ax.add_collection(drawn)
+        draw_obstacles(ax, run, field.time)
         ax.set_title(f"t = {field.time:.4g} s")
         look.finish(ax)
         ax.label_outer()

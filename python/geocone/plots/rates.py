@@ -6,7 +6,8 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import LogNorm
 
-from geocone.style import RATES, SHOWN, Skipped, add_bar, disks, draw_water, in_plane, panels, plain, save
+from geocone.style import (RATES, SHOWN, Skipped, add_bar, disks, draw_obstacles, draw_water,
+                           in_plane, panels, plain, save, with_obstacles)
 
 ZONE = 1e-3  # the view is where the rate is more than this part of the greatest one
 
@@ -68,7 +69,7 @@ def draw_cells(run, path):
         solid.draw_cells(run, path, field, rates, motion_of(run, data), title)
         return
     view = view_of(run)
-    figure, (first, second) = panels(2, view)
+    figure, (first, second) = panels(2, with_obstacles(run, view))
     add_rates(first, cells_of(field, rates), rates.max())
     first.set_title(title)
     name, unit, size, most = motion_of(run, data)
@@ -80,6 +81,7 @@ def draw_cells(run, path):
     second.set_title(f"magnitude of the {name}")
     add_bar(second, drawn, f"{name} ({unit})")
     for axes in (first, second):
+        draw_obstacles(axes, run)
         draw_water(axes, run)
     save(figure, run, path, cropped=True)
 
@@ -88,7 +90,8 @@ def draw_points(run, path):
     """Draws the rate of each material point."""
     field, rates, title = rates_of(run, "points")
     in_plane(field)
-    figure, (axes,) = panels(1, view_of(run))
+    figure, (axes,) = panels(1, with_obstacles(run, view_of(run)))
     add_rates(axes, disks(axes, field, rates), rates.max())
+    draw_obstacles(axes, run)
     axes.set_title(title)
     save(figure, run, path, cropped=True)
