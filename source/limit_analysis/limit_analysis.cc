@@ -184,6 +184,15 @@ namespace geocone
       warnings.push_back("a mesh from a file is not made anew: the bounds are "
                          "those of this mesh; give a box or a polygon, or set "
                          "Analysis/Maximum levels = 1");
+    constexpr double later     = 1e6; // beyond any ramp
+    const auto       is_loaded = [](const RigidMotion &load) {
+      return load.centre.norm() + load.rotation.norm() > 0.;
+    };
+    for (const auto &obstacle : scene.obstacles.list)
+      if (!is_loaded(obstacle->load(0.)) && is_loaded(obstacle->load(later)))
+        warnings.push_back("the load of the obstacle '" + obstacle->name +
+                           "' is zero at t = 0, which is when bounds take it: "
+                           "give its full value there");
     return warnings;
   }
 

@@ -86,3 +86,13 @@ plate --output lagrange
 fails grep -q 'are not linear in space' log
 plate --set 'Discretisation/Basis = Bernstein' --output bernstein
 [ "$(grep -c 'are not linear in space' log)" = 1 ]
+
+# Bounds take the loads of obstacles at t = 0.
+block() {
+  "$program" "$root/prm/safety/slope_block.prm" --set 'Analysis/Kind = strength reduction' \
+    --set 'Mesh/Type = unstructured' --set 'Output/Expectations =' --dry-run "$@" >log 2>&1
+}
+block
+fails grep -q 'is zero at t = 0' log
+block --set 'Obstacles/block/Force y = -60000*min(t, 1)'
+[ "$(grep -c "load of the obstacle 'block' is zero at t = 0" log)" = 1 ]
