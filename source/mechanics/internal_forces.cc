@@ -112,11 +112,12 @@ namespace geocone
           {
             mean = trace(s) / dim;
             s -= mean * unit_tensor<n_mandel>();
-            add_force<n>(&points.volumetric_gradients[dim * n * p],
-                         mean * unit_tensor<n_mandel>(),
-                         cell_f);
           }
         add_force<n>(&points.gradients[dim * n * p], s, cell_f);
+        if (!points.volumetric_gradients.empty())
+          add_force<n>(&points.volumetric_gradients[dim * n * p],
+                       mean * unit_tensor<n_mandel>(),
+                       cell_f);
         if (is_axisymmetric())
           {
             const double hoop = weighted_hoop_stress(p) - mean;
