@@ -212,8 +212,8 @@ namespace geocone
         // may remove it while another is making its own in it, and that fails.
         setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
         setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
-        // One process has nobody to talk to, and the libraries of networks take a
-        // third of the time in which it starts.
+        // One process has nobody to talk to, and the libraries of networks take four
+        // tenths of the time in which it starts.
         setenv("OMPI_MCA_pml", "ob1", 0);
         setenv("OMPI_MCA_btl", "self", 0);
       }

@@ -1,11 +1,9 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/base/exceptions.h>
 #include <geocone/base/files.h>
 #include <geocone/base/parameter_file.h>
 #include <geocone/mechanics/frozen_problem.h>
-#include <geocone/output/run_folder.h>
 #include <geocone/replay.h>
 #include <geocone/replay_parts.h>
 #include <geocone/scene/geometry.h>

@@ -73,6 +73,8 @@ class Run:
             raise ReadError(f"'{folder}' has no summary.json of a run: {problem!r}")
         # The pictures of a run ask for the same states again and again.
         self.states = functools.lru_cache(maxsize=2)(self._states)
+        # Those of obstacles are small, and must not drive out the others.
+        self.obstacles = functools.lru_cache(maxsize=64)(self._obstacles)
 
     def __repr__(self):
         return f"<geocone run '{self.folder}': {self.status}>"
@@ -150,6 +152,11 @@ class Run:
     def _states(self, series, indices=(-1,)):
         """The states of a series, of all pieces, by their places: a list of Fields."""
         return read_states(self._record(series), indices)
+
+    def _obstacles(self, time=None):
+        """The obstacles at the time nearest to one (s), or at the end: Fields."""
+        place = -1 if time is None else nearest(self.times("obstacles"), [time])[0]
+        return self._states("obstacles", (int(place),))[0]
 
 
 def is_silent(run):

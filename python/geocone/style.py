@@ -18,7 +18,7 @@ from matplotlib.ticker import MaxNLocator
 from matplotlib.tri import Triangulation
 
 from geocone.files import add_to_list
-from geocone.reader import Missing, nearest
+from geocone.reader import Missing
 
 # Okabe and Ito's colours and these maps are clear to colour-blind readers too.
 BLUE, ORANGE, GREY = "#0072B2", "#E69F00", "#a0a0a0"
@@ -149,14 +149,12 @@ def draw_water(axes, run, time=None):
 def obstacles_of(run, time=None):
     """The triangles (n, 3, 2) that the obstacles of a run in the plane fill at a time, or at
     its end; none where there are no obstacles."""
+    none = np.empty((0, 3, 2))
     try:
-        places = (-1,) if time is None else tuple(nearest(run.times("obstacles"), [time]))
-        field, = run.states("obstacles", places)
+        field = run.obstacles(time)
     except Missing:
-        return np.empty((0, 3, 2))
-    if field.points.shape[1] == 3:
-        return np.empty((0, 3, 2))
-    return field.points[field.cells]
+        return none
+    return field.points[field.cells] if field.points.shape[1] == 2 else none
 
 
 def draw_obstacles(axes, run, time=None):
@@ -167,12 +165,12 @@ def draw_obstacles(axes, run, time=None):
     return drawn
 
 
-def with_obstacles(run, view, time=None):
-    """A view (low, high) made so large that obstacles which reach into it are seen, by a
-    tenth of its size at most."""
+def with_obstacles(run, view):
+    """A view (low, high) made so large that obstacles which reach into it at the end are
+    seen, by a tenth of its size at most."""
     low, high = (np.array(corner, dtype=float) for corner in view)
     margin = 0.1 * np.max(high - low)
-    corners = obstacles_of(run, time).reshape(-1, 2)
+    corners = obstacles_of(run).reshape(-1, 2)
     near = corners[np.all((corners >= low - margin) & (corners <= high + margin), axis=1)]
     if len(near):
         low, high = np.minimum(low, near.min(axis=0)), np.maximum(high, near.max(axis=0))

@@ -285,14 +285,10 @@ namespace geocone
     return result;
   }
 
-  Point<dim>
-  BackgroundMesh::lower_corner() const
+  BoundingBox<dim>
+  BackgroundMesh::bounding_box() const
   {
-    Point<dim> corner = tria->get_vertices()[0];
-    for (const Point<dim> &x : tria->get_vertices())
-      for (unsigned int c = 0; c < dim; ++c)
-        corner[c] = std::min(corner[c], x[c]);
-    return corner;
+    return BoundingBox<dim>(tria->get_vertices());
   }
 
   Tensor<2, dim>

@@ -329,8 +329,7 @@ namespace geocone
     for (unsigned int m = 0; m < flow_cones.size(); ++m)
       for (const double y : {lowest, highest})
         units.stress =
-          std::max(units.stress,
-                   flow_cones[m].k + growth[m].slope * (growth[m].level - y));
+          std::max(units.stress, flow_cones[m].k + growth[m].at(y));
     double dead = 0.; // what there is to bear
     for (unsigned int m = 0; m < scene.materials.size(); ++m)
       dead =

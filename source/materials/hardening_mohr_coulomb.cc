@@ -47,7 +47,7 @@ namespace geocone
     MohrCoulomb::prepare();
     if (cohesion_grows())
       throw InputError(parameter("Cohesion gradient"),
-                       growth().slope,
+                       cohesion_gradient(),
                        "0 for a law that hardens",
                        "take Mohr-Coulomb, or layers of several materials");
     if (!(modulus >= 0.))

@@ -37,11 +37,24 @@ namespace geocone
                          "boundaries/Names'");
     // Of cells that have points, whose stages may have changed it.
     constexpr unsigned int    none = numbers::invalid_unsigned_int;
-    std::vector<unsigned int> material_of(
-      body == nullptr ? 0 : mesh.triangulation().n_active_cells(), none);
-    for (unsigned int c = 0; body != nullptr && c < body->n_cells(); ++c)
-      material_of[body->cells[c]->active_cell_index()] =
-        body->material[body->first_point[c]];
+    std::vector<unsigned int> of_cell;
+    if (body != nullptr)
+      {
+        of_cell.assign(mesh.triangulation().n_active_cells(), none);
+        for (unsigned int c = 0; c < body->n_cells(); ++c)
+          of_cell[body->cells[c]->active_cell_index()] =
+            body->material[body->first_point[c]];
+      }
+    const auto material_at = [&](const BackgroundMesh::Cell &cell,
+                                 const FacePoint            &point) {
+      if (body != nullptr)
+        return of_cell[cell->active_cell_index()];
+      // Within the body, not on its border; of another body there is none here.
+      const unsigned int material = scene.regions.material_at(
+        point.position - 1e-6 * cell->diameter() * point.normal, 0);
+      return scene.contacts.body_of(material) == mesh.layer_of(cell) ? material
+                                                                     : none;
+    };
     incoming.reinit(space.partitioner());
     for (unsigned int c = 0; c < conditions.list.size(); ++c)
       {
@@ -55,16 +68,9 @@ namespace geocone
           space,
           *conditions.list[c],
           [&](const BackgroundMesh::Cell &cell, const FacePoint &point) {
-            // Within the body, not on its border.
-            const unsigned int material =
-              body == nullptr
-                ? scene.regions.material_at(
-                    point.position - 1e-6 * cell->diameter() * point.normal, 0)
-                : material_of[cell->active_cell_index()];
-            if (material == none ||
-                (body == nullptr &&
-                 scene.contacts.body_of(material) != mesh.layer_of(cell)))
-              return; // not there, or of another body
+            const unsigned int material = material_at(cell, point);
+            if (material == none)
+              return;
             const Material   &law = scene.materials[material];
             const Elasticity &e   = law.elasticity();
             const double      rho = law.density(),

@@ -104,17 +104,18 @@ namespace geocone
   {
     const unsigned int begin = points.first_point[c],
                        end   = points.first_point[c + 1];
+    const bool b_bar         = !points.volumetric_gradients.empty();
     for (unsigned int p = begin; p < end; ++p)
       {
         Mandel s    = weighted_stress(p);
         double mean = 0.;
-        if (!points.volumetric_gradients.empty())
+        if (b_bar)
           {
             mean = trace(s) / dim;
             s -= mean * unit_tensor<n_mandel>();
           }
         add_force<n>(&points.gradients[dim * n * p], s, cell_f);
-        if (!points.volumetric_gradients.empty())
+        if (b_bar)
           add_force<n>(&points.volumetric_gradients[dim * n * p],
                        mean * unit_tensor<n_mandel>(),
                        cell_f);
@@ -163,17 +164,16 @@ namespace geocone
     const double *const H = &points.hoop[n * p];
     if (!points.volumetric_gradients.empty())
       {
-        const double *const g           = &points.gradients[m * p],
-                            *volumetric = &points.volumetric_gradients[m * p];
-        const double by_zz = trace(C.by_zz) / dim, of_zz = trace(C.of_zz) / dim;
-        for (int i = 0; i < n; ++i)
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              const double change =
-                volumetric[n * d + i] - g[n * d + i] - (d == 0 ? H[i] : 0.);
-              column[dim * i + d] += by_zz * change;
-              row[dim * i + d] += of_zz * change;
-            }
+        double change[m];
+        volumetric_change<n>(&points.gradients[m * p],
+                             H,
+                             &points.volumetric_gradients[m * p],
+                             change);
+        for (int i = 0; i < m; ++i)
+          {
+            column[i] += trace(C.by_zz) / dim * change[i];
+            row[i] += trace(C.of_zz) / dim * change[i];
+          }
       }
     for (int i = 0; i < m; ++i)
       for (int j = 0; j < n; ++j)

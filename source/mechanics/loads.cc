@@ -98,9 +98,7 @@ namespace geocone
         for (Vector &of_line : of_water)
           of_line.compress(VectorOperation::add);
       }
-    std::vector<bool> is_there(mesh.triangulation().n_active_cells(), false);
-    for (const auto &cell : points.cells)
-      is_there[cell->active_cell_index()] = true;
+    const std::vector<bool> is_there = mesh.is_among(points.cells);
     for (unsigned int c = 0; c < scene.tractions.list.size(); ++c)
       {
         const BoundaryCondition &condition = *scene.tractions.list[c];

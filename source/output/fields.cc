@@ -3,7 +3,6 @@
 
 #include <geocone/output/fields.h>
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -299,25 +298,8 @@ namespace geocone
   {
     if (obstacles.list.empty())
       return;
-    const MPI_Comm comm = mesh.triangulation().get_communicator();
-    Point<dim>     low, high;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        low[d]  = 1e300;
-        high[d] = -1e300;
-      }
-    for (const auto &cell : mesh.own_cells())
-      for (const unsigned int v : cell->vertex_indices())
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            low[d]  = std::min(low[d], cell->vertex(v)[d]);
-            high[d] = std::max(high[d], cell->vertex(v)[d]);
-          }
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        low[d]  = Utilities::MPI::min(low[d], comm);
-        high[d] = Utilities::MPI::max(high[d], comm);
-      }
+    const MPI_Comm comm    = mesh.triangulation().get_communicator();
+    const auto [low, high] = mesh.bounding_box().get_boundary_points();
 
     // All of them by the first rank.
     std::vector<double> places, numbers;

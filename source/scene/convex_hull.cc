@@ -142,6 +142,6 @@ namespace geocone
         if (way.norm() >= before.norm())
           return before / before.norm();
       }
-    return {};
+    return way.norm() > rounding * size ? way / way.norm() : Tensor<1, dim>();
   }
 } // namespace geocone

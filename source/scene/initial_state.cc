@@ -110,13 +110,12 @@ namespace geocone
   }
 
   bool
-  InitialStress::has(const Type one) const
+  InitialStress::adds(const Type one) const
   {
-    return type == one ||
-           (of_added == one &&
-            std::any_of(stage_of.begin(), stage_of.end(), [](const int stage) {
-              return stage >= 0;
-            }));
+    return of_added == one &&
+           std::any_of(stage_of.begin(), stage_of.end(), [](const int stage) {
+             return stage >= 0;
+           });
   }
 
   void
@@ -128,7 +127,7 @@ namespace geocone
   {
     water    = water_of_scene.acts() ? &water_of_scene : nullptr;
     stage_of = stage_that_adds;
-    if (has(Type::given))
+    if (type == Type::given || adds(Type::given))
       {
         for (unsigned int i = 0; i < texts.size(); ++i)
           components[i].prepare(texts[i],
@@ -136,7 +135,7 @@ namespace geocone
         if (!text_zz.empty())
           component_zz.prepare(text_zz, "Initial stress/Stress zz");
       }
-    if (has(Type::geostatic))
+    if (type == Type::geostatic || adds(Type::geostatic))
       {
         prepare_k0();
         // The final value: a geostatic state is one under full gravity.
@@ -148,7 +147,7 @@ namespace geocone
         check_level_ground(geometry);
         check_level_water();
       }
-    if (has(Type::geostatic) && of_added == Type::geostatic)
+    if (adds(Type::geostatic))
       {
         const std::string parameter = "Initial stress/Of added materials";
         if (geometry.shape == Geometry::Shape::file)

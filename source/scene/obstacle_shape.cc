@@ -476,26 +476,17 @@ namespace geocone
   std::vector<ObstacleShape::Triangle>
   Cylinder::triangles(const Point &, const double) const
   {
-    std::vector<Triangle> all;
-    if constexpr (dim == 3)
+    std::vector<Triangle>    all;
+    const std::vector<Point> rims = corners(); // of both ends in turn
+    for (std::size_t i = 0; i < rims.size(); i += 2)
       {
-        constexpr unsigned int n = 32;
-        const Vector           a = some_normal_to(axis),
-                     b           = dealii::cross_product_3d(axis, a);
-        const auto at            = [&](const unsigned int i, const double end) {
-          const double angle = 2. * pi * i / n;
-          return Point(middle + end * half_height * axis +
-                       radius * (std::cos(angle) * a + std::sin(angle) * b));
-        };
-        for (unsigned int i = 0; i < n; ++i)
-          {
-            for (const double end : {-1., 1.})
-              all.push_back({{Point(middle + end * half_height * axis),
-                              at(i, end),
-                              at(i + 1, end)}});
-            all.push_back({{at(i, -1.), at(i + 1, -1.), at(i + 1, 1.)}});
-            all.push_back({{at(i, -1.), at(i + 1, 1.), at(i, 1.)}});
-          }
+        const Point &a = rims[i], &b = rims[i + 1],
+                    &next_a = rims[(i + 2) % rims.size()],
+                    &next_b = rims[(i + 3) % rims.size()];
+        all.push_back({{Point(middle - half_height * axis), a, next_a}});
+        all.push_back({{Point(middle + half_height * axis), b, next_b}});
+        all.push_back({{a, next_a, next_b}});
+        all.push_back({{a, next_b, b}});
       }
     return all;
   }

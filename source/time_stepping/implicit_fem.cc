@@ -175,10 +175,8 @@ namespace geocone
     BodyChange     change;
     change.before = state_energies(kinematics, points, t);
 
-    std::vector<bool> is_there(mesh->triangulation().n_active_cells(), false);
-    for (const Cell &cell : points.cells)
-      is_there[cell->active_cell_index()] = true;
-    const auto take = [&](const double duration) {
+    std::vector<bool> is_there = mesh->is_among(points.cells);
+    const auto        take     = [&](const double duration) {
       const std::vector<bool> had_cells  = constraints->with_mass;
       Vector                  difference = net_force(t);
       points                             = quadrature_points_of(

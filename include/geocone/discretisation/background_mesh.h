@@ -8,6 +8,8 @@
 #include <geocone/discretisation/fitted_mesh.h>
 #include <geocone/scene/scene.h>
 
+#include <deal.II/base/bounding_box.h>
+
 #include <deal.II/distributed/tria_base.h>
 
 #include <deal.II/fe/mapping.h>
@@ -176,9 +178,16 @@ namespace geocone
       return Cell(tria.get(), 0, cell->index() % n + int(layer) * n);
     }
 
-    /** The lowest coordinates of all vertices. */
+    /** The box of all vertices, of all ranks. */
+    dealii::BoundingBox<dim>
+    bounding_box() const;
+
+    /** Its lowest coordinates. */
     dealii::Point<dim>
-    lower_corner() const;
+    lower_corner() const
+    {
+      return bounding_box().get_boundary_points().first;
+    }
 
     /** Inverse of the Jacobian dx/dxi at a unit point of a cell. */
     dealii::Tensor<2, dim>

@@ -123,9 +123,7 @@ namespace geocone
     PointCone
     cone_at(const unsigned int material, const dealii::Point<dim> &x) const
     {
-      const Material::Growth &more = growth[material];
-      return {cones[material].a,
-              cones[material].k + more.slope * (more.level - x[1])};
+      return {cones[material].a, cones[material].k + growth[material].at(x[1])};
     }
 
     /** Makes a material's strength another one: tan(phi), and k over cos(phi) times a

@@ -294,6 +294,12 @@ namespace geocone
     {
       double slope = 0.; ///< (Pa/m)
       double level = 0.; ///< (m)
+
+      double
+      at(const double y) const
+      {
+        return slope * (level - y);
+      }
     };
     virtual Growth
     growth() const

@@ -110,13 +110,20 @@ namespace geocone
       return given.theta;
     }
 
+    /** Of the cohesion with depth (Pa/m). */
+    double
+    cohesion_gradient() const
+    {
+      return given.gradient;
+    }
+
+  protected:
     bool
     cohesion_grows() const
     {
       return given.gradient != 0.;
     }
 
-  protected:
     /** Whether the slip of a step changes its cone, by end_cone(), otherwise than by a
      *  modulus. */
     virtual bool

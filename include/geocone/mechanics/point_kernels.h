@@ -223,9 +223,26 @@ namespace geocone::kernels
       }
   }
 
+  /** a = other gradients of the volumetric strain (B-bar) less those of a point, which
+   *  around an axis has N/r, too. @param hoop N/r, or null */
+  template <int n>
+  inline void
+  volumetric_change(const double *g,
+                    const double *hoop,
+                    const double *volumetric,
+                    double       *a)
+  {
+    for (int i = 0; i < n; ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        a[dim * i + d] = volumetric[n * d + i] - g[n * d + i];
+    if (hoop != nullptr)
+      for (int i = 0; i < n; ++i)
+        a[dim * i] -= hoop[i];
+  }
+
   /**
    * What other gradients of the volumetric strain change of K (B-bar). With I the unit
-   * tensor the strain is B + I a'/dim, a the difference of the gradients, so that with
+   * tensor the strain is B + I a'/dim, a their volumetric_change(), so that with
    * w = C I/dim
    * K += sum_q a_q (C_q' I/dim)' B_q + (B_q' w_q) a_q' + (I' w_q/dim) a_q a_q'.
    * @param hoop N/r around an axis, which the volumetric strain has, too; or null
@@ -246,12 +263,8 @@ namespace geocone::kernels
       {
         const Mandel w = C[q] * I;
         double       a[m], left[m] = {}, right[m] = {};
-        for (int i = 0; i < n; ++i)
-          for (unsigned int d = 0; d < dim; ++d)
-            a[dim * i + d] = volumetric[n * d + i] - g[n * d + i];
-        if (hoop != nullptr)
-          for (int i = 0; i < n; ++i)
-            a[dim * i] -= hoop[n * q + i];
+        volumetric_change<n>(
+          g, hoop == nullptr ? hoop : hoop + n * q, volumetric, a);
         add_force<n>(g, w, left);
         add_force<n>(g, C[q].transpose() * I, right);
         const double square = I.dot(w);

@@ -114,9 +114,9 @@ namespace geocone
       return stage_of[material] < 0 ? type.get() : of_added.get();
     }
 
-    /** Whether some soil has a stress of this type. */
+    /** Whether stages add soil, with a stress of this type. */
     bool
-    has(const Type one) const;
+    adds(const Type one) const;
 
     /** @throws InputError where a column of soil has no weight of its own */
     void
