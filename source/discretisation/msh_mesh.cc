@@ -111,9 +111,43 @@ namespace geocone
           std::swap(v[i], v[i + 4]);
     }
 
+    /** Which vertices belong to bodies that touch, and need not be joined. */
+    class ApartVertices
+    {
+    public:
+      ApartVertices(const CoarseMesh &mesh, const Contacts *contacts)
+        : contacts(contacts)
+        , materials(contacts == nullptr ? 0 : mesh.points.size())
+      {
+        if (contacts == nullptr)
+          return;
+        for (const auto &cell : mesh.cells)
+          for (const unsigned int v : cell.vertices)
+            materials[v].insert(cell.material_id);
+      }
+
+      bool
+      operator()(const unsigned int v, const unsigned int w) const
+      {
+        if (contacts == nullptr)
+          return false;
+        for (const unsigned int a : materials[v])
+          for (const unsigned int b : materials[w])
+            if (contacts->are_apart(a, b))
+              return true;
+        return false;
+      }
+
+    private:
+      const Contacts                     *contacts;
+      std::vector<std::set<unsigned int>> materials; ///< at a vertex
+    };
+
     /** In three dimensions: vertices at one place, which leave a gap between cells. */
     void
-    check_double_nodes(const CoarseMesh &mesh, const std::string &what)
+    check_double_nodes(const CoarseMesh    &mesh,
+                       const std::string   &what,
+                       const ApartVertices &are_apart)
     {
       std::vector<unsigned int> order(mesh.points.size());
       std::iota(order.begin(), order.end(), 0U);
@@ -128,7 +162,9 @@ namespace geocone
              j < order.size() &&
              mesh.points[order[j]][0] - mesh.points[order[i]][0] < tolerance;
              ++j)
-          if (mesh.points[order[i]].distance(mesh.points[order[j]]) < tolerance)
+          if (mesh.points[order[i]].distance(mesh.points[order[j]]) <
+                tolerance &&
+              !are_apart(order[i], order[j]))
             throw InputError(
               what + ": there are two nodes at " +
               place(mesh.points[order[i]]) +
@@ -195,8 +231,9 @@ namespace geocone
                         const std::string &what,
                         const Contacts    *contacts)
     {
+      const ApartVertices are_apart(mesh, contacts);
       if (dim == 3)
-        return check_double_nodes(mesh, what);
+        return check_double_nodes(mesh, what, are_apart);
       const auto                edges = mesh.outer_faces();
       std::vector<unsigned int> vertices;
       for (const auto &edge : edges)
@@ -208,20 +245,6 @@ namespace geocone
       for (const unsigned int v : vertices)
         places.emplace_back(mesh.points[v], v);
       const auto tree = dealii::pack_rtree(places);
-      // Where there are contacts: the materials at a vertex.
-      std::vector<std::set<unsigned int>> materials(
-        contacts == nullptr ? 0 : mesh.points.size());
-      if (!materials.empty())
-        for (const auto &cell : mesh.cells)
-          for (const unsigned int v : cell.vertices)
-            materials[v].insert(cell.material_id);
-      const auto are_apart = [&](const unsigned int v, const unsigned int w) {
-        for (const unsigned int a : materials[v])
-          for (const unsigned int b : materials[w])
-            if (contacts->are_apart(a, b))
-              return true;
-        return false;
-      };
       std::vector<std::pair<Point<dim>, unsigned int>> near;
       for (const auto &edge : edges)
         {
@@ -241,7 +264,7 @@ namespace geocone
           for (const auto &[x, v] : near)
             if (v != edge[0] && v != edge[1] &&
                 distance_to_segment(x, a, b) < tolerance &&
-                (materials.empty() || !are_apart(v, edge[0])))
+                !are_apart(v, edge[0]))
               throw InputError(
                 what + ": the node at " + place(x) +
                 " hangs on the edge from " + place(a) + " to " + place(b) +

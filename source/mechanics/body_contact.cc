@@ -4,14 +4,13 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/mechanics/body_contact.h>
-#include <geocone/scene/edge_normal.h>
+#include <geocone/mechanics/face_points.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
 #include <Eigen/Dense>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 
@@ -21,15 +20,46 @@ namespace geocone
 
   namespace
   {
-    /** What faces an edge by less than this part of it is left out. */
-    constexpr double least_part = 1e-9;
+    /** What faces a face by less than this part of it is left out. */
+    constexpr double least_piece = 1e-9;
+
+    /** A face that is faced by less than this part of it is left out: dual functions
+     *  on so little of it are known from rounding only. */
+    constexpr double least_part = dim == 2 ? 1e-6 : 1e-2;
 
     /** A node touches if the other body faces this part of what the node stands for:
-     *  half at a corner, where edges fit. */
-    constexpr double least_cover = 0.4;
+     *  half at a corner, where faces fit, in three dimensions a quarter. */
+    constexpr double least_cover = dim == 2 ? 0.4 : 0.2;
 
-    /** Edges face each other up to this cosine between their normals. */
+    /** A node that bears less than this part of a uniform pressure on its faces is left
+     *  free, as corners of quadratic triangles and quadratic nodes on an axis, which bear
+     *  nothing of it. */
+    constexpr double least_share = 1e-9;
+
+    /** Faces face each other up to this cosine between their normals. */
     constexpr double facing = -0.1;
+
+    /** On intervals or triangles; products of two shape functions of degree p come out
+     *  exactly, on parallelograms, too. */
+    template <int m>
+    Quadrature<m>
+    rule_of_piece(const bool simplicial, const unsigned int p)
+    {
+      if constexpr (m == 1)
+        return QGauss<1>(p + 1);
+      else
+        return QDuffy(simplicial ? p + 1 : 2 * p + 1, 1.);
+    }
+
+    /** Of a piece, a point of the rule. */
+    Point<dim - 1>
+    at(const FlatSimplex &piece, const Point<dim - 1> &s)
+    {
+      Point<dim - 1> x = piece[0];
+      for (unsigned int k = 0; k + 1 < dim; ++k)
+        x += s[k] * (piece[k + 1] - piece[0]);
+      return x;
+    }
   } // namespace
 
   BodyContact::BodyContact(const Scene          &scene,
@@ -41,22 +71,22 @@ namespace geocone
   {
     for (const auto &pair : scene.contacts.list)
       {
-        pairs.push_back({edges_of(pair->is_first), edges_of(pair->is_other)});
-        for (const auto *edges : {&pairs.back().first, &pairs.back().other})
-          if (edges->empty())
+        pairs.push_back({faces_of(pair->is_first), faces_of(pair->is_other)});
+        for (const auto *faces : {&pairs.back().first, &pairs.back().other})
+          if (faces->empty())
             throw InputError(
               "Contacts/" + pair->name + "/" +
-                (edges == &pairs.back().first ? "Body" : "Other body"),
+                (faces == &pairs.back().first ? "Body" : "Other body"),
               "no boundary",
               "materials that are at the boundary of the mesh",
               "check the regions of the materials");
       }
   }
 
-  std::vector<BodyContact::Edge>
-  BodyContact::edges_of(const std::vector<bool> &materials) const
+  std::vector<BodyContact::Face>
+  BodyContact::faces_of(const std::vector<bool> &materials) const
   {
-    std::vector<Edge>                    edges;
+    std::vector<Face>                    faces;
     std::vector<types::global_dof_index> nodes;
     std::vector<double>                  N(space.nodes_per_cell());
     for (const auto &cell : mesh.triangulation().active_cell_iterators())
@@ -64,237 +94,223 @@ namespace geocone
         for (const unsigned int f : cell->face_indices())
           if (cell->face(f)->at_boundary())
             {
-              Edge edge;
-              edge.cell                             = cell;
-              const auto                  reference = cell->reference_cell();
-              std::array<unsigned int, 2> ends;
-              for (unsigned int v = 0; v < 2; ++v)
-                ends[v] = reference.face_to_cell_vertices(f, v, true);
-              if (edge_normal(cell->vertex(ends[0]), cell->vertex(ends[1])) *
-                    (cell->center() - cell->vertex(ends[0])) >
-                  0.)
-                std::swap(ends[0], ends[1]);
-              edge.unit_start = reference.template vertex<dim>(ends[0]);
-              edge.unit_end   = reference.template vertex<dim>(ends[1]);
+              const auto                reference = cell->reference_cell();
+              std::vector<unsigned int> vertices;
+              for (unsigned int v = 0; v < cell->face(f)->n_vertices(); ++v)
+                vertices.push_back(reference.face_to_cell_vertices(f, v, true));
+              if (vertices.size() == 4) // around
+                std::swap(vertices[2], vertices[3]);
+              std::vector<Point<dim>> places, unit;
+              for (const unsigned int v : vertices)
+                places.push_back(cell->vertex(v));
+              const FacePlane plane{FaceOutline<dim>(places)};
+              if (plane.ahead(cell->center()) > 0.)
+                std::reverse(vertices.begin(), vertices.end());
+              for (const unsigned int v : vertices)
+                unit.push_back(reference.template vertex<dim>(v));
+              Face face{cell, FaceOutline<dim>(unit), {}, {}, {}, {}};
+              face.size = plane.size;
+
               space.cell_nodes(cell, nodes);
+              for (const Point<dim> &corner : unit)
+                {
+                  space.evaluate(cell, corner, N.data(), nullptr);
+                  face.corners.push_back(space.local_node(
+                    nodes[std::max_element(N.begin(), N.end()) - N.begin()]));
+                }
               // Those that are not zero everywhere on it.
-              std::set<unsigned int> on_edge;
-              for (const double s : {0., 0.21, 0.37, 0.5, 0.71, 1.})
-                {
-                  space.evaluate(
-                    cell,
-                    Point<dim>(edge.unit_start +
-                               s * (edge.unit_end - edge.unit_start)),
-                    N.data(),
-                    nullptr);
-                  for (unsigned int i = 0; i < N.size(); ++i)
-                    if (std::abs(N[i]) > 1e-12)
-                      on_edge.insert(i);
-                  for (unsigned int i = 0; i < N.size(); ++i)
-                    if (std::abs(N[i] - 1.) < 1e-12)
-                      (s == 0. ? edge.start : edge.end) =
-                        space.local_node(nodes[i]);
-                }
-              for (const unsigned int i : on_edge)
-                {
-                  edge.of_cell.push_back(i);
-                  edge.nodes.push_back(space.local_node(nodes[i]));
-                }
-              const auto &x = space.node_positions();
-              edge.length   = x[edge.start].distance(x[edge.end]);
-              const QGauss<1> rule(space.degree() + 1);
-              Eigen::VectorXd value(edge.nodes.size());
-              edge.integrals = Eigen::VectorXd::Zero(value.size());
-              for (unsigned int q = 0; q < rule.size(); ++q)
-                {
-                  evaluate(edge, rule.point(q)[0], value.data());
-                  edge.integrals += rule.weight(q) * edge.length * value;
-                }
-              edges.push_back(edge);
+              std::vector<double> largest(N.size(), 0.), sum(N.size(), 0.);
+              for (const FacePoint &point :
+                   points_on_face(mesh, space, cell, f))
+                for (unsigned int i = 0; i < N.size(); ++i)
+                  {
+                    largest[i] =
+                      std::max(largest[i], std::abs(point.values[i]));
+                    sum[i] += point.weight * point.values[i];
+                  }
+              std::vector<double> integrals;
+              for (unsigned int i = 0; i < N.size(); ++i)
+                if (largest[i] > 1e-12)
+                  {
+                    face.of_cell.push_back(i);
+                    face.nodes.push_back(space.local_node(nodes[i]));
+                    integrals.push_back(sum[i]);
+                  }
+              face.integrals = Eigen::Map<const Eigen::VectorXd>(
+                integrals.data(), integrals.size());
+              faces.push_back(face);
             }
-    return edges;
+    return faces;
+  }
+
+  FaceOutline<dim>
+  BodyContact::outline(const Face &face, const Place &place)
+  {
+    std::vector<Point<dim>> corners;
+    for (const unsigned int node : face.corners)
+      corners.push_back(place(node));
+    return FaceOutline<dim>(corners);
   }
 
   void
-  BodyContact::evaluate(const Edge &edge, const double s, double *N) const
+  BodyContact::evaluate(const Face           &face,
+                        const Point<dim - 1> &s,
+                        Eigen::VectorXd      &N) const
   {
     std::vector<double> all(space.nodes_per_cell());
-    space.evaluate(
-      edge.cell,
-      Point<dim>(edge.unit_start + s * (edge.unit_end - edge.unit_start)),
-      all.data(),
-      nullptr);
-    for (unsigned int i = 0; i < edge.of_cell.size(); ++i)
-      N[i] = all[edge.of_cell[i]];
+    space.evaluate(face.cell, face.unit.at(s), all.data(), nullptr);
+    N.resize(face.of_cell.size());
+    for (unsigned int i = 0; i < face.of_cell.size(); ++i)
+      N[i] = all[face.of_cell[i]];
   }
 
-  std::vector<BodyContact::Piece>
-  BodyContact::pieces(const Edge              &edge,
-                      const std::vector<Edge> &others,
-                      const Place             &place,
-                      const double             reach) const
+  std::vector<BodyContact::PointAhead>
+  BodyContact::points_ahead(const Face              &face,
+                            const std::vector<Face> &others,
+                            const Place             &place,
+                            const double             reach) const
   {
-    const Point<dim>     a = place(edge.start), b = place(edge.end);
-    const double         length = a.distance(b);
-    const Tensor<1, dim> along  = (b - a) / length,
-                         n      = edge_normal(a, b) / length;
+    const FacePlane   plane(outline(face, place));
+    const FlatOutline own = plane.project(outline(face, place));
 
-    // Of each other edge the interval that faces it.
     struct Candidate
     {
-      const Edge    *other;
-      Point<dim>     c;
-      Tensor<1, dim> cd;
-      double         begin, end;
+      const Face              *other;
+      FaceOutline<dim>         outline;
+      FlatOutline              flat;
+      std::vector<FlatSimplex> shared;
 
-      /** Part of the other edge that is straight ahead of a part of the edge. */
-      double
-      ahead(const double          s,
-            const Point<dim>     &a,
-            const Tensor<1, dim> &along,
-            const double          length) const
+      /** Straight ahead of a place in the plane. */
+      Point<dim>
+      ahead_of(const Point<dim - 1> &x) const
       {
-        return std::clamp(
-          ((a + s * length * along - c) * along) / (cd * along), 0., 1.);
+        return outline.at(unit_place(flat, x));
       }
     };
     std::vector<Candidate> candidates;
-    std::vector<double>    ends;
-    for (const Edge &other : others)
+    for (const Face &other : others)
       {
-        Candidate at;
-        at.other           = &other;
-        at.c               = place(other.start);
-        const Point<dim> d = place(other.end);
-        at.cd              = d - at.c;
-        const double size  = at.cd.norm();
-        if (edge_normal(at.c, d) * n > facing * size)
+        const FaceOutline<dim> its = outline(other, place);
+        if (plane.place().distance(its.corners[0]) >
+            2. * (plane.diameter + FacePlane(its).diameter) + reach)
           continue;
-        const double s = (at.c - a) * along / length,
-                     t = (d - a) * along / length;
-        at.begin       = std::max(std::min(s, t), 0.);
-        at.end         = std::min(std::max(s, t), 1.);
-        if (at.end - at.begin < least_part)
+        const FacePlane its_plane(its);
+        if (its_plane.normal * plane.normal > facing)
           continue;
-        const double middle = (at.begin + at.end) / 2.,
-                     gap =
-                       (at.c + at.ahead(middle, a, along, length) * at.cd - a) *
-                       n;
-        if (gap > std::max(size, length) + reach ||
-            gap < -std::min(size, length))
+        Candidate      at{&other, its, plane.project(its), {}};
+        double         part = 0.;
+        Point<dim - 1> middle;
+        for (const FlatSimplex &piece : shared_part(own, at.flat))
+          if (const double size = geocone::size_of(piece);
+              size >= least_piece * plane.size)
+            {
+              at.shared.push_back(piece);
+              part += size;
+              for (const Point<dim - 1> &corner : piece)
+                middle += size / dim * corner;
+            }
+        if (part == 0.)
+          continue;
+        const double gap =
+          plane.ahead(at.ahead_of(Point<dim - 1>(middle / part)));
+        if (gap > std::max(its_plane.diameter, plane.diameter) + reach ||
+            gap < -std::min(its_plane.diameter, plane.diameter))
           continue;
         candidates.push_back(at);
-        ends.push_back(at.begin);
-        ends.push_back(at.end);
       }
-    std::sort(ends.begin(), ends.end());
 
     // Where several do, the nearest.
-    std::vector<Piece> all;
-    for (std::size_t k = 0; k + 1 < ends.size(); ++k)
-      {
-        if (ends[k + 1] - ends[k] < least_part)
-          continue;
-        const double     middle  = (ends[k] + ends[k + 1]) / 2.;
-        double           nearest = std::numeric_limits<double>::infinity();
-        const Candidate *best    = nullptr;
-        for (const Candidate &at : candidates)
-          if (at.begin <= middle && middle <= at.end)
-            {
-              const double gap = std::abs(
-                (at.c + at.ahead(middle, a, along, length) * at.cd - a) * n);
-              if (gap < nearest)
-                {
-                  nearest = gap;
-                  best    = &at;
-                }
-            }
-        if (best != nullptr)
-          all.push_back({ends[k],
-                         ends[k + 1],
-                         best->other,
-                         best->ahead(ends[k], a, along, length),
-                         best->ahead(ends[k + 1], a, along, length)});
-      }
-    return all;
+    const Quadrature<dim - 1> rule =
+      rule_of_piece<dim - 1>(mesh.is_simplicial(), space.degree());
+    std::vector<PointAhead> points;
+    for (const Candidate &candidate : candidates)
+      for (const FlatSimplex &piece : candidate.shared)
+        for (unsigned int q = 0; q < rule.size(); ++q)
+          {
+            const Point<dim - 1> x = at(piece, rule.point(q));
+            const double gap = std::abs(plane.ahead(candidate.ahead_of(x)));
+            const bool   is_hidden = std::any_of(
+              candidates.begin(),
+              candidates.end(),
+              [&](const Candidate &before) {
+                return before.other != candidate.other &&
+                       is_in(before.flat, x) &&
+                       std::abs(plane.ahead(before.ahead_of(x))) < gap;
+              });
+            if (!is_hidden)
+              points.push_back({unit_place(own, x),
+                                candidate.other,
+                                unit_place(candidate.flat, x),
+                                rule.weight(q) * (dim - 1) *
+                                  geocone::size_of(piece) / plane.size});
+          }
+    return points;
   }
 
   void
-  BodyContact::integrate(const Edge                   &edge,
-                         const std::vector<Piece>     &facing,
-                         const Place                  &place,
-                         std::map<unsigned int, Sums> &sums) const
+  BodyContact::integrate(const Face                    &face,
+                         const std::vector<PointAhead> &points,
+                         const Place                   &place,
+                         std::map<unsigned int, Sums>  &sums) const
   {
-    const Point<dim>   a = place(edge.start), b = place(edge.end);
-    const unsigned int m = edge.nodes.size();
-    const QGauss<1>    rule(space.degree() + 1);
+    const FaceOutline<dim> at_start =
+      outline(face, [this](const unsigned int node) {
+        return space.node_positions()[node];
+      });
+    const auto weight = [&](const PointAhead &point) {
+      return point.part * face.size * mesh.measure(at_start.at(point.s));
+    };
+    const unsigned int m    = face.nodes.size();
     Eigen::MatrixXd    mass = Eigen::MatrixXd::Zero(m, m);
-    Eigen::VectorXd    D    = Eigen::VectorXd::Zero(m), N(m);
+    Eigen::VectorXd    D    = Eigen::VectorXd::Zero(m), N, N_other;
     double             part = 0.;
-    for (const Piece &piece : facing)
+    for (const PointAhead &point : points)
       {
-        part += piece.end - piece.begin;
-        for (unsigned int q = 0; q < rule.size(); ++q)
-          {
-            const double s =
-              piece.begin + rule.point(q)[0] * (piece.end - piece.begin);
-            evaluate(edge, s, N.data());
-            const double w =
-              rule.weight(q) * (piece.end - piece.begin) * edge.length;
-            mass += w * N * N.transpose();
-            D += w * N;
-          }
+        part += point.part;
+        evaluate(face, point.s, N);
+        mass += weight(point) * N * N.transpose();
+        D += weight(point) * N;
       }
-    if (part < 1e-6)
+    if (part < least_part)
       return;
+    const FacePlane       plane(outline(face, place));
     const Eigen::MatrixXd dual =
       D.asDiagonal() * mass.ldlt().solve(Eigen::MatrixXd::Identity(m, m));
     for (unsigned int i = 0; i < m; ++i)
       {
-        Sums &own = sums[edge.nodes[i]];
+        Sums &own = sums[face.nodes[i]];
         own.D += D[i];
-        own.normal += part * edge_normal(a, b);
+        own.faced += D.sum();
+        own.diameter = std::max(own.diameter, plane.diameter);
+        own.normal += part * plane.size * plane.normal;
       }
-    std::vector<double> N_other;
-    for (const Piece &piece : facing)
+    for (const PointAhead &point : points)
       {
-        N_other.resize(piece.other->nodes.size());
-        for (unsigned int q = 0; q < rule.size(); ++q)
-          {
-            const double x = rule.point(q)[0], w = rule.weight(q) *
-                                                   (piece.end - piece.begin) *
-                                                   edge.length;
-            evaluate(
-              edge, piece.begin + x * (piece.end - piece.begin), N.data());
-            evaluate(*piece.other,
-                     piece.other_begin +
-                       x * (piece.other_end - piece.other_begin),
-                     N_other.data());
-            const Eigen::VectorXd psi = dual * N;
-            for (unsigned int i = 0; i < m; ++i)
-              for (unsigned int j = 0; j < N_other.size(); ++j)
-                sums[edge.nodes[i]].M[piece.other->nodes[j]] +=
-                  w * psi[i] * N_other[j];
-          }
+        evaluate(face, point.s, N);
+        evaluate(*point.other, point.other_s, N_other);
+        const Eigen::VectorXd psi = dual * N;
+        for (unsigned int i = 0; i < m; ++i)
+          for (unsigned int j = 0; j < N_other.size(); ++j)
+            sums[face.nodes[i]].M[point.other->nodes[j]] +=
+              weight(point) * psi[i] * N_other[j];
       }
   }
 
   void
-  BodyContact::add_whole_edges(const std::vector<Edge>      &edges,
+  BodyContact::add_whole_faces(const std::vector<Face>      &faces,
                                const Place                  &place,
                                std::map<unsigned int, Sums> &sums) const
   {
-    for (const Edge &edge : edges)
+    for (const Face &face : faces)
       {
-        const Tensor<1, dim> n =
-          edge_normal(place(edge.start), place(edge.end));
-        for (unsigned int i = 0; i < edge.nodes.size(); ++i)
+        const FacePlane plane(outline(face, place));
+        for (unsigned int i = 0; i < face.nodes.size(); ++i)
           // The sides of a corner have nothing to do with what its base stands on.
-          if (const auto own = sums.find(edge.nodes[i]);
+          if (const auto own = sums.find(face.nodes[i]);
               own != sums.end() &&
-              n * own->second.normal >=
-                std::cos(pi / 4.) * n.norm() * own->second.normal.norm())
-            own->second.whole += edge.integrals[i];
+              plane.normal * own->second.normal >=
+                std::cos(pi / 4.) * own->second.normal.norm())
+            own->second.whole += face.integrals[i];
       }
   }
 
@@ -307,15 +323,18 @@ namespace geocone
     for (unsigned int k = 0; k < pairs.size(); ++k)
       {
         std::map<unsigned int, Sums> sums;
-        for (const Edge &edge : pairs[k].first)
-          integrate(
-            edge, pieces(edge, pairs[k].other, place, reach), place, sums);
-        add_whole_edges(pairs[k].first, place, sums);
+        for (const Face &face : pairs[k].first)
+          integrate(face,
+                    points_ahead(face, pairs[k].other, place, reach),
+                    place,
+                    sums);
+        add_whole_faces(pairs[k].first, place, sums);
         const InterfaceLaw    &law = scene.contacts.list[k]->law;
         std::set<unsigned int> own;
         for (const auto &[node, sum] : sums)
           {
-            if (!(sum.D > least_cover * sum.whole) || taken.count(node) > 0)
+            if (!(sum.D > least_cover * sum.whole) ||
+                !(sum.D > least_share * sum.faced) || taken.count(node) > 0)
               continue;
             FacingNode at;
             at.node.node     = node;
@@ -330,21 +349,18 @@ namespace geocone
               if (std::abs(M) > 1e-14 * sum.D)
                 {
                   if (taken.count(partner) > 0)
-                    {
-                      const Point<dim> x = place(partner);
-                      throw StepFailure(
-                        format(
-                          "the node at (%g, %g) of the contact '", x[0], x[1]) +
-                        scene.contacts.list[k]->name +
-                        "' belongs to the 'Body' of one that comes before it "
-                        "in 'Contacts/Names'\n"
-                        "  remedy:  name first the contacts in which it is "
-                        "'Other body', or exchange the bodies of one");
-                    }
+                    throw StepFailure(
+                      "the node at (" + text_of_place(place(partner)) +
+                      ") of the contact '" + scene.contacts.list[k]->name +
+                      "' belongs to the 'Body' of one that comes before it "
+                      "in 'Contacts/Names'\n"
+                      "  remedy:  name first the contacts in which it is "
+                      "'Other body', or exchange the bodies of one");
                   at.node.partners.push_back({partner, M / sum.D});
                   other += (M / sum.D) * place(partner);
                 }
-            at.gap = (place(node) - other) * at.node.normal;
+            at.gap  = (place(node) - other) * at.node.normal;
+            at.size = sum.diameter;
             own.insert(node);
             all.push_back(at);
           }
@@ -357,19 +373,15 @@ namespace geocone
   BodyContact::check_start(const Place &place) const
   {
     for (const FacingNode &at : find(place, 0.))
-      if (at.gap < -1e-3 * at.node.length)
-        {
-          const Point<dim> x = place(at.node.node);
-          throw InputError(
-            "Contacts/Names",
-            scene.contacts.list[at.node.obstacle - scene.obstacles.list.size()]
-              ->name,
-            "bodies that do not overlap at the start",
-            format("'Body' is %.3g m in the other one at (%g, %g): move one "
-                   "of them, or make the cells of curved sides smaller",
-                   -at.gap,
-                   x[0],
-                   x[1]));
-        }
+      if (at.gap < -1e-3 * at.size)
+        throw InputError(
+          "Contacts/Names",
+          scene.contacts.list[at.node.obstacle - scene.obstacles.list.size()]
+            ->name,
+          "bodies that do not overlap at the start",
+          format("'Body' is %.3g m in the other one at (%s): move one of them, "
+                 "or make the cells of curved sides smaller",
+                 -at.gap,
+                 text_of_place(place(at.node.node)).c_str()));
   }
 } // namespace geocone

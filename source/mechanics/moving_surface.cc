@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/clipped.h>
 #include <geocone/base/exceptions.h>
 #include <geocone/base/over_ranks.h>
 #include <geocone/mechanics/moving_surface.h>
@@ -18,26 +19,6 @@ namespace geocone
   namespace
   {
     using Outline = std::vector<Point<dim>>;
-
-    /** What of a convex polygon is where (x - on) into >= 0. */
-    Outline
-    clipped(const Outline        &polygon,
-            const Point<dim>     &on,
-            const Tensor<1, dim> &into)
-    {
-      Outline rest;
-      for (std::size_t i = 0; i < polygon.size(); ++i)
-        {
-          const Point<dim> &a = polygon[i],
-                           &b = polygon[(i + 1) % polygon.size()];
-          const double in_a = (a - on) * into, in_b = (b - on) * into;
-          if (in_a >= 0.)
-            rest.push_back(a);
-          if (in_a * in_b < 0.)
-            rest.push_back(Point<dim>(a + in_a / (in_a - in_b) * (b - a)));
-        }
-      return rest;
-    }
 
     double
     area_of_triangle(const Point<dim> &a,

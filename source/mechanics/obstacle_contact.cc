@@ -206,7 +206,7 @@ namespace geocone
         step.has_pairs = true;
         if (mesh_is_body)
           facing = find_facing(velocity_n, h);
-        near = near_bodies(velocity_n, h, std::move(facing));
+        near = near_bodies(velocity_n, h, facing);
       }
     add_nodes(velocity_n, h, gaps, near, step);
     return step;
@@ -231,18 +231,19 @@ namespace geocone
   }
 
   ObstacleContact::NearBodies
-  ObstacleContact::near_bodies(const Vector           &velocity_n,
-                               const double            h,
-                               std::vector<FacingNode> facing) const
+  ObstacleContact::near_bodies(const Vector                  &velocity_n,
+                               const double                   h,
+                               const std::vector<FacingNode> &facing) const
   {
     NearBodies near;
-    for (auto &[contact, gap] : facing)
+    for (const FacingNode &at : facing)
       {
-        const Tensor<1, dim> v = value_at(velocity_n, contact.node);
-        Tensor<1, dim>       u = v;
+        ContactNode          contact = at.node;
+        const Tensor<1, dim> v       = value_at(velocity_n, contact.node);
+        Tensor<1, dim>       u       = v;
         for (const ContactNode::Partner &other : contact.partners)
           u -= other.part * value_at(velocity_n, other.node);
-        contact.least    = -gap / h;
+        contact.least    = -at.gap / h;
         contact.velocity = v - u;
         const double u_n = u * contact.normal;
         rebound(
@@ -250,7 +251,7 @@ namespace geocone
           scene.contacts.list[contact.obstacle - scene.obstacles.list.size()]
             ->law,
           contact);
-        near[contact.node] = {contact, gap, reach(h, u_n)};
+        near[contact.node] = {contact, at.gap, reach(h, u_n)};
       }
     return near;
   }

@@ -67,11 +67,6 @@ namespace geocone
                        "set Time stepping/Inertia = true");
     RaisedLoads::check(*scene);
     check_round_body(*scene);
-    if (dim == 3 || scene->geometry.is_axisymmetric())
-      scene->contacts.refuse("finite elements in three dimensions or around an "
-                             "axis",
-                             "let one of the bodies be an obstacle, or set "
-                             "Discretisation/Method = MPM");
     check_midpoint(integration, *scene, "Time stepping/Integration");
     points = make_quadrature_points(*scene, mesh_, space_);
     if (scene->loading.changes_body())

@@ -6,6 +6,7 @@
 
 #include <geocone/discretisation/space.h>
 #include <geocone/mechanics/contact.h>
+#include <geocone/mechanics/face_plane.h>
 #include <geocone/scene/scene.h>
 
 #include <Eigen/Dense>
@@ -17,18 +18,21 @@
 namespace geocone
 {
   /**
-   * Where the deformable bodies of a plane scene touch: by mortar elements with dual
-   * functions (Wohlmuth 2000; Hueeber and Wohlmuth 2005), so that a uniform pressure
-   * passes through meshes that do not fit. The pressure of the contact is
-   * sum_i psi_i r_i/D_i on the edges of the first body, where on each edge
+   * Where deformable bodies touch: by mortar elements with dual functions (Wohlmuth
+   * 2000; Hueeber and Wohlmuth 2005), so that a uniform pressure passes through meshes
+   * that do not fit. The pressure of the contact is sum_i psi_i r_i/D_i on the faces of
+   * the first body, where on each face
    *   int psi_i N_j = delta_ij int N_j  over what the other body faces.
    * With D_i = int psi_i and M_ij = int psi_i N_j of the other body, node i touches what
    * moves by sum_j P_ij v_j, P = M/D; its gap is n.(x_i - sum_j P_ij x_j). Forces r_i
    * and -P_ij r_i are in equilibrium; so are their moments where the gap is closed.
    *
-   * Places are those of the beginning of a step. Edges are taken as straight; points
-   * are projected along the normal of the edge of the first body. n is the mean of
-   * these normals at the node. The integrals are exact, piece by piece.
+   * Places are those of the beginning of a step, the measures of integrals those of the
+   * start, as strains are small: around an axis with 2 pi r. Edges are taken as straight
+   * and faces as flat; points are projected along the normal of the face of the first
+   * body. n is the mean of these normals at the node. Nodes with D_i = 0, as corners of
+   * quadratic triangles, bear nothing and are free. The integrals are exact, piece by
+   * piece, in the plane and of triangles and parallelograms.
    */
   class BodyContact
   {
@@ -43,8 +47,8 @@ namespace geocone
     /**
      * All of them, the same on each rank, each node once: by the contact that comes
      * first in the list.
-     * @param reach how far apart edges count that face each other, beside the length
-     * of an edge (m)
+     * @param reach how far apart faces count that face each other, beside the size of a
+     * face (m)
      * @throws StepFailure if a node touches by one contact and is touched by another
      * one that comes later
      */
@@ -56,60 +60,67 @@ namespace geocone
     check_start(const Place &place) const;
 
   private:
-    /** An edge of a cell at the boundary. */
-    struct Edge
+    /** A face of a cell at the boundary: in the plane an edge. */
+    struct Face
     {
       BackgroundMesh::Cell      cell;
-      dealii::Point<dim>        unit_start, unit_end; ///< the body on the left
-      unsigned int              start, end;           ///< nodes at the ends
-      std::vector<unsigned int> nodes;                ///< on the edge
-      std::vector<unsigned int> of_cell; ///< their numbers in the cell
-
-      /** At the start, as strains are small: of the edge (m), and int N of its nodes. */
-      double          length;
-      Eigen::VectorXd integrals;
+      FaceOutline<dim>          unit;      ///< in unit coordinates of the cell
+      std::vector<unsigned int> corners;   ///< nodes, in the order of FacePlane
+      std::vector<unsigned int> nodes;     ///< on the face
+      std::vector<unsigned int> of_cell;   ///< their numbers in the cell
+      Eigen::VectorXd           integrals; ///< of their N, at the start
+      double                    size =
+        0.; ///< at the start (m, m^2), around an axis without 2 pi r
     };
 
-    /** The edges of the materials. */
-    std::vector<Edge>
-    edges_of(const std::vector<bool> &materials) const;
+    /** The faces of the materials. */
+    std::vector<Face>
+    faces_of(const std::vector<bool> &materials) const;
 
-    /** N of the nodes on an edge, at a part s of its length. */
+    static FaceOutline<dim>
+    outline(const Face &face, const Place &place);
+
+    /** N of the nodes on a face, at unit coordinates of the face. */
     void
-    evaluate(const Edge &edge, const double s, double *N) const;
+    evaluate(const Face                   &face,
+             const dealii::Point<dim - 1> &s,
+             Eigen::VectorXd              &N) const;
 
-    /** What an edge of the first body faces. */
-    struct Piece
+    /** A point of integrals over what a face of the first body faces. */
+    struct PointAhead
     {
-      double      begin, end; ///< parts of its length
-      const Edge *other;
-      double      other_begin, other_end; ///< of the other edge
+      dealii::Point<dim - 1> s; ///< on the face
+      const Face            *other;
+      dealii::Point<dim - 1> other_s;
+      double                 part; ///< of the size of the face
     };
-    std::vector<Piece>
-    pieces(const Edge              &edge,
-           const std::vector<Edge> &others,
-           const Place             &place,
-           const double             reach) const;
+    std::vector<PointAhead>
+    points_ahead(const Face              &face,
+                 const std::vector<Face> &others,
+                 const Place             &place,
+                 const double             reach) const;
 
-    /** Sums over the edges of a node. */
+    /** Sums over the faces of a node. */
     struct Sums
     {
-      double                 D     = 0.;
-      double                 whole = 0.; ///< D if all of the edges are faced
-      dealii::Tensor<1, dim> normal;     ///< outward, times lengths
+      double                 D        = 0.;
+      double                 whole    = 0.; ///< D if all of the faces are faced
+      double                 faced    = 0.; ///< size of what of them is faced
+      double                 diameter = 0.; ///< of the largest (m)
+      dealii::Tensor<1, dim> normal;        ///< outward, times sizes
       std::map<unsigned int, double> M;
     };
 
-    /** Adds what an edge has of D, M and the normals. */
+    /** Adds what a face has of D, M and the normals. */
     void
-    integrate(const Edge                   &edge,
-              const std::vector<Piece>     &facing,
-              const Place                  &place,
-              std::map<unsigned int, Sums> &sums) const;
+    integrate(const Face                    &face,
+              const std::vector<PointAhead> &points,
+              const Place                   &place,
+              std::map<unsigned int, Sums>  &sums) const;
 
-    /** Adds what D would be on whole edges, of those nodes that have one. */
+    /** Adds what D would be on whole faces, of those nodes that have one. */
     void
-    add_whole_edges(const std::vector<Edge>      &edges,
+    add_whole_faces(const std::vector<Face>      &faces,
                     const Place                  &place,
                     std::map<unsigned int, Sums> &sums) const;
 
@@ -119,7 +130,7 @@ namespace geocone
 
     struct Pair
     {
-      std::vector<Edge> first, other;
+      std::vector<Face> first, other;
     };
     std::vector<Pair> pairs;
   };

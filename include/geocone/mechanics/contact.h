@@ -91,11 +91,12 @@ namespace geocone
   };
 
   /** A node of a first body that may touch the other one, without what depends on the
-   *  step, and the gap (m). */
+   *  step, the gap, and of meshes that are bodies the size of the faces there (m). */
   struct FacingNode
   {
     ContactNode node;
     double      gap;
+    double      size = 0.;
   };
 
   /** What may touch in a step. */

@@ -249,9 +249,9 @@ namespace geocone
 
     /** The nodes that may touch other bodies. */
     NearBodies
-    near_bodies(const Vector           &velocity_n,
-                const double            h,
-                std::vector<FacingNode> facing) const;
+    near_bodies(const Vector                  &velocity_n,
+                const double                   h,
+                const std::vector<FacingNode> &facing) const;
 
     /** The force on a node: what supports hold of it is theirs. */
     static dealii::Tensor<1, dim>
