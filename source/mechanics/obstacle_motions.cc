@@ -74,7 +74,12 @@ namespace geocone
     n_free_motions = 0;
     for (const ObstacleBody &body : bodies)
       {
+        // What rests goes on to rest, and what falls freely is found in one iteration.
+        // By 'without_contact' a heavy body would be far off in long steps.
         motion.push_back(body.without_contact);
+        for (unsigned int k = 0; k < n_motions; ++k)
+          if (body.is_free[k])
+            motion.back()[k] = body.velocity_n[k];
         first_free.push_back(n_free_motions);
         n_free_motions += body.n_free();
       }
