@@ -19,9 +19,31 @@ namespace geocone
 
   namespace
   {
+    /** Where a side of the body is nearest to x: in the plane on a line, in space on a
+     *  rectangle of a box. */
+    Point<dim>
+    nearest_on_side(const Geometry    &geometry,
+                    const std::string &name,
+                    const Point<dim>  &x)
+    {
+      if (dim == 2)
+        {
+          const auto ends = geometry.side_ends(geometry.sides.at(name));
+          return nearest_on_segment(x, ends[0], ends[1]);
+        }
+      const auto [lower, upper] = geometry.bounding_box();
+      Point<dim> foot;
+      for (unsigned int d = 0; d < dim; ++d)
+        foot[d] = name == side_of_box[d][0] ? lower[d]
+                  : name == side_of_box[d][1]
+                    ? upper[d]
+                    : std::clamp(x[d], lower[d], upper[d]);
+      return foot;
+    }
+
     /**
      * Whether a particle lies in the first row under the part of the body's
-     * sides that a condition holds: nearer than the side of its own square.
+     * sides that a condition holds: nearer than the side of its own square, or cube.
      */
     bool
     in_first_row(const BoundaryCondition &condition,
@@ -29,11 +51,10 @@ namespace geocone
                  const Point<dim>        &x,
                  const double             volume)
     {
-      for (const auto &[name, id] : geometry.sides)
-        if (condition.is_on_side(name))
+      for (const auto &side : geometry.sides)
+        if (condition.is_on_side(side.first))
           {
-            const auto       ends = geometry.side_ends(id);
-            const Point<dim> foot = nearest_on_segment(x, ends[0], ends[1]);
+            const Point<dim> foot = nearest_on_side(geometry, side.first, x);
             if (foot.distance(x) < geometry.size_of_point(x, volume) &&
                 condition.holds_at(foot))
               return true;

@@ -6,7 +6,7 @@
 #include <geocone/base/over_ranks.h>
 #include <geocone/mechanics/constraints.h>
 #include <geocone/mechanics/face_points.h>
-#include <geocone/mechanics/moving_boundary.h>
+#include <geocone/mechanics/panel.h>
 #include <geocone/mechanics/vector_at.h>
 
 #include <deal.II/base/mpi.h>
@@ -56,10 +56,14 @@ namespace geocone
             }
         };
         if (list[c]->moves())
-          for (const auto &line : lines_of_body(*list[c], scene.geometry))
+          for (const Panel &panel : panels_of_body(*list[c], scene.geometry))
             {
-              extend(line.a);
-              extend(line.b);
+              // And the corner that lies across.
+              Point<dim> last = panel.corner;
+              for (const Tensor<1, dim> &edge : panel.edges)
+                last += edge;
+              extend(panel.corner);
+              extend(last);
             }
         else
           {

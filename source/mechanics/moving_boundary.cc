@@ -110,6 +110,7 @@ namespace geocone
         area += v[0] * w[1] - w[0] * v[1];
       }
 
+    condition.check_sides(geometry.sides, "sides of the body");
     std::vector<MovingBoundary::Line> lines;
     for (const auto &[name, id] : geometry.sides)
       if (condition.is_on_side(name))
@@ -129,17 +130,6 @@ namespace geocone
           if (to > from)
             lines.push_back(
               {a + from * along, a + to * along, (to - from) * along.norm()});
-        }
-    for (const std::string &name : condition.sides)
-      if (name != "all" && geometry.sides.count(name) == 0)
-        {
-          std::string known = "all";
-          for (const auto &side : geometry.sides)
-            known += ", " + side.first;
-          throw InputError(condition.parameter("Sides"),
-                           name,
-                           known + " (sides of the body)",
-                           "choose some of them");
         }
     if (lines.empty())
       throw InputError(condition.parameter("Box"),

@@ -5,6 +5,7 @@
 #include <geocone/base/log.h>
 #include <geocone/base/over_ranks.h>
 #include <geocone/mechanics/moving_conditions.h>
+#include <geocone/scene/edge_normal.h>
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/mpi.h>
@@ -17,58 +18,74 @@ namespace geocone
 
   namespace
   {
-    /** A place as seen from a line of the body's border. */
+    /** A place as seen from a panel of the body's border. */
     struct Seen
     {
-      double along;  ///< from 0 to 1 beside the line
-      double beyond; ///< distance to its right, outside the body (m)
-      double length; ///< of the line (m)
+      std::array<double, dim - 1> along;  ///< from 0 to 1 beside the panel
+      double                      beyond; ///< outside the body (m)
+      double                      length; ///< of its shortest edge (m)
 
       /** Not far behind: there another part of the body may be. */
       bool
       is_close_behind() const
       {
         constexpr double rounding = 1e-9;
-        return along > rounding && along < 1. - rounding &&
+        return std::all_of(along.begin(),
+                           along.end(),
+                           [](const double s) {
+                             return s > rounding && s < 1. - rounding;
+                           }) &&
                beyond > rounding * length && beyond < length;
       }
     };
 
     Seen
-    seen_from(const MovingBoundary::Line &line, const Point<dim> &x)
+    seen_from(const Panel &panel, const Point<dim> &x)
     {
-      const Tensor<1, dim> direction = line.b - line.a, to = x - line.a;
-      const double         length = direction.norm();
-      return {direction * to / (length * length),
-              (direction[1] * to[0] - direction[0] * to[1]) / length,
-              length};
+      const Tensor<1, dim> to = x - panel.corner, area = panel.area();
+      Seen                 seen;
+      seen.beyond = area * to / area.norm();
+      seen.length = 1e300;
+      // In the plane of a parallelogram, by the reciprocals of its edges.
+      for (unsigned int k = 0; k + 1 < dim; ++k)
+        {
+          const Tensor<1, dim> &edge = panel.edges[k];
+          Tensor<1, dim>        dual = edge;
+          if (dim == 3)
+            {
+              const Tensor<1, dim> &other = panel.edges[dim - 2 - k];
+              dual -= (edge * other) / other.norm_square() * other;
+            }
+          seen.along[k] = (to * dual) / (edge * dual);
+          seen.length   = std::min(seen.length, edge.norm());
+        }
+      return seen;
     }
 
-    /** Whether a condition gives the velocity across a line. */
+    /** Whether a condition gives the velocity across a panel. */
     bool
-    holds_normal(const BoundaryCondition    &condition,
-                 const MovingBoundary::Line &line)
+    holds_normal(const BoundaryCondition &condition, const Panel &panel)
     {
-      const Tensor<1, dim> direction = line.b - line.a;
-      for (unsigned int d = 0; d < 2; ++d) // lines are those of the plane
-        if (!condition.components[d] &&
-            std::abs(direction[1 - d]) > 1e-6 * direction.norm())
+      const Tensor<1, dim> area = panel.area();
+      for (unsigned int d = 0; d < dim; ++d)
+        if (!condition.components[d] && std::abs(area[d]) > 1e-6 * area.norm())
           return false;
       return true;
     }
 
     /** The longest part of a line in one cell (m). */
     double
-    cell_size_along(const BackgroundMesh       &mesh,
-                    const Space                &space,
-                    const MovingBoundary::Line &line)
+    cell_size_along(const BackgroundMesh &mesh,
+                    const Space          &space,
+                    const Point<dim>     &a,
+                    const Point<dim>     &b)
     {
       double longest = 0.;
       // The middle one of the five Gauss points of a cell has this weight.
       const double middle = 128. / 450.;
-      const auto   points = points_on_line(mesh, space, line.a, line.b);
+      const auto   points = points_on_line(mesh, space, a, b);
       for (std::size_t i = 2; i < points.size(); i += 5)
-        longest = std::max(longest, points[i].weight / middle * line.length);
+        longest = std::max(longest, points[i].weight / middle * a.distance(b));
       return Utilities::MPI::max(longest,
                                  mesh.triangulation().get_communicator());
     }
@@ -82,56 +99,65 @@ namespace geocone
     , space(space)
   {
     const auto &list = scene.dirichlet.list;
-    if (dim == 3)
+    for (unsigned int c = 0; c < list.size(); ++c)
+      if (list[c]->moves())
+        {
+          std::vector<Panel> panels = // checks the names, too
+            panels_of_body(*list[c], scene.geometry);
+          if (list[c]->holds() != Imposition::On::side)
+            continue;
+          shorten(*list[c], panels);
+          supports.push_back({c, panels});
+        }
+    const auto &tractions = scene.tractions.list;
+    if (dim == 3 && !tractions.empty())
       {
-        // Sides that move are lines.
-        for (const auto &condition : list)
-          if (condition->moves())
-            throw InputError(condition->parameter("Imposed on"),
-                             condition->imposition.word(),
-                             "nodes in three dimensions",
-                             "hold or move sides of the background mesh");
         double longest = 1e300;
         for (const auto &cell : mesh.own_cells())
           longest = std::min(longest, BackgroundMesh::size_of(cell));
         longest =
           Utilities::MPI::min(longest, mesh.triangulation().get_communicator());
-        for (unsigned int c = 0; c < scene.tractions.list.size(); ++c)
+        for (unsigned int c = 0; c < tractions.size(); ++c)
           surfaces.push_back(
-            {c,
-             MovingSurface(*scene.tractions.list[c], scene.geometry, longest)});
+            {c, MovingSurface(*tractions[c], scene.geometry, longest)});
         return;
       }
-    for (unsigned int c = 0; c < list.size(); ++c)
-      if (list[c]->holds() == Imposition::On::side)
-        {
-          supports.push_back({c, MovingBoundary(*list[c], scene.geometry, 0.)});
-          for (MovingBoundary::Line &line : supports.back().boundary.lines)
-            {
-              const double part = list[c]->shortening / 2. *
-                                  cell_size_along(mesh, space, line) /
-                                  line.length;
-              const Tensor<1, dim> along = line.b - line.a;
-              if (2. * part >= 1.)
-                throw InputError(list[c]->parameter("Segment shortening"),
-                                 list[c]->shortening,
-                                 "less than the side has cells",
-                                 "take smaller cells or a smaller number");
-              line.a += part * along;
-              line.b -= part * along;
-              line.length *= 1. - 2. * part;
-            }
-        }
-      else if (list[c]->moves())
-        lines_of_body(*list[c], scene.geometry); // checks the names
-    const auto &tractions = scene.tractions.list;
     for (unsigned int c = 0; c < tractions.size(); ++c)
       {
         double size = 0.;
         for (const auto &line : lines_of_body(*tractions[c], scene.geometry))
-          size = std::max(size, cell_size_along(mesh, space, line));
+          size = std::max(size, cell_size_along(mesh, space, line.a, line.b));
         loads.push_back(
           {c, MovingBoundary(*tractions[c], scene.geometry, size)});
+      }
+  }
+
+  void
+  MovingConditions::shorten(const BoundaryCondition &condition,
+                            std::vector<Panel>      &panels) const
+  {
+    if (condition.shortening == 0.)
+      return;
+    if (dim == 3)
+      throw InputError(condition.parameter("Segment shortening"),
+                       condition.shortening,
+                       "0 in three dimensions",
+                       "leave it out: it is a calibration of strips");
+    for (Panel &panel : panels)
+      {
+        Tensor<1, dim> &along = panel.edges[0];
+        const double    part =
+          condition.shortening / 2. *
+          cell_size_along(
+            mesh, space, panel.corner, Point<dim>(panel.corner + along)) /
+          along.norm();
+        if (2. * part >= 1.)
+          throw InputError(condition.parameter("Segment shortening"),
+                           condition.shortening,
+                           "less than the side has cells",
+                           "take smaller cells or a smaller number");
+        panel.corner += part * along;
+        along *= 1. - 2. * part;
       }
   }
 
@@ -196,7 +222,7 @@ namespace geocone
         const BoundaryCondition &load = *scene.tractions.list[condition];
         const bool               acts =
           stage == nullptr || stage->raises(load.name) == raised;
-        std::vector<double> parts =
+        const std::vector<double> parts =
           surface.for_each_point(mesh,
                                  space,
                                  [&](const MovingSurface::Triangle &triangle,
@@ -209,15 +235,7 @@ namespace geocone
                                                   t,
                                                   force);
                                  });
-        sum_over_ranks(parts, mesh.triangulation().get_communicator());
-        const double least = *std::min_element(parts.begin(), parts.end());
-        if (least < 1. - 1e-6)
-          throw StepFailure("the side of '" + load.name +
-                            format("' has left the background mesh: %.3g %% of "
-                                   "a part of it is outside\n"
-                                   "  remedy:  a larger Mesh/Box, so that the "
-                                   "side stays in it",
-                                   100. * (1. - least)));
+        check_in_mesh(load, parts);
       }
   }
 
@@ -228,100 +246,91 @@ namespace geocone
                                   const bool   raised) const
   {
     add_tractions_of_surfaces(force, t, stage, raised);
-    std::vector<double> part_in_mesh;
-    for (const Side &side : loads)
-      for (const MovingBoundary::Line &line : side.boundary.lines)
-        {
-          part_in_mesh.push_back(0.);
-          const BoundaryCondition &load = *scene.tractions.list[side.condition];
-          const bool               acts =
-            stage == nullptr || stage->raises(load.name) == raised;
-          for (const BoundaryPoint &point :
-               points_on_line(mesh, space, line.a, line.b))
-            {
-              part_in_mesh.back() += point.weight;
-              if (acts)
-                {
-                  // The body is to the left.
-                  const Tensor<1, dim> along = line.b - line.a;
-                  Tensor<1, dim>       area;
-                  area[0] = along[1];
-                  area[1] = -along[0];
-                  add_traction(load, line.length, area, point, t, force);
-                }
-            }
-        }
-    if (!loads.empty())
-      check_in_mesh(scene.tractions, loads, part_in_mesh);
+    for (const LoadedSide &side : loads)
+      {
+        const BoundaryCondition &load = *scene.tractions.list[side.condition];
+        const bool               acts =
+          stage == nullptr || stage->raises(load.name) == raised;
+        std::vector<double> part_in_mesh;
+        for (const MovingBoundary::Line &line : side.boundary.lines)
+          {
+            part_in_mesh.push_back(0.);
+            for (const BoundaryPoint &point :
+                 points_on_line(mesh, space, line.a, line.b))
+              {
+                part_in_mesh.back() += point.weight;
+                if (acts)
+                  add_traction(load,
+                               line.length,
+                               edge_normal(line.a, line.b),
+                               point,
+                               t,
+                               force);
+              }
+          }
+        check_in_mesh(load, part_in_mesh);
+      }
     if (!loads.empty() || !surfaces.empty())
       force.compress(VectorOperation::add);
   }
 
   void
-  MovingConditions::check_in_mesh(const BoundaryConditions  &conditions,
-                                  const std::vector<Side>   &sides,
-                                  const std::vector<double> &part_in_mesh) const
+  MovingConditions::check_in_mesh(const BoundaryCondition &condition,
+                                  std::vector<double>      part_in_mesh) const
   {
-    std::vector<double> sums = part_in_mesh;
-    sum_over_ranks(sums, mesh.triangulation().get_communicator());
-    std::size_t l = 0;
-    for (const Side &side : sides)
-      for (const MovingBoundary::Line &line : side.boundary.lines)
-        if (const double part = sums[l++]; part < 1. - 1e-6)
-          throw StepFailure(
-            format("the side of '%s' has left the background mesh: %.3g %% of "
-                   "its line from (%g, %g) to (%g, %g) is outside\n"
-                   "  remedy:  a larger Mesh/Box, so that the side stays in it",
-                   conditions.list[side.condition]->name.c_str(),
-                   100. * (1. - part),
-                   line.a[0],
-                   line.a[1],
-                   line.b[0],
-                   line.b[1]));
+    sum_over_ranks(part_in_mesh, mesh.triangulation().get_communicator());
+    const double least =
+      *std::min_element(part_in_mesh.begin(), part_in_mesh.end());
+    if (least < 1. - 1e-6)
+      throw StepFailure("the side of '" + condition.name +
+                        format("' has left the background mesh: %.3g %% of "
+                               "a part of it is outside\n"
+                               "  remedy:  a larger Mesh/Box, so that the "
+                               "side stays in it",
+                               100. * (1. - least)));
   }
 
   void
   MovingConditions::add_rows_of_sides(const double t, Multipliers &rows) const
   {
-    std::vector<double> part_in_mesh;
-    for (const Side &side : supports)
+    for (const HeldSide &side : supports)
       {
         const BoundaryCondition &condition =
           *scene.dirichlet.list[side.condition];
-        unsigned int number = 0;
-        for (const MovingBoundary::Line &line : side.boundary.lines)
-          {
-            part_in_mesh.push_back(0.);
-            const Tensor<1, dim> part =
-              (line.b - line.a) / condition.n_segments;
-            for (unsigned int s = 0; s < condition.n_segments; ++s, ++number)
-              {
-                const Point<dim> a = line.a + s * part,
-                                 b = line.a + (s + 1.) * part;
-                // Of a round body the mean is that over the area; on the axis there
-                // is none.
-                const double mean_measure = mesh.measure(a + part / 2.);
-                for (const BoundaryPoint &point :
-                     points_on_line(mesh, space, a, b))
-                  {
-                    part_in_mesh.back() += point.weight / condition.n_segments;
-                    const double relative =
-                      mean_measure > 0.
-                        ? mesh.measure(point.position) / mean_measure
-                        : 1.;
-                    add_to_row(side.condition,
-                               {number, point.weight * relative},
-                               point.position,
-                               t,
-                               point.nodes,
-                               point.values.data(),
-                               rows);
-                  }
-              }
-          }
+        std::array<unsigned int, dim - 1> n;
+        n.fill(condition.n_segments);
+        std::vector<double> part_in_mesh;
+        unsigned int        number = 0;
+        for (const Panel &panel : side.panels)
+          for (const Panel &segment : panel.parts(n))
+            {
+              part_in_mesh.push_back(0.);
+              // Of a round body the mean is that over the area; on the axis there is
+              // none.
+              Point<dim - 1> middle;
+              for (unsigned int k = 0; k + 1 < dim; ++k)
+                middle[k] = 0.5;
+              const double mean_measure = mesh.measure(segment.at(middle));
+              for (const BoundaryPoint &point :
+                   points_on_panel(mesh, space, segment))
+                {
+                  part_in_mesh.back() += point.weight;
+                  const double relative =
+                    mean_measure > 0.
+                      ? mesh.measure(point.position) / mean_measure
+                      : 1.;
+                  add_to_row(side.condition,
+                             {number, point.weight * relative},
+                             point.position,
+                             t,
+                             point.nodes,
+                             point.values.data(),
+                             rows);
+                }
+              ++number;
+            }
+        check_in_mesh(condition, part_in_mesh);
       }
-    if (!supports.empty())
-      check_in_mesh(scene.dirichlet, supports, part_in_mesh);
   }
 
   void
@@ -417,7 +426,7 @@ namespace geocone
         "its sides and its box, or whether the body has left it");
     const unsigned int component = refusal->key.component;
     throw InputError(
-      condition.parameter(component == 0 ? "Velocity x" : "Velocity y"),
+      condition.parameter(std::string("Velocity ") + coordinate[component]),
       condition.formula(component),
       "velocities that the functions of the space can take",
       format("its rows depend on each other but contradict: %g "
@@ -431,17 +440,21 @@ namespace geocone
   void
   MovingConditions::move(const Vector &v, const double h, const double t)
   {
-    for (Side &side : supports)
+    for (HeldSide &side : supports)
       {
-        side.before = side.boundary.lines;
-        for (MovingBoundary::Line &line : side.boundary.lines)
-          for (Point<dim> *x : {&line.a, &line.b})
-            for (unsigned int d = 0; d < dim; ++d)
-              if (const auto &q =
-                    scene.dirichlet.list[side.condition]->components[d])
-                (*x)[d] += h * q->value(*x, t);
+        side.before = side.panels;
+        for (Panel &panel : side.panels)
+          {
+            auto ends = panel.ends();
+            for (Point<dim> &x : ends)
+              for (unsigned int d = 0; d < dim; ++d)
+                if (const auto &q =
+                      scene.dirichlet.list[side.condition]->components[d])
+                  x[d] += h * q->value(x, t);
+            panel.span(ends);
+          }
       }
-    for (Side &side : loads)
+    for (LoadedSide &side : loads)
       advect(side.boundary, v, h);
     for (LoadedSurface &load : surfaces)
       load.surface.move(mesh, space, v, h);
@@ -452,24 +465,27 @@ namespace geocone
   {
     if (supports.empty() && loads.empty() && surfaces.empty())
       return {};
-    Vector mark(space.partitioner());
-    for (const auto *sides : {&supports, &loads})
-      for (const Side &side : *sides)
-        for (const MovingBoundary::Line &line : side.boundary.lines)
-          for (const BoundaryPoint &point :
-               points_on_line(mesh, space, line.a, line.b))
-            for (unsigned int i = 0; i < point.nodes.size(); ++i)
-              if (point.values[i] > 0.)
-                mark.local_element(dim * space.local_node(point.nodes[i])) +=
-                  1.;
+    Vector     mark(space.partitioner());
+    const auto mark_nodes = [&](const BoundaryPoint &point) {
+      for (unsigned int i = 0; i < point.nodes.size(); ++i)
+        if (point.values[i] > 0.)
+          mark.local_element(dim * space.local_node(point.nodes[i])) += 1.;
+    };
+    for (const HeldSide &side : supports)
+      for (const Panel &panel : side.panels)
+        for (const BoundaryPoint &point : points_on_panel(mesh, space, panel))
+          mark_nodes(point);
+    for (const LoadedSide &side : loads)
+      for (const MovingBoundary::Line &line : side.boundary.lines)
+        for (const BoundaryPoint &point :
+             points_on_line(mesh, space, line.a, line.b))
+          mark_nodes(point);
     for (const LoadedSurface &load : surfaces)
       load.surface.for_each_point(
         mesh,
         space,
         [&](const MovingSurface::Triangle &, const BoundaryPoint &point) {
-          for (unsigned int i = 0; i < point.nodes.size(); ++i)
-            if (point.values[i] > 0.)
-              mark.local_element(dim * space.local_node(point.nodes[i])) += 1.;
+          mark_nodes(point);
         });
     mark.compress(VectorOperation::add);
     mark.update_ghost_values();
@@ -484,22 +500,31 @@ namespace geocone
                              const Point<dim> &after) const
   {
     std::optional<Point<dim>> place;
-    for (const Side &side : supports)
-      for (unsigned int l = 0; l < side.boundary.lines.size(); ++l)
+    for (const HeldSide &side : supports)
+      for (unsigned int l = 0; l < side.panels.size(); ++l)
         {
-          const MovingBoundary::Line &line = side.boundary.lines[l];
-          const Seen                  now  = seen_from(line, after);
+          const Panel &panel = side.panels[l];
+          const Seen   now   = seen_from(panel, after);
           if (!now.is_close_behind() ||
-              !holds_normal(*scene.dirichlet.list[side.condition], line))
+              !holds_normal(*scene.dirichlet.list[side.condition], panel))
             continue;
           const Seen was = seen_from(side.before[l], before);
           if (was.is_close_behind())
             continue;
-          const Tensor<1, dim> along = line.b - line.a;
-          const Point<dim> here = was.along <= 0. ? after - now.along * along
-                                  : was.along >= 1.
-                                    ? after + (1. - now.along) * along
-                                    : line.a + now.along * along;
+          Point<dim> here        = after;
+          bool       from_beside = false;
+          for (unsigned int k = 0; k + 1 < dim; ++k)
+            if (was.along[k] <= 0. || was.along[k] >= 1.)
+              {
+                const double end = was.along[k] <= 0. ? 0. : 1.;
+                here += (end - now.along[k]) * panel.edges[k];
+                from_beside = true;
+              }
+          if (!from_beside)
+            {
+              const Tensor<1, dim> area = panel.area();
+              here -= now.beyond / area.norm() * area;
+            }
           if (!place || here.distance(after) < place->distance(after))
             place = here;
         }
@@ -515,16 +540,16 @@ namespace geocone
     for (unsigned int p = 0; p < points.n_points(); ++p)
       {
         bool behind = false;
-        for (const Side &side : supports)
-          for (const MovingBoundary::Line &line : side.boundary.lines)
+        for (const HeldSide &side : supports)
+          for (const Panel &panel : side.panels)
             {
-              const Seen seen = seen_from(line, points.position[p]);
+              const Seen seen = seen_from(panel, points.position[p]);
               behind =
                 behind ||
                 (seen.is_close_behind() &&
                  seen.beyond > 0.1 * scene.geometry.size_of_point(
                                        points.position[p], points.weight[p]) &&
-                 holds_normal(*scene.dirichlet.list[side.condition], line));
+                 holds_normal(*scene.dirichlet.list[side.condition], panel));
             }
         n += behind;
       }
@@ -534,10 +559,17 @@ namespace geocone
   void
   MovingConditions::state(StateRow &row)
   {
-    for (std::vector<Side> *sides : {&supports, &loads})
-      for (Side &side : *sides)
-        for (MovingBoundary::Line &line : side.boundary.lines)
-          row(line.a, line.b);
+    for (HeldSide &side : supports)
+      for (Panel &panel : side.panels)
+        {
+          auto ends = panel.ends();
+          for (Point<dim> &x : ends)
+            row(x);
+          panel.span(ends);
+        }
+    for (LoadedSide &side : loads)
+      for (MovingBoundary::Line &line : side.boundary.lines)
+        row(line.a, line.b);
     for (LoadedSurface &load : surfaces)
       load.surface.state(row);
   }
@@ -546,10 +578,11 @@ namespace geocone
   MovingConditions::box_of(const BoundaryCondition &condition) const
   {
     std::vector<Point<dim>> ends;
-    for (const Side &side : supports)
+    for (const HeldSide &side : supports)
       if (scene.dirichlet.list[side.condition].get() == &condition)
-        for (const MovingBoundary::Line &line : side.boundary.lines)
-          ends.insert(ends.end(), {line.a, line.b});
+        for (const Panel &panel : side.panels)
+          for (const Point<dim> &x : panel.ends())
+            ends.push_back(x);
     return BoundingBox<dim>(ends).get_boundary_points();
   }
 

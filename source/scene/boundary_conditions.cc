@@ -72,15 +72,33 @@ namespace geocone
           "prescribed.");
         add_parameter("Segments",
                       n_segments,
-                      "Number of equal parts of the side for 'segments'; 2 "
+                      "Number of equal parts of the side for 'segments', in "
+                      "three dimensions along each of its edges; 2 "
                       "hold translation and tilt and converge to a uniform "
                       "pressure's limit load.");
-        add_parameter("Segment shortening",
-                      shortening,
-                      "For 'segments': the side is taken so many cell sizes "
-                      "shorter. A calibration, not a theory: 0.3 makes cubic "
-                      "splines exact to 2 % for footings of four cells.");
+        add_parameter(
+          "Segment shortening",
+          shortening,
+          "For 'segments' in the plane: the side is taken so many cell sizes "
+          "shorter. A calibration, not a theory: 0.3 makes cubic "
+          "splines exact to 2 % for footings of four cells.");
       }
+  }
+
+  void
+  BoundaryCondition::check_sides(
+    const std::map<std::string, dealii::types::boundary_id> &known,
+    const std::string                                       &what) const
+  {
+    std::string names = "all";
+    for (const auto &side : known)
+      names += ", " + side.first;
+    for (const std::string &name : sides)
+      if (name != "all" && known.count(name) == 0)
+        throw InputError(parameter("Sides"),
+                         name,
+                         names + " (" + what + ")",
+                         "choose some of them");
   }
 
   void

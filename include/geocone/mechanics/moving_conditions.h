@@ -91,19 +91,30 @@ namespace geocone
     state(StateRow &row);
 
   private:
-    /** A support or load on a side of the body, and the side. */
-    struct Side
+    /** A support on a side of the body, and the side. */
+    struct HeldSide
+    {
+      unsigned int       condition;
+      std::vector<Panel> panels;
+      std::vector<Panel> before = {}; ///< the last move()
+    };
+
+    /** A load on a side of the body in the plane, and the side. */
+    struct LoadedSide
     {
       unsigned int   condition;
       MovingBoundary boundary;
-      /** Its lines before the last move(). */
-      std::vector<MovingBoundary::Line> before = {};
     };
 
     /** The number of held particles of each condition, around an axis the sum of their
      *  circumferences (m); of all ranks. Collective. */
     std::vector<double>
     sum_held(const MaterialPoints &points) const;
+
+    /** Makes the parts shorter that a condition holds, as 'Segment shortening' asks. */
+    void
+    shorten(const BoundaryCondition &condition,
+            std::vector<Panel>      &panels) const;
 
     /** @name The rows of supports, as they are at time t */
     /** @{ */
@@ -145,15 +156,14 @@ namespace geocone
                               const bool   raised) const;
 
     /**
-     * Refuses lines of which a part lies outside the mesh, where conditions would
+     * Refuses a condition of whose parts one lies outside the mesh, where it would
      * vanish silently. Collective.
-     * @param part_in_mesh of each line, as found on this rank
+     * @param part_in_mesh of each, as found on this rank
      * @throws StepFailure
      */
     void
-    check_in_mesh(const BoundaryConditions  &conditions,
-                  const std::vector<Side>   &sides,
-                  const std::vector<double> &part_in_mesh) const;
+    check_in_mesh(const BoundaryCondition &condition,
+                  std::vector<double>      part_in_mesh) const;
 
     /**
      * Moves a chain of lines by the velocity of the nodes, within the box of a
@@ -162,10 +172,11 @@ namespace geocone
     void
     advect(MovingBoundary &boundary, const Vector &v, const double h) const;
 
-    const Scene          &scene;
-    const BackgroundMesh &mesh;
-    const Space          &space;
-    std::vector<Side>     supports, loads;
+    const Scene            &scene;
+    const BackgroundMesh   &mesh;
+    const Space            &space;
+    std::vector<HeldSide>   supports;
+    std::vector<LoadedSide> loads;
 
     /** A load on sides of a body in three dimensions. */
     struct LoadedSurface

@@ -5,7 +5,7 @@
 #define geocone_mechanics_moving_surface_h
 
 #include <geocone/base/state_row.h>
-#include <geocone/mechanics/moving_boundary.h>
+#include <geocone/mechanics/panel.h>
 
 #include <array>
 #include <functional>
@@ -40,10 +40,7 @@ namespace geocone
     dealii::Tensor<1, dim>
     area_of(const Triangle &triangle) const;
 
-    /** Calls f(triangle, point) for points for sums that are integrals over each
-     *  triangle, from all cells of this rank: their weights sum up, over all ranks, to
-     *  the part of it that is in the mesh.
-     *  @return the parts that this rank knows */
+    /** See for_each_point_of_triangles(). */
     std::vector<double>
     for_each_point(const BackgroundMesh                             &mesh,
                    const Space                                      &space,

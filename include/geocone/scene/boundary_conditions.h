@@ -72,6 +72,12 @@ namespace geocone
     std::optional<std::array<dealii::Point<dim>, 2>>
     box_corners() const;
 
+    /** @throws InputError for a side that is not among these
+     *  @param what they are, e.g. "sides of the body" */
+    void
+    check_sides(const std::map<std::string, dealii::types::boundary_id> &known,
+                const std::string &what) const;
+
     /** @throws InputError if no node is held. @param n_nodes of all ranks */
     void
     check_selection(const unsigned int n_nodes) const;

@@ -1,0 +1,75 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mechanics_panel_h
+#define geocone_mechanics_panel_h
+
+#include <geocone/mechanics/moving_boundary.h>
+
+#include <array>
+#include <functional>
+#include <vector>
+
+namespace geocone
+{
+  /** A flat part of a side of the body, as it is: in the plane a line, in space a
+   *  parallelogram. */
+  struct Panel
+  {
+    dealii::Point<dim> corner;
+
+    /** From the corner: in the plane the body is on the left, in space the edges and the
+     *  outward normal are right-handed. */
+    std::array<dealii::Tensor<1, dim>, dim - 1> edges;
+
+    dealii::Point<dim>
+    at(const dealii::Point<dim - 1> &s) const;
+
+    /** The outward normal times the length (m), or the area (m^2). */
+    dealii::Tensor<1, dim>
+    area() const;
+
+    /** The corner and the ends of the edges. */
+    std::array<dealii::Point<dim>, dim>
+    ends() const;
+
+    /** Takes them. */
+    void
+    span(const std::array<dealii::Point<dim>, dim> &ends);
+
+    /** So many equal parts along each edge. */
+    std::vector<Panel>
+    parts(const std::array<unsigned int, dim - 1> &n) const;
+  };
+
+  /**
+   * The parts of the condition's sides of the body inside its box.
+   * @throws InputError if the body has no such side or it misses the box
+   */
+  std::vector<Panel>
+  panels_of_body(const BoundaryCondition &condition, const Geometry &geometry);
+
+  /** Points on a panel, see points_on_line() and for_each_point_of_triangles(). */
+  std::vector<BoundaryPoint>
+  points_on_panel(const BackgroundMesh &mesh,
+                  const Space          &space,
+                  const Panel          &panel);
+
+  /** Its corners are counterclockwise, seen from outside the body. */
+  using SpaceTriangle = std::array<dealii::Point<dim>, 3>;
+
+  /**
+   * Calls f(number, point) for points for sums that are integrals over each triangle, of
+   * what of it is in cells of this rank: their weights sum up, over all ranks, to the
+   * part of it that is in the mesh. On a border of cells the body decides.
+   * @return the parts that this rank knows
+   */
+  std::vector<double>
+  for_each_point_of_triangles(
+    const BackgroundMesh             &mesh,
+    const Space                      &space,
+    const std::vector<SpaceTriangle> &triangles,
+    const std::function<void(const std::size_t, const BoundaryPoint &)> &f);
+} // namespace geocone
+
+#endif
