@@ -105,10 +105,13 @@ namespace geocone
                 places.push_back(cell->vertex(v));
               const FacePlane plane{FaceOutline<dim>(places)};
               if (plane.ahead(cell->center()) > 0.)
-                std::reverse(vertices.begin(), vertices.end());
+                {
+                  std::reverse(vertices.begin(), vertices.end());
+                  std::reverse(places.begin(), places.end());
+                }
               for (const unsigned int v : vertices)
                 unit.push_back(reference.template vertex<dim>(v));
-              Face face{cell, FaceOutline<dim>(unit), {}, {}, {}, {}};
+              Face face{cell, FaceOutline<dim>(unit), FaceOutline<dim>(places)};
               face.size = plane.size;
 
               space.cell_nodes(cell, nodes);
@@ -143,13 +146,19 @@ namespace geocone
     return faces;
   }
 
-  FaceOutline<dim>
-  BodyContact::outline(const Face &face, const Place &place)
+  std::vector<BodyContact::PlacedFace>
+  BodyContact::placed(const std::vector<Face> &faces, const Place &place)
   {
-    std::vector<Point<dim>> corners;
-    for (const unsigned int node : face.corners)
-      corners.push_back(place(node));
-    return FaceOutline<dim>(corners);
+    std::vector<PlacedFace> result;
+    for (const Face &face : faces)
+      {
+        std::vector<Point<dim>> corners;
+        for (const unsigned int node : face.corners)
+          corners.push_back(place(node));
+        const FaceOutline<dim> outline(corners);
+        result.push_back({&face, outline, FacePlane(outline)});
+      }
+    return result;
   }
 
   void
@@ -165,18 +174,16 @@ namespace geocone
   }
 
   std::vector<BodyContact::PointAhead>
-  BodyContact::points_ahead(const Face              &face,
-                            const std::vector<Face> &others,
-                            const Place             &place,
-                            const double             reach) const
+  BodyContact::points_ahead(const PlacedFace              &face,
+                            const std::vector<PlacedFace> &others,
+                            const double                   reach) const
   {
-    const FacePlane   plane(outline(face, place));
-    const FlatOutline own = plane.project(outline(face, place));
+    const FacePlane  &plane = face.plane;
+    const FlatOutline own   = plane.project(face.outline);
 
     struct Candidate
     {
-      const Face              *other;
-      FaceOutline<dim>         outline;
+      const PlacedFace        *other;
       FlatOutline              flat;
       std::vector<FlatSimplex> shared;
 
@@ -184,20 +191,18 @@ namespace geocone
       Point<dim>
       ahead_of(const Point<dim - 1> &x) const
       {
-        return outline.at(unit_place(flat, x));
+        return other->outline.at(unit_place(flat, x));
       }
     };
     std::vector<Candidate> candidates;
-    for (const Face &other : others)
+    for (const PlacedFace &other : others)
       {
-        const FaceOutline<dim> its = outline(other, place);
-        if (plane.place().distance(its.corners[0]) >
-            2. * (plane.diameter + FacePlane(its).diameter) + reach)
+        const FacePlane &its = other.plane;
+        if (plane.place().distance(its.place()) >
+              2. * (plane.diameter + its.diameter) + reach ||
+            its.normal * plane.normal > facing)
           continue;
-        const FacePlane its_plane(its);
-        if (its_plane.normal * plane.normal > facing)
-          continue;
-        Candidate      at{&other, its, plane.project(its), {}};
+        Candidate      at{&other, plane.project(other.outline), {}};
         double         part = 0.;
         Point<dim - 1> middle;
         for (const FlatSimplex &piece : shared_part(own, at.flat))
@@ -213,10 +218,9 @@ namespace geocone
           continue;
         const double gap =
           plane.ahead(at.ahead_of(Point<dim - 1>(middle / part)));
-        if (gap > std::max(its_plane.diameter, plane.diameter) + reach ||
-            gap < -std::min(its_plane.diameter, plane.diameter))
-          continue;
-        candidates.push_back(at);
+        if (gap <= std::max(its.diameter, plane.diameter) + reach &&
+            gap >= -std::min(its.diameter, plane.diameter))
+          candidates.push_back(at);
       }
 
     // Where several do, the nearest.
@@ -239,7 +243,7 @@ namespace geocone
               });
             if (!is_hidden)
               points.push_back({unit_place(own, x),
-                                candidate.other,
+                                candidate.other->face,
                                 unit_place(candidate.flat, x),
                                 rule.weight(q) * (dim - 1) *
                                   geocone::size_of(piece) / plane.size});
@@ -248,16 +252,14 @@ namespace geocone
   }
 
   void
-  BodyContact::integrate(const Face                    &face,
+  BodyContact::integrate(const PlacedFace              &placed_face,
                          const std::vector<PointAhead> &points,
-                         const Place                   &place,
                          std::map<unsigned int, Sums>  &sums) const
   {
-    const FaceOutline<dim> at_start =
-      outline(face, [this](const unsigned int node) {
-        return space.node_positions()[node];
-      });
-    const auto weight = [&](const PointAhead &point) {
+    const Face             &face     = *placed_face.face;
+    const FacePlane        &plane    = placed_face.plane;
+    const FaceOutline<dim> &at_start = face.at_start;
+    const auto              weight   = [&](const PointAhead &point) {
       return point.part * face.size * mesh.measure(at_start.at(point.s));
     };
     const unsigned int m    = face.nodes.size();
@@ -273,7 +275,6 @@ namespace geocone
       }
     if (part < least_part)
       return;
-    const FacePlane       plane(outline(face, place));
     const Eigen::MatrixXd dual =
       D.asDiagonal() * mass.ldlt().solve(Eigen::MatrixXd::Identity(m, m));
     for (unsigned int i = 0; i < m; ++i)
@@ -297,21 +298,17 @@ namespace geocone
   }
 
   void
-  BodyContact::add_whole_faces(const std::vector<Face>      &faces,
-                               const Place                  &place,
-                               std::map<unsigned int, Sums> &sums) const
+  BodyContact::add_whole_faces(const std::vector<PlacedFace> &faces,
+                               std::map<unsigned int, Sums>  &sums)
   {
-    for (const Face &face : faces)
-      {
-        const FacePlane plane(outline(face, place));
-        for (unsigned int i = 0; i < face.nodes.size(); ++i)
-          // The sides of a corner have nothing to do with what its base stands on.
-          if (const auto own = sums.find(face.nodes[i]);
-              own != sums.end() &&
-              plane.normal * own->second.normal >=
-                std::cos(pi / 4.) * own->second.normal.norm())
-            own->second.whole += face.integrals[i];
-      }
+    for (const PlacedFace &at : faces)
+      for (unsigned int i = 0; i < at.face->nodes.size(); ++i)
+        // The sides of a corner have nothing to do with what its base stands on.
+        if (const auto own = sums.find(at.face->nodes[i]);
+            own != sums.end() &&
+            at.plane.normal * own->second.normal >=
+              std::cos(pi / 4.) * own->second.normal.norm())
+          own->second.whole += at.face->integrals[i];
   }
 
   std::vector<FacingNode>
@@ -322,13 +319,13 @@ namespace geocone
     const unsigned int      n_obstacles = scene.obstacles.list.size();
     for (unsigned int k = 0; k < pairs.size(); ++k)
       {
-        std::map<unsigned int, Sums> sums;
-        for (const Face &face : pairs[k].first)
-          integrate(face,
-                    points_ahead(face, pairs[k].other, place, reach),
-                    place,
-                    sums);
-        add_whole_faces(pairs[k].first, place, sums);
+        std::map<unsigned int, Sums>  sums;
+        const std::vector<PlacedFace> first = placed(pairs[k].first, place),
+                                      other_faces =
+                                        placed(pairs[k].other, place);
+        for (const PlacedFace &face : first)
+          integrate(face, points_ahead(face, other_faces, reach), sums);
+        add_whole_faces(first, sums);
         const InterfaceLaw    &law = scene.contacts.list[k]->law;
         std::set<unsigned int> own;
         for (const auto &[node, sum] : sums)

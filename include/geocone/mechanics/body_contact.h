@@ -64,12 +64,15 @@ namespace geocone
     struct Face
     {
       BackgroundMesh::Cell      cell;
-      FaceOutline<dim>          unit;      ///< in unit coordinates of the cell
-      std::vector<unsigned int> corners;   ///< nodes, in the order of FacePlane
-      std::vector<unsigned int> nodes;     ///< on the face
-      std::vector<unsigned int> of_cell;   ///< their numbers in the cell
-      Eigen::VectorXd           integrals; ///< of their N, at the start
-      double                    size =
+      FaceOutline<dim>          unit;     ///< in unit coordinates of the cell
+      FaceOutline<dim>          at_start; ///< both in the order of FacePlane
+      std::vector<unsigned int> corners = {}; ///< nodes, in this order
+      std::vector<unsigned int> nodes   = {}; ///< on the face
+      std::vector<unsigned int> of_cell = {}; ///< their numbers in the cell
+
+      Eigen::VectorXd integrals = {}; ///< of their N, at the start
+
+      double size =
         0.; ///< at the start (m, m^2), around an axis without 2 pi r
     };
 
@@ -77,8 +80,15 @@ namespace geocone
     std::vector<Face>
     faces_of(const std::vector<bool> &materials) const;
 
-    static FaceOutline<dim>
-    outline(const Face &face, const Place &place);
+    /** A face as it is. */
+    struct PlacedFace
+    {
+      const Face      *face;
+      FaceOutline<dim> outline;
+      FacePlane        plane;
+    };
+    static std::vector<PlacedFace>
+    placed(const std::vector<Face> &faces, const Place &place);
 
     /** N of the nodes on a face, at unit coordinates of the face. */
     void
@@ -95,10 +105,9 @@ namespace geocone
       double                 part; ///< of the size of the face
     };
     std::vector<PointAhead>
-    points_ahead(const Face              &face,
-                 const std::vector<Face> &others,
-                 const Place             &place,
-                 const double             reach) const;
+    points_ahead(const PlacedFace              &face,
+                 const std::vector<PlacedFace> &others,
+                 const double                   reach) const;
 
     /** Sums over the faces of a node. */
     struct Sums
@@ -113,16 +122,14 @@ namespace geocone
 
     /** Adds what a face has of D, M and the normals. */
     void
-    integrate(const Face                    &face,
+    integrate(const PlacedFace              &placed_face,
               const std::vector<PointAhead> &points,
-              const Place                   &place,
               std::map<unsigned int, Sums>  &sums) const;
 
     /** Adds what D would be on whole faces, of those nodes that have one. */
-    void
-    add_whole_faces(const std::vector<Face>      &faces,
-                    const Place                  &place,
-                    std::map<unsigned int, Sums> &sums) const;
+    static void
+    add_whole_faces(const std::vector<PlacedFace> &faces,
+                    std::map<unsigned int, Sums>  &sums);
 
     const Scene          &scene;
     const BackgroundMesh &mesh;
