@@ -9,6 +9,24 @@ import math
 import os
 
 
+def write_msh(path, groups, nodes, elements):
+    """Physical groups (dimension, number, name), places, and elements (gmsh's type, number
+    of the group, nodes from 1)."""
+    with open(path, 'w', encoding='ascii') as out:
+        out.write('$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n'
+                  f'{len(groups)}\n')
+        for dimension, number, group in groups:
+            out.write(f'{dimension} {number} "{group}"\n')
+        out.write(f'$EndPhysicalNames\n$Nodes\n{len(nodes)}\n')
+        for i, x in enumerate(nodes):
+            out.write(f'{i + 1} {" ".join(f"{c:.10g}" for c in x)}\n')
+        out.write(f'$EndNodes\n$Elements\n{len(elements)}\n')
+        for i, (kind, group, of_element) in enumerate(elements):
+            out.write(f'{i + 1} {kind} 2 {group} {group} '
+                      f'{" ".join(map(str, of_element))}\n')
+        out.write('$EndElements\n')
+
+
 class Mesh:
     """Grids of quadrilaterals, each with nodes of its own, in gmsh's format 2.2."""
 
@@ -48,20 +66,9 @@ class Mesh:
         self.nodes = kept
 
     def write(self, name, groups):
-        path = os.path.join(os.path.dirname(os.path.abspath(__file__)), name)
-        with open(path, 'w', encoding='ascii') as out:
-            out.write('$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n'
-                      f'{len(groups)}\n')
-            for dimension, number, group in groups:
-                out.write(f'{dimension} {number} "{group}"\n')
-            out.write(f'$EndPhysicalNames\n$Nodes\n{len(self.nodes)}\n')
-            for i, (x, y) in enumerate(self.nodes):
-                out.write(f'{i + 1} {x:.10g} {y:.10g} 0\n')
-            out.write(f'$EndNodes\n$Elements\n{len(self.elements)}\n')
-            for i, (kind, group, nodes) in enumerate(self.elements):
-                out.write(f'{i + 1} {kind} 2 {group} {group} '
-                          f'{" ".join(map(str, nodes))}\n')
-            out.write('$EndElements\n')
+        here = os.path.dirname(os.path.abspath(__file__))
+        write_msh(os.path.join(here, name), groups,
+                  [(x, y, 0.) for x, y in self.nodes], self.elements)
 
 
 GROUPS = [(1, 11, 'ground'), (1, 12, 'left'), (1, 13, 'top'), (1, 14, 'right'),

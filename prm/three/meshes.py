@@ -5,8 +5,15 @@
 
     python3 prm/three/meshes.py    # two_cuboids.msh, two_cuboids_tetrahedra.msh
 """
+import importlib.util
 import itertools
 import os
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+spec = importlib.util.spec_from_file_location(
+    'plane', os.path.join(HERE, '..', 'contact', 'meshes.py'))
+plane = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(plane)
 
 SIDES = {'ground': 11, 'left': 12, 'back': 13, 'top': 14}
 
@@ -69,35 +76,18 @@ class Mesh:
                     self.elements.append((3, surface, around))
 
     def write(self, name):
-        path = os.path.join(os.path.dirname(os.path.abspath(__file__)), name)
         groups = [(2, number, side) for side, number in SIDES.items()]
         groups += [(3, 1, 'lower'), (3, 2, 'upper')]
-        with open(path, 'w', encoding='ascii') as out:
-            out.write('$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n'
-                      f'{len(groups)}\n')
-            for dimension, number, group in groups:
-                out.write(f'{dimension} {number} "{group}"\n')
-            out.write(f'$EndPhysicalNames\n$Nodes\n{len(self.nodes)}\n')
-            for i, x in enumerate(self.nodes):
-                out.write(f'{i + 1} {" ".join(f"{c:.10g}" for c in x)}\n')
-            out.write(f'$EndNodes\n$Elements\n{len(self.elements)}\n')
-            for i, (kind, group, nodes) in enumerate(self.elements):
-                out.write(f'{i + 1} {kind} 2 {group} {group} '
-                          f'{" ".join(map(str, nodes))}\n')
-            out.write('$EndElements\n')
-
-
-def even(a, b, n):
-    return [a + (b - a) * i / n for i in range(n + 1)]
+        plane.write_msh(os.path.join(HERE, name), groups, self.nodes, self.elements)
 
 
 def two_cuboids(tetrahedra):
     """A cube of 1 m in two halves, 2 x 2 cells on 3 x 3 where they touch."""
     mesh = Mesh(tetrahedra)
-    mesh.add([even(0., 1., 2), even(0., 0.5, 1), even(0., 1., 2)], 0.2, 1,
+    mesh.add([plane.even(0., 1., 2), plane.even(0., 0.5, 1), plane.even(0., 1., 2)], 0.2, 1,
              {(1, False): SIDES['ground'], (0, False): SIDES['left'],
               (2, False): SIDES['back']})
-    mesh.add([even(0., 1., 3), even(0.5, 1., 1), even(0., 1., 3)], -0.2, 2,
+    mesh.add([plane.even(0., 1., 3), plane.even(0.5, 1., 1), plane.even(0., 1., 3)], -0.2, 2,
              {(1, True): SIDES['top'], (0, False): SIDES['left'],
               (2, False): SIDES['back']})
     mesh.write('two_cuboids_tetrahedra.msh' if tetrahedra else 'two_cuboids.msh')
