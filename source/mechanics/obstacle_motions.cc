@@ -134,6 +134,16 @@ namespace geocone
       }
   }
 
+  bool
+  ObstacleMotions::are_loaded() const
+  {
+    for (const ObstacleBody &body : bodies)
+      for (unsigned int k = 0; k < n_motions; ++k)
+        if (body.is_free[k] && body.without_contact[k] != body.velocity_n[k])
+          return true;
+    return false;
+  }
+
   void
   ObstacleMotions::balance(Eigen::VectorXd &inertia,
                            Eigen::VectorXd &lack) const

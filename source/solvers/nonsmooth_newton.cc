@@ -210,6 +210,27 @@ namespace geocone
                    : full_steps,
                  work);
     };
+    const Vector start = work.v;
+    const bool   can_be_exact =
+      work.problem.free_dofs().multipliers.n_rows() == 0;
+    const auto run_with_exact_contact = [&]() {
+      newton.exact_contact = true;
+      run(automatic, true);
+      newton.exact_contact = false;
+    };
+    // Without inertia nothing but contact bears the loads of free obstacles, whose
+    // motions follow from all of it: its laws are solved exactly from the start, in a
+    // tenth of the iterations.
+    const bool bears_obstacles = can_be_exact && !work.problem.has_inertia() &&
+                                 work.problem.has_contact() &&
+                                 work.problem.contact().motions().are_loaded();
+    if (bears_obstacles)
+      {
+        run_with_exact_contact();
+        if (work.report.converged)
+          return;
+        work.v = start;
+      }
     if (!work.problem.has_contact_friction())
       {
         run(automatic, true);
@@ -218,21 +239,18 @@ namespace geocone
     // Where many nodes come down in a step, those that would stick hinder each other:
     // then the laws of contact are solved exactly in each iteration; or else the step
     // without friction may be a better start.
-    const Vector start          = work.v;
     newton.allowed_without_flow = 6;
     run(std::min(automatic, 30U), true);
     newton.allowed_without_flow = NewtonLoop().allowed_without_flow;
     if (work.report.converged)
       return;
-    if (work.problem.free_dofs().multipliers.n_rows() == 0)
+    if (can_be_exact && !bears_obstacles)
       {
         // Where points flow much is won already.
         const NewtonIteration &last = work.report.table.back();
         if (last.n_cone + last.n_apex == 0)
           work.v = start;
-        newton.exact_contact = true;
-        run(automatic, true);
-        newton.exact_contact = false;
+        run_with_exact_contact();
         if (work.report.converged)
           return;
       }

@@ -74,6 +74,10 @@ namespace geocone
       return bodies[obstacle].n_free() > 0;
     }
 
+    /** Whether a load acts along a free motion of one of them. */
+    bool
+    are_loaded() const;
+
     /** Of all obstacles. */
     unsigned int
     n_free() const
