@@ -213,49 +213,54 @@ namespace geocone
     const Vector start = work.v;
     const bool   can_be_exact =
       work.problem.free_dofs().multipliers.n_rows() == 0;
+    // Where obstacles are free, their motions follow from all of the contact, and steps
+    // in which its states change much wander. Without inertia nothing else bears their
+    // loads: the laws are solved exactly from the start, in a tenth of the iterations.
+    // Where they only follow it is worth a try without that, which costs less.
+    const bool moves_obstacles = work.problem.has_contact() &&
+                                 work.problem.contact().motions().n_free() > 0;
+    const bool bears_obstacles = moves_obstacles &&
+                                 !work.problem.has_inertia() &&
+                                 work.problem.contact().motions().are_loaded();
     const auto run_with_exact_contact = [&]() {
       newton.exact_contact = true;
       run(automatic, true);
       newton.exact_contact = false;
     };
-    // Without inertia nothing but contact bears the loads of free obstacles, whose
-    // motions follow from all of it: its laws are solved exactly from the start, in a
-    // tenth of the iterations.
-    const bool bears_obstacles = can_be_exact && !work.problem.has_inertia() &&
-                                 work.problem.has_contact() &&
-                                 work.problem.contact().motions().are_loaded();
-    if (bears_obstacles)
+    if (bears_obstacles && can_be_exact)
       {
         run_with_exact_contact();
         if (work.report.converged)
           return;
         work.v = start;
       }
-    if (!work.problem.has_contact_friction())
+    const bool rubs = work.problem.has_contact_friction();
+    if (!rubs && (bears_obstacles || !moves_obstacles || !can_be_exact))
       {
         run(automatic, true);
         return;
       }
     // Where many nodes come down in a step, those that would stick hinder each other:
-    // then the laws of contact are solved exactly in each iteration; or else the step
-    // without friction may be a better start.
+    // then, too, the laws of contact are solved exactly in each iteration; or else the
+    // step without friction may be a better start.
     newton.allowed_without_flow = 6;
-    run(std::min(automatic, 30U), true);
+    run(std::min(automatic, moves_obstacles ? 15U : 30U), true);
     newton.allowed_without_flow = NewtonLoop().allowed_without_flow;
     if (work.report.converged)
       return;
     if (can_be_exact && !bears_obstacles)
       {
-        // Where points flow much is won already.
+        // Where points flow much is won already, but with obstacles that went astray.
         const NewtonIteration &last = work.report.table.back();
-        if (last.n_cone + last.n_apex == 0)
+        if (moves_obstacles || last.n_cone + last.n_apex == 0)
           work.v = start;
         run_with_exact_contact();
         if (work.report.converged)
           return;
       }
     work.v = start;
-    run(30, false);
+    if (rubs)
+      run(30, false);
     newton.elastic_first = false;
     run(automatic, true);
   }
