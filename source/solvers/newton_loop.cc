@@ -57,8 +57,7 @@ namespace geocone
   NewtonLoop::run(Globalisation &globalisation, const StepWorkspace &work) const
   {
     SolverReport      &report = work.report;
-    const unsigned int start  = report.iterations,
-                       limit  = report.iterations + allowed;
+    const unsigned int start  = report.iterations;
     report.converged          = false;
     report.friction_lag       = law.friction_lag;
 
@@ -84,10 +83,11 @@ namespace geocone
             report.remedy.clear();
             return;
           }
-        const bool flows = line.state.n_cone + line.state.n_apex > 0;
-        if (report.iterations >=
-              limit + (report.residual < near ? allowed : 0) ||
-            (!flows && report.iterations - start >= allowed_without_flow))
+        const bool         flows = line.state.n_cone + line.state.n_apex > 0;
+        const unsigned int spent = report.iterations - start;
+        if (spent >= allowed + (report.residual < near ? allowed : 0) ||
+            (!flows && spent >= allowed_without_flow) ||
+            (report.residual > far && spent >= allowed_if_far))
           {
             give_up(line.state, work);
             return;

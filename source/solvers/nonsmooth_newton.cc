@@ -244,8 +244,11 @@ namespace geocone
     // then, too, the laws of contact are solved exactly in each iteration; or else the
     // step without friction may be a better start.
     newton.allowed_without_flow = 6;
-    run(std::min(automatic, moves_obstacles ? 15U : 30U), true);
+    if (moves_obstacles)
+      newton.allowed_if_far = 12;
+    run(std::min(automatic, 30U), true);
     newton.allowed_without_flow = NewtonLoop().allowed_without_flow;
+    newton.allowed_if_far       = NewtonLoop().allowed_if_far;
     if (work.report.converged)
       return;
     if (can_be_exact && !bears_obstacles)

@@ -25,6 +25,9 @@ namespace geocone
      */
     static constexpr double near = 1e-3;
 
+    /** From which on an iterate is far from one. */
+    static constexpr double far = 0.1;
+
     LocalLaw     law;
     double       tolerance          = 1e-10; ///< relative
     double       absolute_tolerance = 1e-12; ///< (N/m)
@@ -32,6 +35,9 @@ namespace geocone
     /** Iterations while no point flows, so that only contact is not linear. */
     unsigned int allowed_without_flow =
       std::numeric_limits<unsigned int>::max();
+    /** Iterations after which an iterate that is far is given up. */
+    unsigned int allowed_if_far = std::numeric_limits<unsigned int>::max();
+
     bool elastic_first = false; ///< takes D as the first tangent
     bool moves         = false; ///< solves once at least
     bool exact_contact = false; ///< takes directions of ContactDirection
