@@ -245,7 +245,7 @@ namespace geocone
     // step without friction may be a better start.
     newton.allowed_without_flow = 6;
     if (moves_obstacles)
-      newton.allowed_if_far = 12;
+      newton.allowed_if_far = 20;
     run(std::min(automatic, 30U), true);
     newton.allowed_without_flow = NewtonLoop().allowed_without_flow;
     newton.allowed_if_far       = NewtonLoop().allowed_if_far;
