@@ -216,7 +216,7 @@ namespace geocone
     // Where obstacles are free, their motions follow from all of the contact, and steps
     // in which its states change much wander. Without inertia nothing else bears their
     // loads: the laws are solved exactly from the start, in a tenth of the iterations.
-    // Where they only follow it is worth a try without that, which costs less.
+    // Where they only follow a try without that comes first, which costs less.
     const bool moves_obstacles = work.problem.has_contact() &&
                                  work.problem.contact().motions().n_free() > 0;
     const bool bears_obstacles = moves_obstacles &&
@@ -234,8 +234,7 @@ namespace geocone
           return;
         work.v = start;
       }
-    const bool rubs = work.problem.has_contact_friction();
-    if (!rubs && (bears_obstacles || !moves_obstacles || !can_be_exact))
+    if (!work.problem.has_contact_friction())
       {
         run(automatic, true);
         return;
@@ -262,8 +261,7 @@ namespace geocone
           return;
       }
     work.v = start;
-    if (rubs)
-      run(30, false);
+    run(30, false);
     newton.elastic_first = false;
     run(automatic, true);
   }
