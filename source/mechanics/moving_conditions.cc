@@ -235,7 +235,7 @@ namespace geocone
                                                   t,
                                                   force);
                                  });
-        check_in_mesh(load, parts);
+        check_in_mesh(load, surface.middles(), parts);
       }
   }
 
@@ -251,10 +251,12 @@ namespace geocone
         const BoundaryCondition &load = *scene.tractions.list[side.condition];
         const bool               acts =
           stage == nullptr || stage->raises(load.name) == raised;
-        std::vector<double> part_in_mesh;
+        std::vector<double>     part_in_mesh;
+        std::vector<Point<dim>> middles;
         for (const MovingBoundary::Line &line : side.boundary.lines)
           {
             part_in_mesh.push_back(0.);
+            middles.push_back(line.a + (line.b - line.a) / 2.);
             for (const BoundaryPoint &point :
                  points_on_line(mesh, space, line.a, line.b))
               {
@@ -268,26 +270,27 @@ namespace geocone
                                force);
               }
           }
-        check_in_mesh(load, part_in_mesh);
+        check_in_mesh(load, middles, part_in_mesh);
       }
     if (!loads.empty() || !surfaces.empty())
       force.compress(VectorOperation::add);
   }
 
   void
-  MovingConditions::check_in_mesh(const BoundaryCondition &condition,
-                                  std::vector<double>      part_in_mesh) const
+  MovingConditions::check_in_mesh(const BoundaryCondition       &condition,
+                                  const std::vector<Point<dim>> &middles,
+                                  std::vector<double>            in_mesh) const
   {
-    sum_over_ranks(part_in_mesh, mesh.triangulation().get_communicator());
-    const double least =
-      *std::min_element(part_in_mesh.begin(), part_in_mesh.end());
-    if (least < 1. - 1e-6)
-      throw StepFailure("the side of '" + condition.name +
-                        format("' has left the background mesh: %.3g %% of "
-                               "a part of it is outside\n"
-                               "  remedy:  a larger Mesh/Box, so that the "
-                               "side stays in it",
-                               100. * (1. - least)));
+    sum_over_ranks(in_mesh, mesh.triangulation().get_communicator());
+    const auto least = std::min_element(in_mesh.begin(), in_mesh.end());
+    if (*least < 1. - 1e-6)
+      throw StepFailure(
+        format("the side of '%s' has left the background mesh: %.3g %% of its "
+               "part around (%s) is outside\n"
+               "  remedy:  a larger Mesh/Box, so that the side stays in it",
+               condition.name.c_str(),
+               100. * (1. - *least),
+               text_of_place(middles[least - in_mesh.begin()]).c_str()));
   }
 
   void
@@ -299,8 +302,9 @@ namespace geocone
           *scene.dirichlet.list[side.condition];
         std::array<unsigned int, dim - 1> n;
         n.fill(condition.n_segments);
-        std::vector<double> part_in_mesh;
-        unsigned int        number = 0;
+        std::vector<double>     part_in_mesh;
+        std::vector<Point<dim>> middles;
+        unsigned int            number = 0;
         for (const Panel &panel : side.panels)
           for (const Panel &segment : panel.parts(n))
             {
@@ -310,7 +314,8 @@ namespace geocone
               Point<dim - 1> middle;
               for (unsigned int k = 0; k + 1 < dim; ++k)
                 middle[k] = 0.5;
-              const double mean_measure = mesh.measure(segment.at(middle));
+              middles.push_back(segment.at(middle));
+              const double mean_measure = mesh.measure(middles.back());
               for (const BoundaryPoint &point :
                    points_on_panel(mesh, space, segment))
                 {
@@ -329,7 +334,7 @@ namespace geocone
                 }
               ++number;
             }
-        check_in_mesh(condition, part_in_mesh);
+        check_in_mesh(condition, middles, part_in_mesh);
       }
   }
 

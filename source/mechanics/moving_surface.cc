@@ -51,6 +51,20 @@ namespace geocone
            2.;
   }
 
+  std::vector<Point<dim>>
+  MovingSurface::middles() const
+  {
+    std::vector<Point<dim>> all;
+    for (const Triangle &triangle : triangles)
+      {
+        Point<dim> middle;
+        for (const unsigned int corner : triangle.corners)
+          middle += places[corner] / 3.;
+        all.push_back(middle);
+      }
+    return all;
+  }
+
   std::vector<double>
   MovingSurface::for_each_point(
     const BackgroundMesh                                               &mesh,
@@ -77,15 +91,13 @@ namespace geocone
                       const double          h)
   {
     // A place in the body by each corner, towards the middles of its triangles.
-    std::vector<Tensor<1, dim>> inward(places.size());
-    for (const Triangle &triangle : triangles)
+    std::vector<Tensor<1, dim>>   inward(places.size());
+    const std::vector<Point<dim>> middle = middles();
+    for (std::size_t t = 0; t < triangles.size(); ++t)
       {
-        const Tensor<1, dim> area = area_of(triangle);
-        Point<dim>           middle;
-        for (const unsigned int corner : triangle.corners)
-          middle += places[corner] / 3.;
-        for (const unsigned int corner : triangle.corners)
-          inward[corner] += 1e-6 * (middle - places[corner]) -
+        const Tensor<1, dim> area = area_of(triangles[t]);
+        for (const unsigned int corner : triangles[t].corners)
+          inward[corner] += 1e-6 * (middle[t] - places[corner]) -
                             1e-9 / std::sqrt(area.norm()) * area;
       }
     // The velocity there, and how many cells of all ranks know it.

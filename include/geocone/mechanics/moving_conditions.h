@@ -158,12 +158,13 @@ namespace geocone
     /**
      * Refuses a condition of whose parts one lies outside the mesh, where it would
      * vanish silently. Collective.
-     * @param part_in_mesh of each, as found on this rank
+     * @param middles of them @param in_mesh the part of each, as found on this rank
      * @throws StepFailure
      */
     void
-    check_in_mesh(const BoundaryCondition &condition,
-                  std::vector<double>      part_in_mesh) const;
+    check_in_mesh(const BoundaryCondition               &condition,
+                  const std::vector<dealii::Point<dim>> &middles,
+                  std::vector<double>                    in_mesh) const;
 
     /**
      * Moves a chain of lines by the velocity of the nodes, within the box of a

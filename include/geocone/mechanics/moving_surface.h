@@ -40,6 +40,10 @@ namespace geocone
     dealii::Tensor<1, dim>
     area_of(const Triangle &triangle) const;
 
+    /** Of each triangle, as it is. */
+    std::vector<dealii::Point<dim>>
+    middles() const;
+
     /** See for_each_point_of_triangles(). */
     std::vector<double>
     for_each_point(const BackgroundMesh                             &mesh,
