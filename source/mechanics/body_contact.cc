@@ -206,7 +206,7 @@ namespace geocone
         double         part = 0.;
         Point<dim - 1> middle;
         for (const FlatSimplex &piece : shared_part(own, at.flat))
-          if (const double size = geocone::size_of(piece);
+          if (const double size = size_of(piece);
               size >= least_piece * plane.size)
             {
               at.shared.push_back(piece);
@@ -231,9 +231,11 @@ namespace geocone
       for (const FlatSimplex &piece : candidate.shared)
         for (unsigned int q = 0; q < rule.size(); ++q)
           {
-            const Point<dim - 1> x = at(piece, rule.point(q));
-            const double gap = std::abs(plane.ahead(candidate.ahead_of(x)));
-            const bool   is_hidden = std::any_of(
+            const Point<dim - 1> x       = at(piece, rule.point(q)),
+                                 other_s = unit_place(candidate.flat, x);
+            const double gap =
+              std::abs(plane.ahead(candidate.other->outline.at(other_s)));
+            const bool is_hidden = std::any_of(
               candidates.begin(),
               candidates.end(),
               [&](const Candidate &before) {
@@ -242,11 +244,11 @@ namespace geocone
                        std::abs(plane.ahead(before.ahead_of(x))) < gap;
               });
             if (!is_hidden)
-              points.push_back({unit_place(own, x),
-                                candidate.other->face,
-                                unit_place(candidate.flat, x),
-                                rule.weight(q) * (dim - 1) *
-                                  geocone::size_of(piece) / plane.size});
+              points.push_back(
+                {unit_place(own, x),
+                 candidate.other->face,
+                 other_s,
+                 rule.weight(q) * (dim - 1) * size_of(piece) / plane.size});
           }
     return points;
   }
@@ -262,16 +264,19 @@ namespace geocone
     const auto              weight   = [&](const PointAhead &point) {
       return point.part * face.size * mesh.measure(at_start.at(point.s));
     };
-    const unsigned int m    = face.nodes.size();
-    Eigen::MatrixXd    mass = Eigen::MatrixXd::Zero(m, m);
-    Eigen::VectorXd    D    = Eigen::VectorXd::Zero(m), N, N_other;
-    double             part = 0.;
-    for (const PointAhead &point : points)
+    const unsigned int           m    = face.nodes.size();
+    Eigen::MatrixXd              mass = Eigen::MatrixXd::Zero(m, m);
+    Eigen::VectorXd              D    = Eigen::VectorXd::Zero(m), N_other;
+    double                       part = 0.;
+    std::vector<Eigen::VectorXd> values(points.size());
+    for (std::size_t q = 0; q < points.size(); ++q)
       {
-        part += point.part;
-        evaluate(face, point.s, N);
-        mass += weight(point) * N * N.transpose();
-        D += weight(point) * N;
+        Eigen::VectorXd &N = values[q];
+        const double     w = weight(points[q]);
+        part += points[q].part;
+        evaluate(face, points[q].s, N);
+        mass += w * N * N.transpose();
+        D += w * N;
       }
     if (part < least_part)
       return;
@@ -285,15 +290,16 @@ namespace geocone
         own.diameter = std::max(own.diameter, plane.diameter);
         own.normal += part * plane.size * plane.normal;
       }
-    for (const PointAhead &point : points)
+    for (std::size_t q = 0; q < points.size(); ++q)
       {
-        evaluate(face, point.s, N);
+        const PointAhead &point = points[q];
         evaluate(*point.other, point.other_s, N_other);
-        const Eigen::VectorXd psi = dual * N;
+        const Eigen::VectorXd psi = dual * values[q];
+        const double          w   = weight(point);
         for (unsigned int i = 0; i < m; ++i)
           for (unsigned int j = 0; j < N_other.size(); ++j)
             sums[face.nodes[i]].M[point.other->nodes[j]] +=
-              weight(point) * psi[i] * N_other[j];
+              w * psi[i] * N_other[j];
       }
   }
 
@@ -320,11 +326,10 @@ namespace geocone
     for (unsigned int k = 0; k < pairs.size(); ++k)
       {
         std::map<unsigned int, Sums>  sums;
-        const std::vector<PlacedFace> first = placed(pairs[k].first, place),
-                                      other_faces =
-                                        placed(pairs[k].other, place);
+        const std::vector<PlacedFace> first  = placed(pairs[k].first, place);
+        const std::vector<PlacedFace> others = placed(pairs[k].other, place);
         for (const PlacedFace &face : first)
-          integrate(face, points_ahead(face, other_faces, reach), sums);
+          integrate(face, points_ahead(face, others, reach), sums);
         add_whole_faces(first, sums);
         const InterfaceLaw    &law = scene.contacts.list[k]->law;
         std::set<unsigned int> own;

@@ -57,14 +57,8 @@ namespace geocone
         };
         if (list[c]->moves())
           for (const Panel &panel : panels_of_body(*list[c], scene.geometry))
-            {
-              // And the corner that lies across.
-              Point<dim> last = panel.corner;
-              for (const Tensor<1, dim> &edge : panel.edges)
-                last += edge;
-              extend(panel.corner);
-              extend(last);
-            }
+            for (const Point<dim> &corner : panel.corners())
+              extend(corner);
         else
           {
             for (const unsigned int node :

@@ -36,10 +36,7 @@ namespace geocone
       for (std::size_t i = 0; i < corners.size(); ++i)
         f(corners[i], corners[(i + 1) % corners.size()], sign);
     }
-  } // namespace
 
-  namespace
-  {
     // Templates, of which only the branch of the dimension is read.
 
     template <int m>

@@ -90,6 +90,16 @@ namespace geocone
     return points;
   }
 
+  void
+  refuse_no_part(const BoundaryCondition &condition, const std::size_t n_parts)
+  {
+    if (n_parts == 0)
+      throw InputError(condition.parameter("Box"),
+                       condition.part(),
+                       "a box that holds a part of the sides of the body",
+                       "check the sides and the box");
+  }
+
   std::vector<MovingBoundary::Line>
   lines_of_body(const BoundaryCondition &condition, const Geometry &geometry)
   {
@@ -131,11 +141,7 @@ namespace geocone
             lines.push_back(
               {a + from * along, a + to * along, (to - from) * along.norm()});
         }
-    if (lines.empty())
-      throw InputError(condition.parameter("Box"),
-                       condition.part(),
-                       "a box that holds a part of the sides of the body",
-                       "check the sides and the box");
+    refuse_no_part(condition, lines.size());
     return lines;
   }
 

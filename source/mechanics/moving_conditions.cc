@@ -582,13 +582,13 @@ namespace geocone
   std::pair<Point<dim>, Point<dim>>
   MovingConditions::box_of(const BoundaryCondition &condition) const
   {
-    std::vector<Point<dim>> ends;
+    std::vector<Point<dim>> corners;
     for (const HeldSide &side : supports)
       if (scene.dirichlet.list[side.condition].get() == &condition)
         for (const Panel &panel : side.panels)
-          for (const Point<dim> &x : panel.ends())
-            ends.push_back(x);
-    return BoundingBox<dim>(ends).get_boundary_points();
+          for (const Point<dim> &x : panel.corners())
+            corners.push_back(x);
+    return BoundingBox<dim>(corners).get_boundary_points();
   }
 
   void

@@ -7,6 +7,7 @@
 #include <geocone/scene/edge_normal.h>
 
 #include <deal.II/base/bounding_box.h>
+#include <deal.II/base/geometry_info.h>
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
@@ -97,11 +98,7 @@ namespace geocone
               panel.edges[k][across[k]] = high[across[k]] - low[across[k]];
             panels.push_back(panel);
           }
-      if (panels.empty())
-        throw InputError(condition.parameter("Box"),
-                         condition.part(),
-                         "a box that holds a part of the sides of the body",
-                         "check the sides and the box");
+      refuse_no_part(condition, panels.size());
       return panels;
     }
   } // namespace
@@ -121,6 +118,15 @@ namespace geocone
     if (dim == 2)
       return edge_normal(corner, Point<dim>(corner + edges[0]));
     return cross_product_3d(edges[0], edges[dim - 2]);
+  }
+
+  std::vector<Point<dim>>
+  Panel::corners() const
+  {
+    std::vector<Point<dim>> all;
+    for (const unsigned int i : GeometryInfo<dim - 1>::vertex_indices())
+      all.push_back(at(GeometryInfo<dim - 1>::unit_cell_vertex(i)));
+    return all;
   }
 
   std::array<Point<dim>, dim>
@@ -176,16 +182,14 @@ namespace geocone
                   const Space          &space,
                   const Panel          &panel)
   {
-    const auto ends = panel.ends();
+    const std::vector<Point<dim>> x = panel.corners();
     if (dim == 2)
-      return points_on_line(mesh, space, ends[0], ends[1]);
-    const Point<dim>          &a = ends[0], &b = ends[1], &d = ends[dim - 1];
-    const Point<dim>           c = b + (d - a);
+      return points_on_line(mesh, space, x[0], x[1]);
     std::vector<BoundaryPoint> points;
     for_each_point_of_triangles(
       mesh,
       space,
-      {{{a, b, c}}, {{a, c, d}}},
+      {{{x[0], x[1], x[3]}}, {{x[0], x[3], x[2]}}},
       [&](const std::size_t, const BoundaryPoint &point) {
         points.push_back(point);
         points.back().weight /= 2.;

@@ -71,8 +71,8 @@ namespace geocone
   class FacePlane
   {
   public:
-    /** @param corners around the face counterclockwise, seen from outside of the body;
-     *  in the plane the body is on the left of the way */
+    /** @param face with its corners counterclockwise, seen from outside of the body; in
+     *  the plane the body is on the left of the way */
     explicit FacePlane(const FaceOutline<dim> &face);
 
     FlatOutline

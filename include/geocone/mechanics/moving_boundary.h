@@ -56,6 +56,10 @@ namespace geocone
     std::vector<Line> lines;
   };
 
+  /** @throws InputError where a condition's box holds no part of its sides of the body */
+  void
+  refuse_no_part(const BoundaryCondition &condition, const std::size_t n_parts);
+
   /**
    * The ends of the parts of the condition's sides inside its box, with the body
    * to the left.

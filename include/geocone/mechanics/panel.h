@@ -29,6 +29,10 @@ namespace geocone
     dealii::Tensor<1, dim>
     area() const;
 
+    /** All of them, in the order of deal.II. */
+    std::vector<dealii::Point<dim>>
+    corners() const;
+
     /** The corner and the ends of the edges. */
     std::array<dealii::Point<dim>, dim>
     ends() const;

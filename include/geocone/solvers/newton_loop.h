@@ -25,7 +25,7 @@ namespace geocone
      */
     static constexpr double near = 1e-3;
 
-    /** From which on an iterate is far from one. */
+    /** Relative residual above which it is far from one. */
     static constexpr double far = 0.1;
 
     LocalLaw     law;
