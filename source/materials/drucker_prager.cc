@@ -25,8 +25,9 @@ namespace geocone
   }
 
   void
-  DruckerPrager::set_strength(const FrictionalStrength &strength)
+  DruckerPrager::set_strength(const double F)
   {
+    const FrictionalStrength strength = given.reduced(F);
     // Alpha, and kappa over c cos(angle).
     const auto sizes = [&](const double degrees) {
       const double s = std::sin(radians(degrees)),
@@ -44,40 +45,47 @@ namespace geocone
     cone.a                    = std::sqrt(6.) * alpha;
     cone.b = std::min(std::sqrt(6.) * sizes(strength.theta).first, cone.a);
     cone.k = sqrt2 * kappa * strength.c * std::cos(radians(strength.phi));
+    k_per_cohesion = sqrt2 * kappa * std::cos(radians(strength.phi)) / F;
   }
 
-  std::optional<FlowCone>
-  DruckerPrager::spatial_step_cone(const SpatialMandel &stress_n,
-                                   const double        *history_n,
-                                   const StepLaw       &step) const
+  FlowCheck
+  DruckerPrager::check_plastic_strain(const SpatialMandel &plastic_strain,
+                                      const SpatialMandel &stress,
+                                      const OwnStrength   &own) const
   {
-    const Past past = past_of(stress_n, history_n, step);
-    return cone.delayed(past.part, past.normal);
+    const FlowCone exact = cone_with(own.cohesion);
+    return FlowCheck::of_cone(exact.delayed(own.part, own.normal),
+                              exact,
+                              SpatialMandel(spatial_axes() * -plastic_strain),
+                              SpatialMandel(spatial_axes() * stress),
+                              elasticity().two_G);
   }
 
   double
   DruckerPrager::power_beyond_strength(const SpatialMandel &plastic_strain,
-                                       const SpatialMandel &stress) const
+                                       const SpatialMandel &stress,
+                                       const double        *history) const
   {
     return FlowCone::tangential_norm(
              SpatialMandel(spatial_axes() * plastic_strain)) *
-           std::abs(*yield_function(stress));
+           std::abs(*yield_function(stress, history));
   }
 
   Mode
   DruckerPrager::return_to_strength(const SpatialMandel &trial,
-                                    const Past          &past,
+                                    const OwnStrength   &own,
                                     SpatialMandel       &stress,
                                     SpatialMandelMatrix *tangent) const
   {
     const SpatialMandel t = spatial_axes() * trial;
     SpatialMandel       s;
-    const Mode          mode = return_map(cone.delayed(past.part, past.normal),
-                                 elasticity().spatial_normal_stiffness(),
-                                 elasticity().two_G,
-                                 t,
-                                 s,
-                                 tangent);
+    const Mode          mode =
+      return_map(cone_with(own.cohesion).delayed(own.part, own.normal),
+                 elasticity().spatial_normal_stiffness(),
+                 elasticity().two_G,
+                 t,
+                 s,
+                 tangent);
     // An elastic point keeps its trial stress to the last digit.
     stress = mode == Mode::elastic
                ? trial
@@ -88,8 +96,10 @@ namespace geocone
   }
 
   std::optional<double>
-  DruckerPrager::yield_function(const SpatialMandel &stress) const
+  DruckerPrager::yield_function(const SpatialMandel &stress,
+                                const double        *history) const
   {
-    return cone.yield_function(SpatialMandel(spatial_axes() * stress));
+    return cone_with(grown_cohesion(history))
+      .yield_function(SpatialMandel(spatial_axes() * stress));
   }
 } // namespace geocone

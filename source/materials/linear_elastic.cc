@@ -26,7 +26,7 @@ namespace geocone
 
   Mode
   LinearElastic::return_to_strength(const SpatialMandel &trial,
-                                    const Past &,
+                                    const OwnStrength &,
                                     SpatialMandel       &stress,
                                     SpatialMandelMatrix *tangent) const
   {

@@ -129,6 +129,24 @@ namespace geocone
     return cone ? cone->hardened(slip) : cone;
   }
 
+  std::optional<FlowCheck>
+  Material::check_flow(const PointStep &point, const StepLaw &step) const
+  {
+    if (!flow_cone(point.history_n))
+      return std::nullopt;
+    const Mandel stress_n = point.stress_n.head<n_mandel>(),
+                 stress   = point.stress.head<n_mandel>();
+    const Mandel z =
+      to_cone_axes(Mandel(elastic.strain(Mandel(stress - stress_n)) -
+                          point.strain.head<n_mandel>()));
+    const double slip = FlowCone::tangential_norm(z);
+    return FlowCheck::of_cone(*end_cone(stress_n, point.history_n, step, slip),
+                              *exact_end_cone(point.history_n, slip),
+                              z,
+                              to_cone_axes(stress),
+                              elastic.two_G);
+  }
+
   void
   Material::reduce_strength(const double)
   {

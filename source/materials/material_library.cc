@@ -167,15 +167,19 @@ namespace geocone
   }
 
   bool
-  Materials::have_cone() const
+  Materials::have_flow_check() const
   {
     return std::any_of(
       in_closed_form.begin(), in_closed_form.end(), [](const Material *law) {
         if (law == nullptr)
           return false;
         const std::vector<double> history(law->n_history(), 0.);
-        return law->flow_cone(history.data()).has_value() ||
-               law->spatial_cone().has_value();
+        PointStep                 none;
+        none.strain.setZero();
+        none.stress_n.setZero();
+        none.stress.setZero();
+        none.history_n = history.data();
+        return law->check_flow(none, {}).has_value();
       });
   }
 

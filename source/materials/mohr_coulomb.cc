@@ -1,8 +1,6 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/base/exceptions.h>
-#include <geocone/base/log.h>
 #include <geocone/materials/cone_kernel.h>
 #include <geocone/materials/mohr_coulomb.h>
 #include <geocone/materials/varying_cone.h>
@@ -12,23 +10,6 @@
 
 namespace geocone
 {
-  MohrCoulomb::MohrCoulomb(const std::string &section)
-    : WithFrictionMemory(section)
-  {
-    given.declare(*this);
-    given.declare_growth(*this);
-    memory.declare(*this);
-  }
-
-  MohrCoulomb::MohrCoulomb(const std::string &section, const WithoutFriction &)
-    : WithFrictionMemory(section)
-    , given(FrictionalStrength::without_friction())
-  {
-    memory = FrictionMemory("0");
-    given.declare_cohesion(*this, "Undrained shear strength c (Pa), > 0.");
-    given.declare_growth(*this);
-  }
-
   void
   MohrCoulomb::prepare()
   {
@@ -50,26 +31,8 @@ namespace geocone
   MohrCoulomb::flow_cone(const double *history) const
   {
     FlowCone here = cone;
-    if (cohesion_grows() && history != nullptr)
-      here.k += k_per_cohesion * history[place_of_growth()];
+    here.k += k_per_cohesion * grown_cohesion(history);
     return here;
-  }
-
-  void
-  MohrCoulomb::take_place(const dealii::Point<dim> &place,
-                          double                   *history) const
-  {
-    if (!cohesion_grows())
-      return;
-    const double more = given.growth(place[1]), here = given.c + more;
-    if (!(here > 0. || (here == 0. && given.phi > 0.)))
-      throw InputError(
-        parameter("Cohesion gradient"),
-        given.gradient,
-        format("a cohesion > 0 Pa everywhere; here it is %g Pa", here),
-        "give 'Cohesion' at the top of the soil, and its y as "
-        "'Cohesion level'");
-    history[place_of_growth()] = more;
   }
 
   FlowCone
@@ -97,26 +60,6 @@ namespace geocone
   {
     if (FrictionMemory::is_hard(non_associativity(), cone.a - cone.b))
       memory.set_automatic(time);
-  }
-
-  std::vector<ConstitutiveLaw::Shown>
-  MohrCoulomb::shown() const
-  {
-    std::vector<Shown> all = WithFrictionMemory::shown();
-    if (cohesion_grows())
-      all.push_back({"cohesion", "cohesion (Pa)"});
-    return all;
-  }
-
-  void
-  MohrCoulomb::show(const Components &stress,
-                    const double     *history,
-                    double           *values) const
-  {
-    WithFrictionMemory::show(stress, history, values);
-    if (cohesion_grows())
-      values[WithFrictionMemory::shown().size()] =
-        given.c + history[place_of_growth()];
   }
 
   std::optional<FlowCone>

@@ -49,49 +49,49 @@ namespace geocone
   std::optional<double>
   SpatialLaw::overstress(const Mandel &stress, const double *history) const
   {
-    return yield_function(whole_stress(stress, history));
-  }
-
-  FrictionalSpatialLaw::FrictionalSpatialLaw(const std::string &section)
-    : WithFrictionMemory(section)
-  {
-    given.declare(*this);
-    memory.declare(*this);
-  }
-
-  FrictionalSpatialLaw::FrictionalSpatialLaw(const std::string &section,
-                                             const std::string &cohesion)
-    : WithFrictionMemory(section)
-    , given(FrictionalStrength::without_friction())
-  {
-    memory = FrictionMemory("0");
-    given.declare_cohesion(*this, cohesion);
+    return yield_function(whole_stress(stress, history), history);
   }
 
   void
   FrictionalSpatialLaw::prepare()
   {
-    WithFrictionMemory::prepare();
+    Frictional::prepare();
     given.check(parameter());
-    set_strength(given);
+    set_strength(1.);
     memory.prepare(*this, non_associativity() > 0.);
   }
 
-  SpatialReturnMap::Past
-  FrictionalSpatialLaw::past_of(const SpatialMandel &stress_n,
-                                const double        *history_n,
-                                const StepLaw       &step) const
+  SpatialReturnMap::OwnStrength
+  FrictionalSpatialLaw::own_strength(const SpatialMandel &stress_n,
+                                     const double        *history_n,
+                                     const StepLaw       &step) const
   {
+    OwnStrength own;
+    own.cohesion = grown_cohesion(history_n);
     // A solver's lag takes more of the past.
     if (memory.time() > 0.)
       {
         const double part = memory.remembered(step.size);
-        return {part + (1. - part) * step.friction_lag,
-                history_n[place_of_memory()]};
+        own.part          = part + (1. - part) * step.friction_lag;
+        own.normal        = history_n[place_of_memory()];
       }
-    if (step.friction_lag > 0. && non_associativity() > 0.)
-      return {step.friction_lag, normal_stress(stress_n)};
-    return {};
+    else if (step.friction_lag > 0. && non_associativity() > 0.)
+      {
+        own.part   = step.friction_lag;
+        own.normal = normal_stress(stress_n);
+      }
+    return own;
+  }
+
+  std::optional<FlowCheck>
+  FrictionalSpatialLaw::check_flow(const PointStep &point,
+                                   const StepLaw   &step) const
+  {
+    return check_plastic_strain(
+      point.strain -
+        elasticity().strain(SpatialMandel(point.stress - point.stress_n)),
+      point.stress,
+      own_strength(point.stress_n, point.history_n, step));
   }
 
   void

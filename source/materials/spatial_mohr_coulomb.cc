@@ -76,11 +76,13 @@ namespace geocone
   } // namespace
 
   void
-  SpatialMohrCoulomb::set_strength(const FrictionalStrength &strength)
+  SpatialMohrCoulomb::set_strength(const double F)
   {
-    exact     = {std::sin(radians(strength.phi)),
-                 2. * strength.c * std::cos(radians(strength.phi))};
+    const FrictionalStrength strength = given.reduced(F);
+    const double             cosine   = std::cos(radians(strength.phi));
+    exact     = {std::sin(radians(strength.phi)), 2. * strength.c * cosine};
     sin_theta = std::sin(radians(strength.theta));
+    size_per_cohesion = 2. * cosine / F;
   }
 
   double
@@ -90,10 +92,11 @@ namespace geocone
   }
 
   std::optional<double>
-  SpatialMohrCoulomb::yield_function(const SpatialMandel &stress) const
+  SpatialMohrCoulomb::yield_function(const SpatialMandel &stress,
+                                     const double        *history) const
   {
-    const auto s = spectrum(stress).value;
-    return s[0] - s[2] + (s[0] + s[2]) * exact.sine - exact.size;
+    return pyramid_with(grown_cohesion(history))
+      .yield_function(spectrum(stress).value);
   }
 
   double
@@ -104,14 +107,15 @@ namespace geocone
   }
 
   SpatialMohrCoulomb::Pyramid
-  SpatialMohrCoulomb::delayed(const Past &past) const
+  SpatialMohrCoulomb::delayed(const OwnStrength &own) const
   {
-    const double part = past.part * (exact.sine - sin_theta);
+    const Pyramid here = pyramid_with(own.cohesion);
+    const double  part = own.part * (here.sine - sin_theta);
     if (part == 0.)
-      return exact;
+      return here;
     // Not beyond the apex.
-    return {exact.sine - part,
-            exact.size - 2. * part * std::min(-past.normal, exact.apex())};
+    return {here.sine - part,
+            here.size - 2. * part * std::min(-own.normal, here.apex())};
   }
 
   void
@@ -123,23 +127,70 @@ namespace geocone
 
   double
   SpatialMohrCoulomb::power_beyond_strength(const SpatialMandel &plastic_strain,
-                                            const SpatialMandel &stress) const
+                                            const SpatialMandel &stress,
+                                            const double        *history) const
   {
     // The planes that flow have the same f, and g_ij = (1 + sin(theta), -1 + sin(theta)).
     const Principal e = spectrum(plastic_strain).value;
     const double    multipliers =
       std::max(e[0] / (1. + sin_theta), -e[2] / (1. - sin_theta));
-    return std::max(multipliers, 0.) * std::abs(*yield_function(stress));
+    return std::max(multipliers, 0.) *
+           std::abs(*yield_function(stress, history));
+  }
+
+  FlowCheck
+  SpatialMohrCoulomb::check_plastic_strain(const SpatialMandel &plastic_strain,
+                                           const SpatialMandel &stress,
+                                           const OwnStrength   &own) const
+  {
+    const Pyramid exact_here = pyramid_with(own.cohesion),
+                  solved     = delayed(own);
+    const auto flow          = spectrum(plastic_strain);
+    Principal  y;
+    double     plus = 0., minus = 0.;
+    for (unsigned int i = 0; i < 3; ++i)
+      if (const double e = flow.value[i]; e > 0.)
+        plus += y[i] = e * (1. + solved.sine) / (1. + sin_theta);
+      else
+        minus -= y[i] = e * (1. - solved.sine) / (1. - sin_theta);
+    const SpatialMandel normal = flow.directions.template leftCols<3>() * y;
+    const Principal     s      = spectrum(stress).value;
+    const double        two_G  = elasticity().two_G;
+
+    FlowCheck here;
+    here.stress     = stress.norm();
+    here.size       = exact_here.size / sqrt2;
+    here.flow       = y.norm();
+    here.compliance = 1. / two_G;
+    here.violation  = solved.yield_function(s);
+    here.excess     = exact_here.yield_function(s);
+    // Normals have (1 - sin(phi)) plus >= (1 + sin(phi)) minus, with more at the apex.
+    here.dual =
+      std::max(0., (1. + solved.sine) * minus - (1. - solved.sine) * plus);
+    here.complementary =
+      std::abs(stress.dot(normal) - (solved.sine > 0.
+                                       ? solved.apex() * (plus - minus)
+                                       : solved.size / 2. * (plus + minus)));
+
+    const auto      at = spectrum(SpatialMandel(stress + two_G * normal));
+    Principal       projected;
+    PrincipalMatrix tangent;
+    return_principal(
+      Elasticity(1., 0.), solved, solved.sine, at.value, projected, tangent);
+    here.natural_map =
+      (stress - at.directions.template leftCols<3>() * projected).norm();
+    return here;
   }
 
   Mode
-  SpatialMohrCoulomb::return_principal(const Pyramid   &strength,
-                                       const Principal &trial,
-                                       Principal       &stress,
-                                       PrincipalMatrix &tangent) const
+  SpatialMohrCoulomb::return_principal(const Elasticity &elastic,
+                                       const Pyramid    &strength,
+                                       const double      flow,
+                                       const Principal  &trial,
+                                       Principal        &stress,
+                                       PrincipalMatrix  &tangent)
   {
-    const Elasticity &elastic = elasticity();
-    PrincipalMatrix   D       = elastic.two_G * PrincipalMatrix::Identity();
+    PrincipalMatrix D = elastic.two_G * PrincipalMatrix::Identity();
     D.array() += elastic.lambda;
     // Gradients of f_ij, and of the same with theta.
     const auto gradient =
@@ -150,7 +201,7 @@ namespace geocone
         return n;
       };
     const Principal f_13 = gradient(0, 2, strength.sine),
-                    g_13 = gradient(0, 2, sin_theta);
+                    g_13 = gradient(0, 2, flow);
     const double f       = f_13.dot(trial) - strength.size;
     if (f <= 0.)
       {
@@ -170,13 +221,12 @@ namespace geocone
         return Mode::cone;
       }
     // The edge on the side of the trial stress: s_2 = s_3 or s_1 = s_2.
-    const bool two_three = (1. - sin_theta) * trial[0] - 2. * trial[1] +
-                             (1. + sin_theta) * trial[2] >
-                           0.;
+    const bool two_three =
+      (1. - flow) * trial[0] - 2. * trial[1] + (1. + flow) * trial[2] > 0.;
     const unsigned int          i = two_three ? 0 : 1, j = two_three ? 1 : 2;
     Eigen::Matrix<double, 3, 2> F, G;
     F << f_13, gradient(i, j, strength.sine);
-    G << g_13, gradient(i, j, sin_theta);
+    G << g_13, gradient(i, j, flow);
     const Eigen::Matrix<double, 3, 2> DG      = D * G;
     const Eigen::Matrix2d             inverse = (F.transpose() * DG).inverse();
     const Eigen::Vector2d             over =
@@ -198,11 +248,11 @@ namespace geocone
 
   Mode
   SpatialMohrCoulomb::return_to_strength(const SpatialMandel &trial,
-                                         const Past          &past,
+                                         const OwnStrength   &own,
                                          SpatialMandel       &stress,
                                          SpatialMandelMatrix *tangent) const
   {
-    const Pyramid strength = delayed(past);
+    const Pyramid strength = delayed(own);
     if (strength.holds_cone(trial))
       {
         stress = trial;
@@ -213,7 +263,8 @@ namespace geocone
     const auto      at = spectrum(trial);
     Principal       s;
     PrincipalMatrix C;
-    const Mode      mode = return_principal(strength, at.value, s, C);
+    const Mode      mode =
+      return_principal(elasticity(), strength, sin_theta, at.value, s, C);
     // An elastic point keeps its trial stress to the last digit.
     if (mode == Mode::elastic)
       stress = trial;

@@ -15,44 +15,6 @@ namespace geocone
 {
   using namespace dealii;
 
-  namespace
-  {
-    /** The stress scale (Pa) and the strain scale of Quality. */
-    struct Scales
-    {
-      double stress, strain;
-    };
-
-    /** Of a point, but for the excess of the exact cone. @param cone that was solved
-     *  for @param z,s in its axes, in the plane or in space */
-    template <typename Vector>
-    Quality
-    quality_of(const FlowCone &cone,
-               const Vector   &z,
-               const Vector   &s,
-               const double    two_G,
-               const Scales   &scales)
-    {
-      Quality here;
-      here.cone_violation = cone.yield_function(s) / scales.stress;
-      // The complementarity law is that of a cone without a cut-off.
-      if (s[0] > -cone.tension + 1e-12 * scales.stress)
-        {
-          const auto y = cone.psi(z);
-          here.natural_map =
-            natural_map(cone, s, y, two_G).norm() / scales.stress;
-          if (scales.strain > 0.)
-            {
-              here.dual_violation = cone.dual_violation(y) / scales.strain;
-              here.complementarity =
-                std::abs(cone.complementarity_product(y, s)) /
-                (scales.strain * scales.stress);
-            }
-        }
-      return here;
-    }
-  } // namespace
-
   std::string
   InternalForces::not_a_number() const
   {
@@ -83,7 +45,8 @@ namespace geocone
             if (material.is_spatial())
               {
                 sum += points.weight[p] *
-                       material.power_beyond_strength(plastic, whole_stress(p));
+                       material.power_beyond_strength(
+                         plastic, whole_stress(p), points.history_of(p));
                 continue;
               }
             const Mandel z    = to_cone_axes(Mandel(plastic.head<n_mandel>()));
@@ -97,94 +60,53 @@ namespace geocone
     return Utilities::MPI::sum(sum, comm);
   }
 
-  template <typename Function>
-  void
-  InternalForces::for_each_cone(const Function &f) const
-  {
-    for (const Run &run : runs)
-      {
-        const Material   &law     = materials[run.material];
-        const Elasticity &elastic = law.elasticity();
-        const bool        is_cone =
-          law.flow_cone(points.history_of(run.begin)).has_value();
-        for (unsigned int p = run.begin; p < run.end; ++p)
-          if (law.is_spatial())
-            {
-              const SpatialMandel s = whole_stress(p), s_n = whole_stress_n(p);
-              if (const auto solved = law.spatial_step_cone(
-                    s_n, points.history_of(p), step_law()))
-                f(SpatialMandel(
-                    spatial_axes() *
-                    (elastic.strain(SpatialMandel(s - s_n)) - whole_strain(p))),
-                  SpatialMandel(spatial_axes() * s),
-                  *solved,
-                  *law.spatial_cone(),
-                  elastic.two_G);
-            }
-          else if (is_cone)
-            {
-              const Mandel z = to_cone_axes(
-                Mandel(elastic.strain(Mandel(stress[p] - points.stress[p])) -
-                       strain[p]));
-              const double slip = FlowCone::tangential_norm(z);
-              f(z,
-                to_cone_axes(stress[p]),
-                *law.end_cone(
-                  points.stress[p], points.history_of(p), step_law(), slip),
-                *law.exact_end_cone(points.history_of(p), slip),
-                elastic.two_G);
-            }
-      }
-  }
-
   Quality
   InternalForces::quality() const
   {
-    // Two passes: the scales of all ranks first.
-    double stress_scale = 0., k_scale = 0., y_scale = 0., compliance = 0.;
-    for_each_cone([&](const auto     &z,
-                      const auto     &s,
-                      const FlowCone &solved,
-                      const FlowCone &exact,
-                      const double    two_G) {
-      compliance   = std::max(compliance, 1. / two_G);
-      k_scale      = std::max(k_scale, exact.k);
-      stress_scale = std::max(stress_scale, s.norm());
-      y_scale      = std::max(y_scale, solved.psi(z).norm());
-    });
-    Scales scales;
-    scales.stress = Utilities::MPI::max(stress_scale, comm) +
-                    Utilities::MPI::max(k_scale, comm);
-    scales.strain =
-      std::max(Utilities::MPI::max(y_scale, comm),
-               scales.stress * Utilities::MPI::max(compliance, comm));
-
-    Quality worst;
-    for_each_cone([&](const auto     &z,
-                      const auto     &s,
-                      const FlowCone &solved,
-                      const FlowCone &exact,
-                      const double    two_G) {
-      Quality here     = quality_of(solved, z, s, two_G, scales);
-      here.cone_excess = exact.yield_function(s);
-      worst.take_worse(here);
-    });
-    // Of laws with another surface, its excess alone.
+    FlowCheck largest;
     for (const Run &run : runs)
-      for (unsigned int p = run.begin;
-           p < run.end && materials[run.material].is_spatial();
-           ++p)
-        if (const auto f =
-              materials[run.material].yield_function(whole_stress(p)))
-          worst.cone_excess = std::max(worst.cone_excess, *f);
-    std::array<double, 5> values = {{worst.natural_map,
-                                     worst.cone_violation,
-                                     worst.dual_violation,
-                                     worst.complementarity,
-                                     worst.cone_excess}};
+      for (unsigned int p = run.begin; p < run.end; ++p)
+        {
+          const auto here =
+            materials[run.material].check_flow({whole_strain(p),
+                                                whole_stress_n(p),
+                                                whole_stress(p),
+                                                points.history_of(p)},
+                                               step_law());
+          if (!here)
+            break; // nor has any other point of the law
+          largest.take_worse(*here);
+        }
+    std::array<double, 9> values = {{largest.natural_map,
+                                     largest.violation,
+                                     largest.dual,
+                                     largest.complementary,
+                                     largest.excess,
+                                     largest.stress,
+                                     largest.size,
+                                     largest.flow,
+                                     largest.compliance}};
     Utilities::MPI::max(ArrayView<const double>(values.data(), values.size()),
                         comm,
                         ArrayView<double>(values.data(), values.size()));
-    return {values[0], values[1], values[2], values[3], values[4]};
+    const auto [natural_map,
+                violation,
+                dual,
+                complementary,
+                excess,
+                stress,
+                size,
+                flow,
+                compliance] = values;
+    // y is rounding where nothing flows.
+    const double stress_scale = stress + size,
+                 strain_scale = std::max(flow, stress_scale * compliance);
+    if (stress_scale == 0.)
+      return {};
+    return {natural_map / stress_scale,
+            violation / stress_scale,
+            dual / strain_scale,
+            complementary / (strain_scale * stress_scale),
+            excess};
   }
 } // namespace geocone

@@ -99,7 +99,7 @@ namespace geocone
     table.add("friction lag (-)",
               [](const Record &r) { return r.last.newton.friction_lag; });
     add_quality("cone excess (Pa)", &Quality::cone_excess);
-    if (scene->materials.have_cone())
+    if (scene->materials.have_flow_check())
       {
         add_quality("natural-map error (-)", &Quality::natural_map);
         add_quality("cone violation (-)", &Quality::cone_violation);

@@ -279,7 +279,7 @@ namespace geocone
       json["motion"] = motion();
     Json &of_state                 = json["quality"];
     of_state["cone_excess_max_Pa"] = quality.cone_excess;
-    if (scene->materials.have_cone())
+    if (scene->materials.have_flow_check())
       of_state.update(
         Json{{"natural_map_error_max", quality.natural_map},
              {"complementarity_max", quality.complementarity},
@@ -369,7 +369,7 @@ namespace geocone
                      newton_part["iterations_mean"].get<double>(),
                      newton_part["iterations_max"].get<unsigned int>(),
                      newton_part["failures"].get<unsigned int>()));
-    if (scene->materials.have_cone())
+    if (scene->materials.have_flow_check())
       log.print(
         format("natural-map error <= %.1e, complementarity <= %.1e, cone "
                "violation <= %.1e",

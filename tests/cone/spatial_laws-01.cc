@@ -5,8 +5,8 @@
 // another point than the law says, or give Newton's method another matrix than their
 // derivative. Associated laws return to the point of their strength that is nearest in
 // elastic energy: (s* - s):S(t - s) <= 0 for the trial stress t and all admissible s*.
-// Drucker-Prager's law, associated or not, has the natural map of its cone. In plane
-// strain Drucker-Prager matched to it flows at the strength of the plane cone.
+// The natural map vanishes at the stress that is returned, associated or not, and at no
+// other. In plane strain Drucker-Prager matched to it flows at the strength of the plane cone.
 
 #include <geocone/materials/second_order_cone.h>
 
@@ -47,9 +47,11 @@ check(const std::string &type,
   const Law        law(type, parameters);
   const Elasticity elastic = law.law->elasticity();
   Random           random;
-  Largest          beyond, nearer, differences, natural;
-  unsigned int     counts[3] = {};
+  Largest          beyond, nearer, differences, natural, dual, complementary;
+  unsigned int     other_stresses = 0;
+  unsigned int     counts[3]      = {};
   std::vector<V>   admissible;
+  const std::vector<double> none(law.law->n_history(), 0.);
   for (unsigned int i = 0; i < 400; ++i)
     {
       V trial = random.vector<V>(6.);
@@ -57,17 +59,22 @@ check(const std::string &type,
         trial += V(12., 12., 0., 12.);
       const Law::Answer answer = law(trial);
       ++counts[static_cast<int>(answer.mode)];
-      beyond.add(*law.law->yield_function(answer.stress));
+      beyond.add(*law.law->yield_function(answer.stress, nullptr));
       admissible.push_back(answer.stress);
       if (answer.mode == Mode::elastic)
         beyond.add((answer.stress - trial).norm());
-      const V z = elastic.strain(V(answer.stress - trial));
-      if (const auto cone = law.law->spatial_cone())
-        {
-          const V x = spatial_axes() * answer.stress, y = spatial_axes() * z;
-          natural.add(
-            natural_map(*cone, x, V(cone->psi(y)), elastic.two_G).norm());
-        }
+      const V    z        = elastic.strain(V(answer.stress - trial));
+      const auto check_of = [&](const V &stress) {
+        return *law.law->check_flow(
+          {elastic.strain(trial), V::Zero(), stress, none.data()}, {});
+      };
+      const FlowCheck check = check_of(answer.stress);
+      natural.add(check.natural_map);
+      dual.add(check.dual);
+      complementary.add(check.complementary);
+      // Another admissible stress does not obey the law.
+      other_stresses += check_of(answer.stress / 2.).natural_map < 1e-3 &&
+                        answer.stress.norm() > 1.;
       if (associated)
         for (const V &other : admissible)
           nearer.add(-(other - answer.stress).dot(z));
@@ -98,8 +105,10 @@ check(const std::string &type,
   print_below("beyond the strength", beyond, "1e-12");
   if (associated)
     print_below("nearer admissible stresses", nearer, "1e-12");
-  if (law.law->spatial_cone())
-    print_below("natural map", natural, "1e-12");
+  print_below("natural map", natural, "1e-12");
+  print_below("flow beyond all normals", dual, "1e-12");
+  print_below("complementarity", complementary, "1e-12");
+  print("other stresses do not obey the law", other_stresses == 0);
   print_below("tangent against differences", differences, "1e-5");
 }
 

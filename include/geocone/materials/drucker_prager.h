@@ -51,34 +51,31 @@ namespace geocone
 
     /** In three dimensions it is a cone like any other. */
     std::optional<FlowCone>
-    flow_cone(const double * /*history*/) const override
+    flow_cone(const double *history) const override
     {
-      return dim == 3 ? std::optional(cone) : std::nullopt;
+      return dim == 3 ? std::optional(cone_with(grown_cohesion(history)))
+                      : std::nullopt;
     }
-
-    std::optional<FlowCone>
-    spatial_cone() const override
-    {
-      return cone;
-    }
-
-    std::optional<FlowCone>
-    spatial_step_cone(const SpatialMandel &stress_n,
-                      const double        *history_n,
-                      const StepLaw       &step) const override;
 
     double
     power_beyond_strength(const SpatialMandel &plastic_strain,
-                          const SpatialMandel &stress) const override;
+                          const SpatialMandel &stress,
+                          const double        *history) const override;
 
     std::optional<double>
-    yield_function(const SpatialMandel &stress) const override;
+    yield_function(const SpatialMandel &stress,
+                   const double        *history) const override;
 
   protected:
     using FrictionalSpatialLaw::FrictionalSpatialLaw;
 
     void
-    set_strength(const FrictionalStrength &strength) override;
+    set_strength(const double F) override;
+
+    FlowCheck
+    check_plastic_strain(const SpatialMandel &plastic_strain,
+                         const SpatialMandel &stress,
+                         const OwnStrength   &own) const override;
 
     /** s_n along the axis of the cone. */
     double
@@ -89,7 +86,7 @@ namespace geocone
 
     Mode
     return_to_strength(const SpatialMandel &trial,
-                       const Past          &past,
+                       const OwnStrength   &own,
                        SpatialMandel       &stress,
                        SpatialMandelMatrix *tangent) const override;
 
@@ -104,7 +101,17 @@ namespace geocone
                             {"outer", Match::outer},
                             {"inner", Match::inner}}};
 
+    /** The cone where the cohesion is larger by so much (Pa). */
+    FlowCone
+    cone_with(const double cohesion) const
+    {
+      FlowCone here = cone;
+      here.k += k_per_cohesion * cohesion;
+      return here;
+    }
+
     FlowCone cone;
+    double   k_per_cohesion = 0.; ///< of what the file gives (-)
   };
 
   /** von Mises' law sqrt(J_2) <= c: DruckerPrager with phi = theta = 0. */

@@ -45,7 +45,7 @@ namespace geocone
   protected:
     Mode
     return_to_strength(const SpatialMandel &trial,
-                       const Past          &past,
+                       const OwnStrength   &own,
                        SpatialMandel       &stress,
                        SpatialMandelMatrix *tangent) const override;
 

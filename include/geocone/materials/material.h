@@ -7,6 +7,7 @@
 #include <geocone/base/types.h>
 #include <geocone/materials/constitutive_law.h>
 #include <geocone/materials/elasticity.h>
+#include <geocone/materials/flow_check.h>
 #include <geocone/materials/second_order_cone.h>
 
 #include <deal.II/base/array_view.h>
@@ -222,35 +223,26 @@ namespace geocone
     virtual std::optional<FlowCone>
     exact_end_cone(const double *history_n, const double slip) const;
 
-    /** overstress() of laws that are spatial. */
+    /** How well the end of a step obeys the law, found independently of update(), by
+     *  flow_cone() if there is one; nothing for laws without a change of variable. */
+    virtual std::optional<FlowCheck>
+    check_flow(const PointStep &point, const StepLaw &step) const;
+
+    /** overstress() of laws that are spatial. @param history of the point */
     virtual std::optional<double>
-    yield_function(const SpatialMandel & /*stress*/) const
+    yield_function(const SpatialMandel & /*stress*/,
+                   const double * /*history*/) const
     {
       return std::nullopt;
-    }
-
-    /** The cone of laws that are spatial and have one, in the axes of spatial_axes(),
-     *  by which solutions are checked. */
-    virtual std::optional<FlowCone>
-    spatial_cone() const
-    {
-      return std::nullopt;
-    }
-
-    /** The same as a step solves for it, see step_cone(). */
-    virtual std::optional<FlowCone>
-    spatial_step_cone(const SpatialMandel & /*stress_n*/,
-                      const double * /*history_n*/,
-                      const StepLaw & /*step*/) const
-    {
-      return spatial_cone();
     }
 
     /** Of laws that are spatial: the work per volume (J/m^3) by which plastic strain at a
-     *  stress takes more than the strength without memory would, or less. */
+     *  stress takes more than the strength without memory would, or less.
+     *  @param history of the point */
     virtual double
     power_beyond_strength(const SpatialMandel & /*plastic_strain*/,
-                          const SpatialMandel & /*stress*/) const
+                          const SpatialMandel & /*stress*/,
+                          const double * /*history*/) const
     {
       return 0.;
     }

@@ -55,9 +55,9 @@ namespace geocone
     bool
     are_spatial() const;
 
-    /** Whether a law has a cone that steps solve for, which Quality tells of. */
+    /** Whether a law checks the flow of a step, which Quality tells of. */
     bool
-    have_cone() const;
+    have_flow_check() const;
 
     /** Whether there is undrained soil (ConstitutiveLaw::fluid_modulus()). */
     bool

@@ -4,9 +4,7 @@
 #ifndef geocone_materials_mohr_coulomb_h
 #define geocone_materials_mohr_coulomb_h
 
-#include <geocone/materials/frictional_strength.h>
-#include <geocone/materials/material.h>
-#include <geocone/materials/with_friction_memory.h>
+#include <geocone/materials/frictional.h>
 
 namespace geocone
 {
@@ -28,14 +26,13 @@ namespace geocone
    * a - lambda mu and the same flow, FlowCone::delayed(lambda, p_n). A state that
    * does not change has p = s_n, the exact strength; tau = 0 is the exact law. The
    * plastic work is never negative, since p >= -k/a for ever.
-   *
-   * The cohesion may grow with depth, c(y) = c + gradient (level - y); the growth of a
-   * point is then the last history variable of this class.
    */
-  class MohrCoulomb : public WithFrictionMemory<Material>
+  class MohrCoulomb : public Frictional<Material>
   {
   public:
-    explicit MohrCoulomb(const std::string &section);
+    explicit MohrCoulomb(const std::string &section)
+      : Frictional(section)
+    {}
 
     void
     prepare() override;
@@ -53,9 +50,6 @@ namespace geocone
       return {k_per_cohesion * given.gradient, given.level};
     }
 
-    void
-    take_place(const dealii::Point<dim> &place, double *history) const override;
-
     std::optional<FlowCone>
     step_cone(const Mandel  &stress_n,
               const double  *history_n,
@@ -63,20 +57,6 @@ namespace geocone
 
     void
     advance(const PointBlock &block, LawCounts &counts) const override;
-
-    unsigned int
-    n_history() const override
-    {
-      return WithFrictionMemory::n_history() + cohesion_grows();
-    }
-
-    std::vector<Shown>
-    shown() const override;
-
-    void
-    show(const Components &stress,
-         const double     *history,
-         double           *values) const override;
 
     void
     set_friction_memory(const double tau) override;
@@ -118,12 +98,6 @@ namespace geocone
     }
 
   protected:
-    bool
-    cohesion_grows() const
-    {
-      return given.gradient != 0.;
-    }
-
     /** Whether the slip of a step changes its cone, by end_cone(), otherwise than by a
      *  modulus. */
     virtual bool
@@ -158,22 +132,11 @@ namespace geocone
       return -(stress[0] + stress[1]) / sqrt2;
     }
 
-    /** For laws that fix phi = theta = 0 and do not declare the angles. */
-    struct WithoutFriction
-    {};
-    MohrCoulomb(const std::string &section, const WithoutFriction &);
+    using Frictional::Frictional;
 
   private:
-    FrictionalStrength given;
-    FlowCone           cone;
-    double             k_per_cohesion = 0.; ///< of what is left of it (-)
-
-    /** Place of what the cohesion has grown by (Pa), if it does. */
-    unsigned int
-    place_of_growth() const
-    {
-      return WithFrictionMemory::n_history();
-    }
+    FlowCone cone;
+    double   k_per_cohesion = 0.; ///< of what is left of it (-)
 
     /**
      * The one-point problem of a step, in cone axes.
@@ -198,7 +161,7 @@ namespace geocone
   {
   public:
     explicit Tresca(const std::string &section)
-      : MohrCoulomb(section, WithoutFriction())
+      : MohrCoulomb(section, "Undrained shear strength c (Pa), > 0.")
     {}
   };
 } // namespace geocone

@@ -4,9 +4,8 @@
 #ifndef geocone_materials_spatial_law_h
 #define geocone_materials_spatial_law_h
 
-#include <geocone/materials/frictional_strength.h>
+#include <geocone/materials/frictional.h>
 #include <geocone/materials/material.h>
-#include <geocone/materials/with_friction_memory.h>
 
 #include <string>
 
@@ -66,18 +65,20 @@ namespace geocone
     }
 
   protected:
-    /** What strength takes of the past: the part lambda of what it would be with the
-     *  stress p, and the other one with that of the end of the step. */
-    struct Past
+    /** What of its strength is a point's own: how much the cohesion has grown, and the
+     *  part lambda that is what it would be with the stress p; the other one is that
+     *  with the stress at the end of the step. */
+    struct OwnStrength
     {
-      double part   = 0.; ///< lambda
+      double cohesion = 0.; ///< more than that of the law (Pa)
+      double part     = 0.; ///< lambda
       double normal = 0.; ///< p (Pa), as FrictionalSpatialLaw::normal_stress()
     };
 
-    virtual Past
-    past_of(const SpatialMandel & /*stress_n*/,
-            const double * /*history_n*/,
-            const StepLaw & /*step*/) const
+    virtual OwnStrength
+    own_strength(const SpatialMandel & /*stress_n*/,
+                 const double * /*history_n*/,
+                 const StepLaw & /*step*/) const
     {
       return {};
     }
@@ -93,7 +94,7 @@ namespace geocone
      *  null */
     virtual Mode
     return_to_strength(const SpatialMandel &trial,
-                       const Past          &past,
+                       const OwnStrength   &own,
                        SpatialMandel       &stress,
                        SpatialMandelMatrix *tangent) const = 0;
 
@@ -108,7 +109,7 @@ namespace geocone
     {
       const Mode mode =
         return_to_strength(stress_n + elasticity().stress(strain),
-                           past_of(stress_n, history_n, step),
+                           own_strength(stress_n, history_n, step),
                            stress,
                            tangent);
       if (history != nullptr)
@@ -119,9 +120,9 @@ namespace geocone
 
   /**
    * A spatial law with cohesion, friction and dilatancy. Friction may remember the stress
-   * on which it depends (FrictionMemory): p is the last history variable then.
+   * on which it depends (FrictionMemory), and the cohesion may grow with depth.
    */
-  class FrictionalSpatialLaw : public WithFrictionMemory<SpatialReturnMap>
+  class FrictionalSpatialLaw : public Frictional<SpatialReturnMap>
   {
   public:
     void
@@ -130,45 +131,48 @@ namespace geocone
     void
     reduce_strength(const double F) override
     {
-      set_strength(given.reduced(F));
+      set_strength(F);
     }
 
     /** Jaky's 1 - sin(phi). */
     double
     earth_pressure_at_rest() const override;
 
+    std::optional<FlowCheck>
+    check_flow(const PointStep &point, const StepLaw &step) const override;
+
   protected:
     /** The stress (Pa), positive in compression, on which strength depends. */
     virtual double
     normal_stress(const SpatialMandel &stress) const = 0;
 
-    Past
-    past_of(const SpatialMandel &stress_n,
-            const double        *history_n,
-            const StepLaw       &step) const override;
+    /** check_flow() by a plastic strain increment. */
+    virtual FlowCheck
+    check_plastic_strain(const SpatialMandel &plastic_strain,
+                         const SpatialMandel &stress,
+                         const OwnStrength   &own) const = 0;
+
+    OwnStrength
+    own_strength(const SpatialMandel &stress_n,
+                 const double        *history_n,
+                 const StepLaw       &step) const override;
 
     void
     remember(const SpatialMandel &stress,
              const StepLaw       &step,
              double              *history) const override;
 
-    explicit FrictionalSpatialLaw(const std::string &section);
+    using Frictional::Frictional;
 
-    /** For laws without friction. @param cohesion documentation of their parameter */
-    FrictionalSpatialLaw(const std::string &section,
-                         const std::string &cohesion);
-
-    /** Takes what the file gives, or less. */
+    /** Takes what the file gives, reduced by the factor F. */
     virtual void
-    set_strength(const FrictionalStrength &strength) = 0;
+    set_strength(const double F) = 0;
 
     double
     remembered_stress(const Stress &stress) const override
     {
       return normal_stress(spatial_of(stress));
     }
-
-    FrictionalStrength given;
   };
 } // namespace geocone
 

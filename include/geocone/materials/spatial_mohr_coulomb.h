@@ -50,20 +50,36 @@ namespace geocone
     }
 
     std::optional<double>
-    yield_function(const SpatialMandel &stress) const override;
+    yield_function(const SpatialMandel &stress,
+                   const double        *history) const override;
 
     void
     set_friction_memory(const double tau) override;
 
     double
     power_beyond_strength(const SpatialMandel &plastic_strain,
-                          const SpatialMandel &stress) const override;
+                          const SpatialMandel &stress,
+                          const double        *history) const override;
 
   protected:
     using FrictionalSpatialLaw::FrictionalSpatialLaw;
 
     void
-    set_strength(const FrictionalStrength &strength) override;
+    set_strength(const double F) override;
+
+    /**
+     * The flow of the pyramid for theta is mapped to the normals of that for phi by
+     *   y_i = e_i (1 + sin(phi))/(1 + sin(theta))   where e_i > 0,
+     *   y_i = e_i (1 - sin(phi))/(1 - sin(theta))   where e_i < 0,
+     * of the principal values e_i of the plastic strain increment, in its own axes
+     * (doc/theory.md, section "All principal stresses"): De Saxce's change of variable
+     * for the pyramid. The projection onto it is its associated return map with the
+     * stiffness 1.
+     */
+    FlowCheck
+    check_plastic_strain(const SpatialMandel &plastic_strain,
+                         const SpatialMandel &stress,
+                         const OwnStrength   &own) const override;
 
     /** -(s_1 + s_3)/2, the normal stress in the plane of both. */
     double
@@ -71,7 +87,7 @@ namespace geocone
 
     Mode
     return_to_strength(const SpatialMandel &trial,
-                       const Past          &past,
+                       const OwnStrength   &own,
                        SpatialMandel       &stress,
                        SpatialMandelMatrix *tangent) const override;
 
@@ -91,6 +107,13 @@ namespace geocone
                          : std::numeric_limits<double>::infinity();
       }
 
+      /** The largest f_ij, of stresses in order (Pa). */
+      double
+      yield_function(const Principal &s) const
+      {
+        return s[0] - s[2] + (s[0] + s[2]) * sine - size;
+      }
+
       /**
        * Whether a stress is within the largest round cone in the pyramid, which needs
        * no principal stresses: f_13 <= 2 sqrt(J_2 (1 + sine^2/3)) + 2 p sine - size
@@ -106,20 +129,32 @@ namespace geocone
       }
     };
 
-    /** With delayed friction: a part of the normal stress, on which strength depends,
-     *  is that of the past, as in FlowCone::delayed(). */
+    /** The pyramid where the cohesion is larger by so much (Pa). */
     Pyramid
-    delayed(const Past &past) const;
+    pyramid_with(const double cohesion) const
+    {
+      return {exact.sine, exact.size + size_per_cohesion * cohesion};
+    }
 
-    /** Of stresses in order. @param[out] tangent ds/de of principal values */
-    Mode
-    return_principal(const Pyramid   &strength,
-                     const Principal &trial,
-                     Principal       &stress,
-                     PrincipalMatrix &tangent) const;
+    /** That with delayed friction: a part of the normal stress, on which strength
+     *  depends, is that of the past, as in FlowCone::delayed(). */
+    Pyramid
+    delayed(const OwnStrength &own) const;
 
-    Pyramid exact     = {0., 0.}; ///< with sin(phi)
-    double  sin_theta = 0.;
+    /** The one-point problem of stresses in order.
+     *  @param flow the sine of its dilatancy angle
+     *  @param[out] tangent ds/de of principal values */
+    static Mode
+    return_principal(const Elasticity &elastic,
+                     const Pyramid    &strength,
+                     const double      flow,
+                     const Principal  &trial,
+                     Principal        &stress,
+                     PrincipalMatrix  &tangent);
+
+    Pyramid exact             = {0., 0.}; ///< with sin(phi)
+    double  sin_theta         = 0.;
+    double  size_per_cohesion = 0.; ///< of what the file gives (-)
   };
 
   /** Tresca's law of all principal stresses, s_1 - s_3 <= 2c. */

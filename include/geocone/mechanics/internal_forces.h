@@ -247,12 +247,6 @@ namespace geocone
                        const WeightedHoopStress &weighted_hoop_stress,
                        double                   *cell_f) const;
 
-    /** Calls f(z, s, the cone that was solved for, the exact one, 2G) for each point of
-     *  a law with a cone, in its axes; both cones at the end of the step. */
-    template <typename Function>
-    void
-    for_each_cone(const Function &f) const;
-
     /** Adds the part of low rank that the pressure of a cell leaves to K. */
     template <int n>
     void

@@ -1,0 +1,122 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_materials_frictional_h
+#define geocone_materials_frictional_h
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/materials/frictional_strength.h>
+#include <geocone/materials/material.h>
+#include <geocone/materials/with_friction_memory.h>
+
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * A law with cohesion, friction and dilatancy, and what of its strength is a point's
+   * own: the normal stress that friction remembers (WithFrictionMemory), and, where the
+   * cohesion grows with depth, c(y) = c + gradient (level - y), what it has grown by at
+   * the place where the point began (Pa), the history variable that follows.
+   * @tparam Base Material, or a class derived from it
+   */
+  template <typename Base>
+  class Frictional : public WithFrictionMemory<Base>
+  {
+    using Remembering = WithFrictionMemory<Base>;
+
+  public:
+    using typename Remembering::Components;
+    using typename Remembering::Shown;
+
+    unsigned int
+    n_history() const override
+    {
+      return Remembering::n_history() + cohesion_grows();
+    }
+
+    void
+    take_place(const dealii::Point<dim> &place, double *history) const override
+    {
+      if (!cohesion_grows())
+        return;
+      const double more = given.growth(place[1]), here = given.c + more;
+      if (!(here > 0. || (here == 0. && given.phi > 0.)))
+        throw InputError(
+          this->parameter("Cohesion gradient"),
+          given.gradient,
+          format("a cohesion > 0 Pa everywhere; here it is %g Pa", here),
+          "give 'Cohesion' at the top of the soil, and its y as "
+          "'Cohesion level'");
+      history[place_of_growth()] = more;
+    }
+
+    std::vector<Shown>
+    shown() const override
+    {
+      std::vector<Shown> all = Remembering::shown();
+      if (cohesion_grows())
+        all.push_back({"cohesion", "cohesion (Pa)"});
+      return all;
+    }
+
+    void
+    show(const Components &stress,
+         const double     *history,
+         double           *values) const override
+    {
+      Remembering::show(stress, history, values);
+      if (cohesion_grows())
+        values[Remembering::shown().size()] =
+          given.c + history[place_of_growth()];
+    }
+
+  protected:
+    explicit Frictional(const std::string &section)
+      : Remembering(section)
+    {
+      given.declare(*this);
+      given.declare_growth(*this);
+      this->memory.declare(*this);
+    }
+
+    /** For laws that fix phi = theta = 0 and do not declare the angles.
+     *  @param cohesion documentation of their parameter */
+    Frictional(const std::string &section, const std::string &cohesion)
+      : Remembering(section)
+      , given(FrictionalStrength::without_friction())
+    {
+      this->memory = FrictionMemory("0");
+      given.declare_cohesion(*this, cohesion);
+      given.declare_growth(*this);
+    }
+
+    bool
+    cohesion_grows() const
+    {
+      return given.gradient != 0.;
+    }
+
+    /** By how much the cohesion of a point is more than c (Pa).
+     *  @param history of the point; null: where it is c */
+    double
+    grown_cohesion(const double *history) const
+    {
+      return cohesion_grows() && history != nullptr ? history[place_of_growth()]
+                                                    : 0.;
+    }
+
+    FrictionalStrength given;
+
+  private:
+    unsigned int
+    place_of_growth() const
+    {
+      return Remembering::n_history();
+    }
+  };
+} // namespace geocone
+
+#endif
