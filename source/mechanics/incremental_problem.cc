@@ -81,8 +81,8 @@ namespace geocone
                                const LocalLaw &law)
   {
     // One reduction for all sums: modes, |R|^2, and the sizes of its parts.
-    std::vector<double>    sums(4, 0.);
-    constexpr unsigned int square = 3, first_size = 4;
+    std::vector<double>    sums(6, 0.);
+    constexpr unsigned int square = 3, of_contact = 4, first_size = 6;
     dst = 0.;
     for (Term *term : terms)
       {
@@ -94,6 +94,11 @@ namespace geocone
       {
         contact_term->replace(dst, v, scale(), law.obstacles_rub);
         sums.push_back(contact_term->size());
+        for (const Contact::Touch &touch : contact_term->touches())
+          {
+            sums[of_contact] += touch.error * touch.error;
+            sums[of_contact + 1] += touch.size;
+          }
       }
     internal.count_modes(sums.data());
     for (unsigned int i = 0; i < dst.locally_owned_size(); ++i)
@@ -110,11 +115,13 @@ namespace geocone
     ResidualReport report;
     report.force_norm =
       std::sqrt(*std::max_element(sums.begin() + first_size, sums.end()));
-    report.norm        = std::sqrt(sums[square]);
-    report.n_cone      = sums[0];
-    report.n_apex      = sums[1];
-    report.n_switched  = sums[2];
-    report.local_error = internal.local_error();
+    report.norm         = std::sqrt(sums[square]);
+    report.contact_norm = std::sqrt(sums[of_contact]);
+    report.contact_size = sums[of_contact + 1];
+    report.n_cone       = sums[0];
+    report.n_apex       = sums[1];
+    report.n_switched   = sums[2];
+    report.local_error  = internal.local_error();
     return report;
   }
 

@@ -256,6 +256,59 @@ namespace geocone
     return near;
   }
 
+  Obstacle::Nearest
+  ObstacleContact::nearest(const unsigned int    o,
+                           const unsigned int    node,
+                           const Tensor<1, dim> &approach,
+                           const Neighbours     &others) const
+  {
+    const Obstacle  &obstacle = *scene.obstacles.list[o];
+    const Point<dim> x        = place(node);
+    return obstacle.slides_little()
+             ? obstacle.nearest_to_start(space.node_positions()[node],
+                                         x,
+                                         displacement[o],
+                                         approach,
+                                         &others)
+             : obstacle.nearest(x, displacement[o], approach, &others);
+  }
+
+  void
+  ObstacleContact::check_held(const Contact &contact,
+                              const Vector  &v,
+                              const double   h) const
+  {
+    const auto &list   = scene.obstacles.list;
+    const auto  others = scene.obstacles.neighbours(displacement, margin());
+    std::string refusal;
+    for (const unsigned int node : candidates)
+      {
+        bool has_support = false;
+        for (unsigned int d = 0; d < dim; ++d)
+          has_support = has_support || !supports->is_free(dim * node + d);
+        for (unsigned int o = 0; has_support && o < list.size(); ++o)
+          {
+            Tensor<1, dim> u =
+              contact.motions().velocities()[o].at(place(node) - centre(o));
+            if (node < space.n_owned_nodes())
+              u -= value_at(v, node);
+            const Obstacle::Nearest at = nearest(o, node, h * u, others[o]);
+            if (at.distance < -closed_gap * size && is_held(node, at.normal))
+              refusal =
+                format("the obstacle '%s' enters the node at (%s), "
+                       "which a boundary condition holds, by %.3g m"
+                       "\n  remedy:  end the condition before it ('Box'), "
+                       "or move the obstacle less",
+                       list[o]->name.c_str(),
+                       text_of_place(place(node)).c_str(),
+                       -at.distance);
+          }
+      }
+    refusal = text_of_any_rank(comm, refusal);
+    if (!refusal.empty())
+      throw StepFailure(refusal);
+  }
+
   void
   ObstacleContact::add_nodes(const Vector              &velocity_n,
                              const double               h,
@@ -276,23 +329,7 @@ namespace geocone
             const Tensor<1, dim>    arm = x - centre(o);
             const Tensor<1, dim>    V = step.bodies[o].without_contact.at(arm);
             const Obstacle::Nearest at =
-              list[o]->slides_little()
-                ? list[o]->nearest_to_start(space.node_positions()[node],
-                                            x,
-                                            displacement[o],
-                                            h * (V - v),
-                                            &others[o])
-                : list[o]->nearest(x, displacement[o], V - v, &others[o]);
-            if (mesh_is_body && at.distance < -closed_gap * size &&
-                is_held(node, at.normal))
-              refusal =
-                format("the obstacle '%s' enters the node at (%s), "
-                       "which a boundary condition holds, by %.3g m"
-                       "\n  remedy:  end the condition before it ('Box'), "
-                       "or move the obstacle less",
-                       list[o]->name.c_str(),
-                       text_of_place(x).c_str(),
-                       -at.distance);
+              nearest(o, node, h * (V - v), others[o]);
             // Of a background mesh only what is in or on the obstacle: the others
             // are of the body, and may come as near as they like.
             if (!mesh_is_body && at.distance > closed_gap * size)
@@ -350,20 +387,28 @@ namespace geocone
       {
         const std::string where =
           "the node at (" + text_of_place(place(taken[0]->contact.node)) + ") ";
+        const auto name_of = [&](const Near *at) {
+          const auto        &obstacles = scene.obstacles.list;
+          const unsigned int i         = at->contact.obstacle;
+          return i < obstacles.size()
+                   ? obstacles[i]->name
+                   : scene.contacts.list[i - obstacles.size()]->name;
+        };
+        const std::string both =
+          "'" + name_of(taken[0]) + "' and '" + name_of(taken[1]) + "'";
         bool is_free = false;
         for (const Near *at : taken)
           is_free = is_free || (!at->contact.touches_body() &&
                                 step.bodies[at->contact.obstacle].n_free() > 0);
         if (taken.size() > 2)
-          refusal = where + "touches three things at once" + of_corner;
+          refusal = where + "touches " + both + " and '" + name_of(taken[2]) +
+                    "' at once" + of_corner;
         else if (taken[0]->contact.normal * taken[1]->contact.normal <
                  -parallel)
-          refusal = where + "is squeezed between two things" + of_corner;
+          refusal = where + "is squeezed between " + both + of_corner;
         else if (is_free)
-          refusal = where +
-                    "touches a free obstacle and something else at "
-                    "once" +
-                    of_corner;
+          refusal = where + "touches " + both +
+                    " at once, of which one is a free obstacle" + of_corner;
       }
     for (const Near *at : taken)
       step.nodes.push_back(at->contact);
@@ -602,6 +647,7 @@ namespace geocone
         path.zero_out_ghost_values();
         path.add(h, v);
         path.update_ghost_values();
+        check_held(contact, v, h);
       }
   }
 } // namespace geocone

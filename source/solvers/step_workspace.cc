@@ -58,14 +58,20 @@ namespace geocone
                              const double          tolerance,
                              const double          absolute) const
   {
+    const auto within = [&](const double floor) {
+      return state.norm <=
+               std::max({tolerance * state.force_norm, absolute, floor}) &&
+             state.contact_norm <=
+               std::max({tolerance * state.contact_size, absolute, floor});
+    };
     report.at_rounding_floor = false;
-    if (state.norm <= std::max(tolerance * state.force_norm, absolute))
+    if (within(0.))
       return true;
     // The pass over the points is worth its time near a solution only.
     if (!(state.norm <= largest_floor * state.force_norm))
       return false;
     report.at_rounding_floor =
-      state.norm <= floor_factor * problem.internal_forces().rounding_floor(v);
+      within(floor_factor * problem.internal_forces().rounding_floor(v));
     return report.at_rounding_floor;
   }
 

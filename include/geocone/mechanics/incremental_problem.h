@@ -29,6 +29,10 @@ namespace geocone
     unsigned int n_switched = 0;  ///< points whose mode differs from last time
 
     double local_error = 0.; ///< see InternalForces::local_error()
+
+    /** Of the nodes that may touch: the norm of F (N/m), and the sum of what it is made of,
+     *  Contact::Touch::size. Forces of contact may be small beside those of soil. */
+    double contact_norm = 0., contact_size = 0.;
   };
 
   /**

@@ -146,7 +146,8 @@ namespace geocone
 
     /** Takes the velocities of the obstacles, and moves them and, where the mesh is
      *  the body, its nodes.
-     *  @param moves whether places change, and not velocities only */
+     *  @param moves whether places change, and not velocities only
+     *  @throws StepFailure if an obstacle enters what is held. Collective. */
     void
     commit(const Contact &contact,
            const Vector  &v,
@@ -226,6 +227,20 @@ namespace geocone
     reach(const double h, const double u_n) const;
 
     using NearBodies = std::map<unsigned int, Near>; ///< by node
+
+    /** The part of an obstacle's boundary that is nearest to a node.
+     *  @param approach of the obstacle against the node (m) */
+    Obstacle::Nearest
+    nearest(const unsigned int            obstacle,
+            const unsigned int            node,
+            const dealii::Tensor<1, dim> &approach,
+            const Neighbours             &others) const;
+
+    /** Of a mesh that is the body, after a step. No force would tell it.
+     *  @throws StepFailure if an obstacle has entered a node that boundary conditions
+     *  hold against it. Collective. */
+    void
+    check_held(const Contact &contact, const Vector &v, const double h) const;
 
     /** The nodes that may touch obstacles, or other bodies. Collective. */
     void

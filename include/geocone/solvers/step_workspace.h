@@ -39,8 +39,9 @@ namespace geocone
 
     /**
      * Whether |R_free| <= max(tolerance x force norm, absolute, c N), with N the
-     * estimate InternalForces::rounding_floor() of what rounding leaves. The
-     * last counts only where it is small itself, and is told in the report.
+     * estimate InternalForces::rounding_floor() of what rounding leaves, and the same of
+     * what touches by its own forces. N counts only where it is small itself, and is told
+     * in the report.
      */
     bool
     is_balanced(const ResidualReport &state,
