@@ -5,7 +5,6 @@
 #include <geocone/base/log.h>
 #include <geocone/base/over_ranks.h>
 #include <geocone/mechanics/moving_conditions.h>
-#include <geocone/scene/edge_normal.h>
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/mpi.h>
@@ -72,23 +71,6 @@ namespace geocone
           return false;
       return true;
     }
-
-    /** The longest part of a line in one cell (m). */
-    double
-    cell_size_along(const BackgroundMesh &mesh,
-                    const Space          &space,
-                    const Point<dim>     &a,
-                    const Point<dim>     &b)
-    {
-      double longest = 0.;
-      // The middle one of the five Gauss points of a cell has this weight.
-      const double middle = 128. / 450.;
-      const auto   points = points_on_line(mesh, space, a, b);
-      for (std::size_t i = 2; i < points.size(); i += 5)
-        longest = std::max(longest, points[i].weight / middle * a.distance(b));
-      return Utilities::MPI::max(longest,
-                                 mesh.triangulation().get_communicator());
-    }
   } // namespace
 
   MovingConditions::MovingConditions(const Scene          &scene,
@@ -110,25 +92,15 @@ namespace geocone
           supports.push_back({c, panels});
         }
     const auto &tractions = scene.tractions.list;
-    if (dim == 3 && !tractions.empty())
-      {
-        double longest = 1e300;
-        for (const auto &cell : mesh.own_cells())
-          longest = std::min(longest, BackgroundMesh::size_of(cell));
-        longest =
-          Utilities::MPI::min(longest, mesh.triangulation().get_communicator());
-        for (unsigned int c = 0; c < tractions.size(); ++c)
-          surfaces.push_back(
-            {c, MovingSurface(*tractions[c], scene.geometry, longest)});
-        return;
-      }
     for (unsigned int c = 0; c < tractions.size(); ++c)
       {
+        const std::vector<Panel> panels =
+          panels_of_body(*tractions[c], scene.geometry);
         double size = 0.;
-        for (const auto &line : lines_of_body(*tractions[c], scene.geometry))
-          size = std::max(size, cell_size_along(mesh, space, line.a, line.b));
-        loads.push_back(
-          {c, MovingBoundary(*tractions[c], scene.geometry, size)});
+        for (const Panel &panel : panels)
+          for (unsigned int k = 0; k + 1 < dim; ++k)
+            size = std::max(size, cell_size_along(mesh, panel, k));
+        loads.push_back({c, MovingSurface(panels, size)});
       }
   }
 
@@ -138,27 +110,20 @@ namespace geocone
   {
     if (condition.shortening == 0.)
       return;
-    if (dim == 3)
-      throw InputError(condition.parameter("Segment shortening"),
-                       condition.shortening,
-                       "0 in three dimensions",
-                       "leave it out: it is a calibration of strips");
     for (Panel &panel : panels)
-      {
-        Tensor<1, dim> &along = panel.edges[0];
-        const double    part =
-          condition.shortening / 2. *
-          cell_size_along(
-            mesh, space, panel.corner, Point<dim>(panel.corner + along)) /
-          along.norm();
-        if (2. * part >= 1.)
-          throw InputError(condition.parameter("Segment shortening"),
-                           condition.shortening,
-                           "less than the side has cells",
-                           "take smaller cells or a smaller number");
-        panel.corner += part * along;
-        along *= 1. - 2. * part;
-      }
+      for (unsigned int k = 0; k + 1 < dim; ++k)
+        {
+          Tensor<1, dim> &along = panel.edges[k];
+          const double    part  = condition.shortening / 2. *
+                              cell_size_along(mesh, panel, k) / along.norm();
+          if (2. * part >= 1.)
+            throw InputError(condition.parameter("Segment shortening"),
+                             condition.shortening,
+                             "less than the side has cells",
+                             "take smaller cells or a smaller number");
+          panel.corner += part * along;
+          along *= 1. - 2. * part;
+        }
   }
 
   std::vector<double>
@@ -212,67 +177,41 @@ namespace geocone
   }
 
   void
-  MovingConditions::add_tractions_of_surfaces(Vector      &force,
-                                              const double t,
-                                              const Stage *stage,
-                                              const bool   raised) const
-  {
-    for (const auto &[condition, surface] : surfaces)
-      {
-        const BoundaryCondition &load = *scene.tractions.list[condition];
-        const bool               acts =
-          stage == nullptr || stage->raises(load.name) == raised;
-        const std::vector<double> parts =
-          surface.for_each_point(mesh,
-                                 space,
-                                 [&](const MovingSurface::Triangle &triangle,
-                                     const BoundaryPoint           &point) {
-                                   if (acts)
-                                     add_traction(load,
-                                                  triangle.area,
-                                                  surface.area_of(triangle),
-                                                  point,
-                                                  t,
-                                                  force);
-                                 });
-        check_in_mesh(load, surface.middles(), parts);
-      }
-  }
-
-  void
   MovingConditions::add_tractions(Vector      &force,
                                   const double t,
                                   const Stage *stage,
                                   const bool   raised) const
   {
-    add_tractions_of_surfaces(force, t, stage, raised);
-    for (const LoadedSide &side : loads)
+    for (const auto &[condition, surface] : loads)
       {
-        const BoundaryCondition &load = *scene.tractions.list[side.condition];
+        const BoundaryCondition &load = *scene.tractions.list[condition];
         const bool               acts =
           stage == nullptr || stage->raises(load.name) == raised;
-        std::vector<double>     part_in_mesh;
+        const std::vector<Facet>  facets = surface.facets();
+        const std::vector<double> parts =
+          for_each_point(mesh,
+                         space,
+                         facets,
+                         [&, &surface = surface](const std::size_t    number,
+                                                 const BoundaryPoint &point) {
+                           if (acts)
+                             add_traction(load,
+                                          surface.size_at_start(number),
+                                          area_of(facets[number]),
+                                          point,
+                                          t,
+                                          force);
+                         });
         std::vector<Point<dim>> middles;
-        for (const MovingBoundary::Line &line : side.boundary.lines)
+        for (const Facet &facet : facets)
           {
-            part_in_mesh.push_back(0.);
-            middles.push_back(line.a + (line.b - line.a) / 2.);
-            for (const BoundaryPoint &point :
-                 points_on_line(mesh, space, line.a, line.b))
-              {
-                part_in_mesh.back() += point.weight;
-                if (acts)
-                  add_traction(load,
-                               line.length,
-                               edge_normal(line.a, line.b),
-                               point,
-                               t,
-                               force);
-              }
+            Point<dim> &middle = middles.emplace_back();
+            for (const Point<dim> &corner : facet)
+              middle += corner / dim;
           }
-        check_in_mesh(load, middles, part_in_mesh);
+        check_in_mesh(load, middles, parts);
       }
-    if (!loads.empty() || !surfaces.empty())
+    if (!loads.empty())
       force.compress(VectorOperation::add);
   }
 
@@ -460,15 +399,13 @@ namespace geocone
           }
       }
     for (LoadedSide &side : loads)
-      advect(side.boundary, v, h);
-    for (LoadedSurface &load : surfaces)
-      load.surface.move(mesh, space, v, h);
+      side.surface.move(mesh, space, v, h);
   }
 
   std::vector<bool>
   MovingConditions::loaded_nodes() const
   {
-    if (supports.empty() && loads.empty() && surfaces.empty())
+    if (supports.empty() && loads.empty())
       return {};
     Vector     mark(space.partitioner());
     const auto mark_nodes = [&](const BoundaryPoint &point) {
@@ -481,17 +418,12 @@ namespace geocone
         for (const BoundaryPoint &point : points_on_panel(mesh, space, panel))
           mark_nodes(point);
     for (const LoadedSide &side : loads)
-      for (const MovingBoundary::Line &line : side.boundary.lines)
-        for (const BoundaryPoint &point :
-             points_on_line(mesh, space, line.a, line.b))
-          mark_nodes(point);
-    for (const LoadedSurface &load : surfaces)
-      load.surface.for_each_point(
-        mesh,
-        space,
-        [&](const MovingSurface::Triangle &, const BoundaryPoint &point) {
-          mark_nodes(point);
-        });
+      for_each_point(mesh,
+                     space,
+                     side.surface.facets(),
+                     [&](const std::size_t, const BoundaryPoint &point) {
+                       mark_nodes(point);
+                     });
     mark.compress(VectorOperation::add);
     mark.update_ghost_values();
     std::vector<bool> is_loaded(space.n_local_nodes());
@@ -573,10 +505,7 @@ namespace geocone
           panel.span(ends);
         }
     for (LoadedSide &side : loads)
-      for (MovingBoundary::Line &line : side.boundary.lines)
-        row(line.a, line.b);
-    for (LoadedSurface &load : surfaces)
-      load.surface.state(row);
+      side.surface.state(row);
   }
 
   std::pair<Point<dim>, Point<dim>>
@@ -589,49 +518,5 @@ namespace geocone
           for (const Point<dim> &x : panel.corners())
             corners.push_back(x);
     return BoundingBox<dim>(corners).get_boundary_points();
-  }
-
-  void
-  MovingConditions::advect(MovingBoundary &boundary,
-                           const Vector   &v,
-                           const double    h) const
-  {
-    // Velocity at the ends of all lines, and how many ranks know it.
-    const unsigned int  n_lines = boundary.lines.size();
-    std::vector<double> sums(6 * n_lines, 0.);
-    for (unsigned int l = 0; l < n_lines; ++l)
-      {
-        const MovingBoundary::Line &line  = boundary.lines[l];
-        const Tensor<1, dim>        along = line.b - line.a;
-        // Short lines at the ends, from there into the line.
-        const Point<dim> ends[2][2] = {{line.a, line.a + 1e-6 * along},
-                                       {line.b - 1e-6 * along, line.b}};
-        for (unsigned int e = 0; e < 2; ++e)
-          for (const BoundaryPoint &point :
-               points_on_line(mesh, space, ends[e][0], ends[e][1]))
-            {
-              double *s = &sums[6 * l + 3 * e];
-              s[2] += point.weight;
-              for (unsigned int i = 0; i < point.nodes.size(); ++i)
-                for (unsigned int d = 0; d < dim; ++d)
-                  s[d] +=
-                    point.weight * point.values[i] *
-                    v.local_element(dim * space.local_node(point.nodes[i]) + d);
-            }
-      }
-    sum_over_ranks(sums, v.get_mpi_communicator());
-    for (unsigned int l = 0; l < n_lines; ++l)
-      for (unsigned int e = 0; e < 2; ++e)
-        if (const double *s = &sums[6 * l + 3 * e]; s[2] > 0.)
-          for (unsigned int d = 0; d < dim; ++d)
-            (e == 0 ? boundary.lines[l].a : boundary.lines[l].b)[d] +=
-              h * s[d] / s[2];
-    // There are no functions beyond the border of a grid: what rests on it stays.
-    if (!mesh.grid()[0].empty())
-      for (MovingBoundary::Line &line : boundary.lines)
-        for (Point<dim> *x : {&line.a, &line.b})
-          for (unsigned int d = 0; d < dim; ++d)
-            (*x)[d] = std::clamp(
-              (*x)[d], mesh.grid()[d].front(), mesh.grid()[d].back());
   }
 } // namespace geocone

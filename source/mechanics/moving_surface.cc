@@ -11,77 +11,55 @@ namespace geocone
 {
   using namespace dealii;
 
-  MovingSurface::MovingSurface(const BoundaryCondition &condition,
-                               const Geometry          &geometry,
-                               const double             longest)
+  MovingSurface::MovingSurface(const std::vector<Panel> &panels,
+                               const double              longest)
   {
-    for (const Panel &panel : panels_of_body(condition, geometry))
+    for (const Panel &panel : panels)
       {
-        std::array<unsigned int, dim - 1> n;
+        std::array<unsigned int, 2> n = {
+          {1, 0}}; // of parts; a line has one row
         for (unsigned int k = 0; k + 1 < dim; ++k)
           n[k] = std::max(static_cast<unsigned int>(
                             std::ceil(panel.edges[k].norm() / longest - 1e-9)),
                           1U);
-        const unsigned int n_a = n[0], n_b = n[dim - 2], first = places.size();
-        const double       area = panel.area().norm() / (2. * n_a * n_b);
-        for (unsigned int j = 0; j <= n_b; ++j)
-          for (unsigned int i = 0; i <= n_a; ++i)
+        const unsigned int first = places.size(), row = n[0] + 1;
+        for (unsigned int j = 0; j <= n[1]; ++j)
+          for (unsigned int i = 0; i <= n[0]; ++i)
             {
               Point<dim - 1> s;
-              s[0]       = double(i) / n_a;
-              s[dim - 2] = double(j) / n_b;
+              s[0] = double(i) / n[0];
+              if (dim == 3)
+                s[dim - 2] = double(j) / n[1];
               places.push_back(panel.at(s));
             }
-        for (unsigned int j = 0; j < n_b; ++j)
-          for (unsigned int i = 0; i < n_a; ++i)
+        const double area = panel.area().norm();
+        const auto   add  = [&](const std::array<unsigned int, 3> &corners) {
+          Part &part = parts.emplace_back();
+          std::copy_n(corners.begin(), dim, part.corners.begin());
+          part.size = dim == 2 ? area / n[0] : area / (2. * n[0] * n[1]);
+        };
+        for (unsigned int j = 0; j < (dim == 2 ? 1 : n[1]); ++j)
+          for (unsigned int i = 0; i < n[0]; ++i)
             {
-              const unsigned int p = first + j * (n_a + 1) + i, q = p + n_a + 1;
-              triangles.push_back({{{p, p + 1, q + 1}}, area});
-              triangles.push_back({{{p, q + 1, q}}, area});
+              const unsigned int p = first + j * row + i, q = p + row;
+              add({{p, p + 1, q + 1}});
+              if (dim == 3)
+                add({{p, q + 1, q}});
             }
       }
   }
 
-  Tensor<1, dim>
-  MovingSurface::area_of(const Triangle &triangle) const
+  std::vector<Facet>
+  MovingSurface::facets() const
   {
-    const Point<dim> &a = places[triangle.corners[0]];
-    return cross_product_3d(places[triangle.corners[1]] - a,
-                            places[triangle.corners[2]] - a) /
-           2.;
-  }
-
-  std::vector<Point<dim>>
-  MovingSurface::middles() const
-  {
-    std::vector<Point<dim>> all;
-    for (const Triangle &triangle : triangles)
+    std::vector<Facet> all;
+    for (const Part &part : parts)
       {
-        Point<dim> middle;
-        for (const unsigned int corner : triangle.corners)
-          middle += places[corner] / 3.;
-        all.push_back(middle);
+        Facet &facet = all.emplace_back();
+        for (unsigned int k = 0; k < dim; ++k)
+          facet[k] = places[part.corners[k]];
       }
     return all;
-  }
-
-  std::vector<double>
-  MovingSurface::for_each_point(
-    const BackgroundMesh                                               &mesh,
-    const Space                                                        &space,
-    const std::function<void(const Triangle &, const BoundaryPoint &)> &f) const
-  {
-    std::vector<SpaceTriangle> now;
-    for (const Triangle &triangle : triangles)
-      {
-        SpaceTriangle &corners = now.emplace_back();
-        for (unsigned int k = 0; k < 3; ++k)
-          corners[k] = places[triangle.corners[k]];
-      }
-    return for_each_point_of_triangles(
-      mesh, space, now, [&](const std::size_t t, const BoundaryPoint &point) {
-        f(triangles[t], point);
-      });
   }
 
   void
@@ -90,15 +68,22 @@ namespace geocone
                       const Vector         &v,
                       const double          h)
   {
-    // A place in the body by each corner, towards the middles of its triangles.
-    std::vector<Tensor<1, dim>>   inward(places.size());
-    const std::vector<Point<dim>> middle = middles();
-    for (std::size_t t = 0; t < triangles.size(); ++t)
+    // A place in the body by each corner, towards the middles of its facets.
+    std::vector<Tensor<1, dim>> inward(places.size());
+    for (const Part &part : parts)
       {
-        const Tensor<1, dim> area = area_of(triangles[t]);
-        for (const unsigned int corner : triangles[t].corners)
-          inward[corner] += 1e-6 * (middle[t] - places[corner]) -
-                            1e-9 / std::sqrt(area.norm()) * area;
+        Facet      facet;
+        Point<dim> middle;
+        for (unsigned int k = 0; k < dim; ++k)
+          {
+            facet[k] = places[part.corners[k]];
+            middle += facet[k] / dim;
+          }
+        const Tensor<1, dim> area = area_of(facet);
+        const double size = std::pow(area.norm(), 1. / (dim - 1)); // its length
+        for (const unsigned int corner : part.corners)
+          inward[corner] +=
+            1e-6 * (middle - places[corner]) - 1e-9 * size / area.norm() * area;
       }
     // The velocity there, and how many cells of all ranks know it.
     constexpr unsigned int               n_sums = dim + 1;

@@ -1,14 +1,11 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/base/clipped.h>
 #include <geocone/base/exceptions.h>
 #include <geocone/mechanics/panel.h>
 #include <geocone/scene/edge_normal.h>
 
-#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/geometry_info.h>
-#include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,31 +16,64 @@ namespace geocone
 
   namespace
   {
-    using Outline = std::vector<Point<dim>>;
-
-    double
-    area_of_triangle(const Point<dim> &a,
-                     const Point<dim> &b,
-                     const Point<dim> &c)
+    /** @throws InputError where a condition's box holds no part of its sides */
+    void
+    refuse_no_part(const BoundaryCondition &condition,
+                   const std::size_t        n_parts)
     {
-      return cross_product_3d(b - a, c - a).norm() / 2.;
+      if (n_parts == 0)
+        throw InputError(condition.parameter("Box"),
+                         condition.part(),
+                         "a box that holds a part of the sides of the body",
+                         "check the sides and the box");
     }
 
-    /** The planes of a cell: a place on each, and the way into the cell. */
-    std::vector<std::pair<Point<dim>, Tensor<1, dim>>>
-    planes_of(const BackgroundMesh::Cell &cell)
+    /** Of a body in the plane, lines. */
+    std::vector<Panel>
+    panels_of_outline(const BoundaryCondition &condition,
+                      const Geometry          &geometry)
     {
-      std::vector<std::pair<Point<dim>, Tensor<1, dim>>> planes;
-      const Point<dim> middle = cell->center();
-      for (const unsigned int f : cell->face_indices())
+      if (geometry.outline.empty())
+        throw InputError(
+          condition.parameter("Sides"),
+          Patterns::Tools::to_string(condition.sides),
+          "sides of a body that is a box or a polygon",
+          "describe the body as one of them; velocities may also be "
+          "imposed on nodes of the background mesh");
+      // Outlines may run either way.
+      double area = 0.;
+      for (std::size_t i = 0; i < geometry.outline.size(); ++i)
         {
-          const auto           face = cell->face(f);
-          const Point<dim>     on   = face->vertex(0);
-          const Tensor<1, dim> into =
-            cross_product_3d(face->vertex(1) - on, face->vertex(2) - on);
-          planes.push_back({on, (middle - on) * into < 0. ? -into : into});
+          const Point<dim> &v = geometry.outline[i],
+                           &w = geometry
+                                  .outline[(i + 1) % geometry.outline.size()];
+          area += v[0] * w[1] - w[0] * v[1];
         }
-      return planes;
+      condition.check_sides(geometry.sides, "sides of the body");
+      std::vector<Panel> panels;
+      for (const auto &[name, id] : geometry.sides)
+        if (condition.is_on_side(name))
+          {
+            auto [a, b] = geometry.side_ends(id);
+            if (area < 0.)
+              std::swap(a, b);
+            std::vector<std::pair<double, double>> in_box;
+            if (const auto box = condition.box_corners())
+              for (unsigned int c = 0; c < dim; ++c)
+                {
+                  const double tolerance = 1e-9 * a.distance(b);
+                  in_box.push_back(
+                    {a[c] - (*box)[0][c] + tolerance, b[c] - a[c]});
+                  in_box.push_back(
+                    {(*box)[1][c] - a[c] + tolerance, a[c] - b[c]});
+                }
+            const auto [from, to]      = part_of_line(in_box);
+            const Tensor<1, dim> along = b - a;
+            if (to > from)
+              panels.push_back({a + from * along, {{(to - from) * along}}});
+          }
+      refuse_no_part(condition, panels.size());
+      return panels;
     }
 
     /** Of a body that is a box in space, rectangles. */
@@ -147,6 +177,24 @@ namespace geocone
       edges[k] = ends[k + 1] - corner;
   }
 
+  std::vector<Facet>
+  Panel::facets() const
+  {
+    const std::vector<Point<dim>> x = corners();
+    // The first of these corners each, two in the plane.
+    std::vector<std::array<unsigned int, 3>> of_facets = {{{0, 1, 3}}};
+    if (dim == 3)
+      of_facets.push_back({{0, 3, 2}});
+    std::vector<Facet> all;
+    for (const auto &corner : of_facets)
+      {
+        Facet &facet = all.emplace_back();
+        for (unsigned int k = 0; k < dim; ++k)
+          facet[k] = x[corner[k]];
+      }
+    return all;
+  }
+
   std::vector<Panel>
   Panel::parts(const std::array<unsigned int, dim - 1> &n) const
   {
@@ -169,12 +217,8 @@ namespace geocone
   std::vector<Panel>
   panels_of_body(const BoundaryCondition &condition, const Geometry &geometry)
   {
-    if (dim == 3)
-      return panels_of_box(condition, geometry);
-    std::vector<Panel> panels;
-    for (const auto &line : lines_of_body(condition, geometry))
-      panels.push_back({line.a, {{line.b - line.a}}});
-    return panels;
+    return dim == 3 ? panels_of_box(condition, geometry)
+                    : panels_of_outline(condition, geometry);
   }
 
   std::vector<BoundaryPoint>
@@ -182,88 +226,27 @@ namespace geocone
                   const Space          &space,
                   const Panel          &panel)
   {
-    const std::vector<Point<dim>> x = panel.corners();
-    if (dim == 2)
-      return points_on_line(mesh, space, x[0], x[1]);
+    const std::vector<Facet>   facets = panel.facets();
     std::vector<BoundaryPoint> points;
-    for_each_point_of_triangles(
-      mesh,
-      space,
-      {{{x[0], x[1], x[3]}}, {{x[0], x[3], x[2]}}},
-      [&](const std::size_t, const BoundaryPoint &point) {
+    for_each_point(
+      mesh, space, facets, [&](const std::size_t, const BoundaryPoint &point) {
         points.push_back(point);
-        points.back().weight /= 2.;
+        points.back().weight /= facets.size();
       });
     return points;
   }
 
-  std::vector<double>
-  for_each_point_of_triangles(
-    const BackgroundMesh             &mesh,
-    const Space                      &space,
-    const std::vector<SpaceTriangle> &triangles,
-    const std::function<void(const std::size_t, const BoundaryPoint &)> &f)
+  double
+  cell_size_along(const BackgroundMesh &mesh,
+                  const Panel          &panel,
+                  const unsigned int    edge)
   {
-    const QWitherdenVincentSimplex<2> rule(4);
-    std::vector<double>               parts(triangles.size(), 0.);
-    // What of a triangle may be in which cell, by boxes.
-    std::vector<BoundingBox<dim>> boxes;
-    std::vector<Outline>          outlines;
-    for (const auto &[a, b, c] : triangles)
-      {
-        // A shift that decides for the body where it is on a border of cells.
-        const Tensor<1, dim> area = cross_product_3d(b - a, c - a) / 2.,
-                             back = -1e-9 / std::sqrt(area.norm()) * area;
-        outlines.push_back(
-          {Point<dim>(a + back), Point<dim>(b + back), Point<dim>(c + back)});
-        boxes.emplace_back(outlines.back());
-      }
-    BoundaryPoint point;
-    for (const auto &cell : mesh.own_cells())
-      {
-        const auto box = cell->bounding_box();
-        std::vector<std::pair<Point<dim>, Tensor<1, dim>>> planes;
-        for (std::size_t t = 0; t < triangles.size(); ++t)
-          {
-            bool meets = true;
-            for (unsigned int d = 0; d < dim; ++d)
-              meets = meets && boxes[t].lower_bound(d) <= box.upper_bound(d) &&
-                      boxes[t].upper_bound(d) >= box.lower_bound(d);
-            if (!meets)
-              continue;
-            if (planes.empty())
-              {
-                planes = planes_of(cell);
-                space.cell_nodes(cell, point.nodes);
-              }
-            Outline rest = outlines[t];
-            for (const auto &[on, into] : planes)
-              rest = clipped(rest, on, into);
-            const double whole =
-              area_of_triangle(outlines[t][0], outlines[t][1], outlines[t][2]);
-            for (std::size_t i = 2; i < rest.size(); ++i)
-              {
-                const double share =
-                  area_of_triangle(rest[0], rest[i - 1], rest[i]) / whole;
-                if (share < 1e-12)
-                  continue;
-                parts[t] += share;
-                for (unsigned int q = 0; q < rule.size(); ++q)
-                  {
-                    point.position =
-                      rest[0] + rule.point(q)[0] * (rest[i - 1] - rest[0]) +
-                      rule.point(q)[1] * (rest[i] - rest[0]);
-                    point.weight    = 2. * rule.weight(q) * share;
-                    const auto unit = mesh.unit_point(cell, point.position);
-                    if (!unit)
-                      continue;
-                    point.values.resize(space.nodes_per_cell());
-                    space.evaluate(cell, *unit, point.values.data(), nullptr);
-                    f(t, point);
-                  }
-              }
-          }
-      }
-    return parts;
+    // Not on a border of cells, but in the body.
+    const Tensor<1, dim> &along = panel.edges[edge], area = panel.area();
+    Point<dim> a = panel.corner - 1e-9 * along.norm() / area.norm() * area;
+    for (unsigned int k = 0; k + 1 < dim; ++k)
+      if (k != edge)
+        a += panel.edges[k] / 2.;
+    return longest_part_in_cell(mesh, a, a + along);
   }
 } // namespace geocone

@@ -79,7 +79,7 @@ namespace geocone
         add_parameter(
           "Segment shortening",
           shortening,
-          "For 'segments' in the plane: the side is taken so many cell sizes "
+          "For 'segments': the side is taken so many cell sizes "
           "shorter. A calibration, not a theory: 0.3 makes cubic "
           "splines exact to 2 % for footings of four cells.");
       }

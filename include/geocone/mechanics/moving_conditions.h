@@ -7,7 +7,6 @@
 #include <geocone/base/state_row.h>
 #include <geocone/discretisation/material_points.h>
 #include <geocone/mechanics/constraints.h>
-#include <geocone/mechanics/moving_boundary.h>
 #include <geocone/mechanics/moving_surface.h>
 
 #include <optional>
@@ -99,11 +98,11 @@ namespace geocone
       std::vector<Panel> before = {}; ///< the last move()
     };
 
-    /** A load on a side of the body in the plane, and the side. */
+    /** A load on sides of the body, and the sides. */
     struct LoadedSide
     {
-      unsigned int   condition;
-      MovingBoundary boundary;
+      unsigned int  condition;
+      MovingSurface surface;
     };
 
     /** The number of held particles of each condition, around an axis the sum of their
@@ -137,7 +136,7 @@ namespace geocone
                Multipliers                                        &rows) const;
     /** @} */
 
-    /** Adds the part of a load that acts at a point of a line, or a triangle.
+    /** Adds the part of a load that acts at a point of a facet.
      *  @param size of it at the start, on which dead loads act
      *  @param area its outward normal, as it is, times its size */
     void
@@ -147,13 +146,6 @@ namespace geocone
                  const BoundaryPoint          &point,
                  const double                  t,
                  Vector                       &force) const;
-
-    /** The same as add_tractions() of surfaces. */
-    void
-    add_tractions_of_surfaces(Vector      &force,
-                              const double t,
-                              const Stage *stage,
-                              const bool   raised) const;
 
     /**
      * Refuses a condition of whose parts one lies outside the mesh, where it would
@@ -166,26 +158,11 @@ namespace geocone
                   const std::vector<dealii::Point<dim>> &middles,
                   std::vector<double>                    in_mesh) const;
 
-    /**
-     * Moves a chain of lines by the velocity of the nodes, within the box of a
-     * grid. Collective.
-     */
-    void
-    advect(MovingBoundary &boundary, const Vector &v, const double h) const;
-
     const Scene            &scene;
     const BackgroundMesh   &mesh;
     const Space            &space;
     std::vector<HeldSide>   supports;
     std::vector<LoadedSide> loads;
-
-    /** A load on sides of a body in three dimensions. */
-    struct LoadedSurface
-    {
-      unsigned int  condition;
-      MovingSurface surface;
-    };
-    std::vector<LoadedSurface> surfaces;
   };
 } // namespace geocone
 

@@ -8,48 +8,34 @@
 #include <geocone/mechanics/panel.h>
 
 #include <array>
-#include <functional>
 #include <vector>
 
 namespace geocone
 {
   /**
-   * Sides of a body that is a box in three dimensions, or their parts in a box, that move
-   * with it: triangles whose corners are carried by the velocity of the nodes.
+   * Sides of a body, or their parts in a box, that move with it: facets whose corners are
+   * carried by the velocity of the nodes.
    */
   class MovingSurface
   {
   public:
     /**
-     * @param condition gives the sides of the body, and the box
-     * @param longest edge of what is halved into triangles (m)
-     * @throws InputError if the body is no box, has no such side or it misses the box
+     * @param panels of the body
+     * @param longest part of an edge of a panel that is one of a facet, in space of a
+     * parallelogram that is halved into two (m)
      */
-    MovingSurface(const BoundaryCondition &condition,
-                  const Geometry          &geometry,
-                  const double             longest);
+    MovingSurface(const std::vector<Panel> &panels, const double longest);
 
-    struct Triangle
+    /** The facets as they are. */
+    std::vector<Facet>
+    facets() const;
+
+    /** Of a facet at the start (m, or m^2). */
+    double
+    size_at_start(const std::size_t facet) const
     {
-      std::array<unsigned int, 3>
-             corners; ///< counterclockwise, seen from outside
-      double area;    ///< at the start (m^2)
-    };
-
-    /** Its outward normal as it is, times its area (m^2). */
-    dealii::Tensor<1, dim>
-    area_of(const Triangle &triangle) const;
-
-    /** Of each triangle, as it is. */
-    std::vector<dealii::Point<dim>>
-    middles() const;
-
-    /** See for_each_point_of_triangles(). */
-    std::vector<double>
-    for_each_point(const BackgroundMesh                             &mesh,
-                   const Space                                      &space,
-                   const std::function<void(const Triangle &,
-                                            const BoundaryPoint &)> &f) const;
+      return parts[facet].size;
+    }
 
     /** Moves the corners over a step h, within the box of a grid. Collective. */
     void
@@ -64,7 +50,14 @@ namespace geocone
       row(places);
     }
 
-    std::vector<Triangle>           triangles;
+  private:
+    /** A facet. */
+    struct Part
+    {
+      std::array<unsigned int, dim> corners;
+      double                        size; ///< at the start
+    };
+    std::vector<Part>               parts;
     std::vector<dealii::Point<dim>> places; ///< of the corners
   };
 } // namespace geocone

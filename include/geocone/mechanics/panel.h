@@ -4,10 +4,10 @@
 #ifndef geocone_mechanics_panel_h
 #define geocone_mechanics_panel_h
 
-#include <geocone/mechanics/moving_boundary.h>
+#include <geocone/mechanics/facet.h>
+#include <geocone/scene/scene.h>
 
 #include <array>
-#include <functional>
 #include <vector>
 
 namespace geocone
@@ -41,6 +41,10 @@ namespace geocone
     void
     span(const std::array<dealii::Point<dim>, dim> &ends);
 
+    /** It, or the two triangles that make it. */
+    std::vector<Facet>
+    facets() const;
+
     /** So many equal parts along each edge. */
     std::vector<Panel>
     parts(const std::array<unsigned int, dim - 1> &n) const;
@@ -53,27 +57,17 @@ namespace geocone
   std::vector<Panel>
   panels_of_body(const BoundaryCondition &condition, const Geometry &geometry);
 
-  /** Points on a panel, see points_on_line() and for_each_point_of_triangles(). */
+  /** Points on a panel, see for_each_point(); their weights are parts of the panel. */
   std::vector<BoundaryPoint>
   points_on_panel(const BackgroundMesh &mesh,
                   const Space          &space,
                   const Panel          &panel);
 
-  /** Its corners are counterclockwise, seen from outside the body. */
-  using SpaceTriangle = std::array<dealii::Point<dim>, 3>;
-
-  /**
-   * Calls f(number, point) for points for sums that are integrals over each triangle, of
-   * what of it is in cells of this rank: their weights sum up, over all ranks, to the
-   * part of it that is in the mesh. On a border of cells the body decides.
-   * @return the parts that this rank knows
-   */
-  std::vector<double>
-  for_each_point_of_triangles(
-    const BackgroundMesh             &mesh,
-    const Space                      &space,
-    const std::vector<SpaceTriangle> &triangles,
-    const std::function<void(const std::size_t, const BoundaryPoint &)> &f);
+  /** The longest part of the middle line along an edge in one cell (m). Collective. */
+  double
+  cell_size_along(const BackgroundMesh &mesh,
+                  const Panel          &panel,
+                  const unsigned int    edge);
 } // namespace geocone
 
 #endif
