@@ -112,11 +112,6 @@ namespace geocone
                            "prescribe velocities on sides of the background "
                            "mesh, or set Discretisation/Method = MPM");
       }
-    if (acts_on_sides())
-      scene->geometry.refuse_axis(
-        "tractions or absorbing sides with explicit MPM",
-        "set Discretisation/Method = FEM, or give a layer of soil instead of a "
-        "surcharge");
   }
 
   bool
