@@ -48,14 +48,23 @@ namespace geocone
     k_per_cohesion = sqrt2 * kappa * std::cos(radians(strength.phi)) / F;
   }
 
+  std::optional<FlowCone>
+  DruckerPrager::step_cone(const Mandel  &stress_n,
+                           const double  *history_n,
+                           const StepLaw &step) const
+  {
+    if (dim == 2)
+      return std::nullopt;
+    return cone_of(own_strength(extended(stress_n, 0.), history_n, step));
+  }
+
   FlowCheck
   DruckerPrager::check_plastic_strain(const SpatialMandel &plastic_strain,
                                       const SpatialMandel &stress,
                                       const OwnStrength   &own) const
   {
-    const FlowCone exact = cone_with(own.cohesion);
-    return FlowCheck::of_cone(exact.delayed(own.part, own.normal),
-                              exact,
+    return FlowCheck::of_cone(cone_of(own),
+                              cone_with(own.cohesion),
                               SpatialMandel(spatial_axes() * -plastic_strain),
                               SpatialMandel(spatial_axes() * stress),
                               elasticity().two_G);
@@ -79,13 +88,12 @@ namespace geocone
   {
     const SpatialMandel t = spatial_axes() * trial;
     SpatialMandel       s;
-    const Mode          mode =
-      return_map(cone_with(own.cohesion).delayed(own.part, own.normal),
-                 elasticity().spatial_normal_stiffness(),
-                 elasticity().two_G,
-                 t,
-                 s,
-                 tangent);
+    const Mode          mode = return_map(cone_of(own),
+                                 elasticity().spatial_normal_stiffness(),
+                                 elasticity().two_G,
+                                 t,
+                                 s,
+                                 tangent);
     // An elastic point keeps its trial stress to the last digit.
     stress = mode == Mode::elastic
                ? trial

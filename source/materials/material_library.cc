@@ -167,6 +167,15 @@ namespace geocone
   }
 
   bool
+  Materials::have_natural_map() const
+  {
+    return std::all_of(
+      in_closed_form.begin(), in_closed_form.end(), [](const Material *law) {
+        return law == nullptr || law->has_natural_map();
+      });
+  }
+
+  bool
   Materials::have_flow_check() const
   {
     return std::any_of(

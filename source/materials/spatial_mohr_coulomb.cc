@@ -73,6 +73,34 @@ namespace geocone
         }
       return result;
     }
+
+    /**
+     * The derivative of an isotropic function of a tensor x, which may be by another one
+     * that is x/scale but for its volume, as strain is beside a trial stress.
+     * @param at x @param y the function's principal values @param C their derivatives
+     */
+    template <int n>
+    Eigen::Matrix<double, n, n, Eigen::RowMajor>
+    slope_in_axes(const Spectrum<n>     &at,
+                  const Eigen::Vector3d &y,
+                  const Eigen::Matrix3d &C,
+                  const double           scale)
+    {
+      using Matrix = Eigen::Matrix<double, n, n, Eigen::RowMajor>;
+      Matrix along = Matrix::Zero();
+      along.template topLeftCorner<3, 3>() = C;
+      for (int k = 3; k < n; ++k)
+        {
+          // Shear turns the directions: (y_a - y_b)/(x_a - x_b).
+          const auto [a, b]  = at.pair[k - 3];
+          const double apart = at.value[a] - at.value[b];
+          along(k, k) = std::abs(apart) > 1e-12 * (std::abs(at.value[a]) +
+                                                   std::abs(at.value[b]))
+                          ? scale * (y[a] - y[b]) / apart
+                          : C(a, a) - C(a, b);
+        }
+      return at.directions * (along * at.directions.transpose());
+    }
   } // namespace
 
   void
@@ -145,40 +173,27 @@ namespace geocone
   {
     const Pyramid exact_here = pyramid_with(own.cohesion),
                   solved     = delayed(own);
-    const auto flow          = spectrum(plastic_strain);
-    Principal  y;
-    double     plus = 0., minus = 0.;
-    for (unsigned int i = 0; i < 3; ++i)
-      if (const double e = flow.value[i]; e > 0.)
-        plus += y[i] = e * (1. + solved.sine) / (1. + sin_theta);
-      else
-        minus -= y[i] = e * (1. - solved.sine) / (1. - sin_theta);
-    const SpatialMandel normal = flow.directions.template leftCols<3>() * y;
-    const Principal     s      = spectrum(stress).value;
-    const double        two_G  = elasticity().two_G;
+    const Normal    y        = normal_of(plastic_strain, solved, nullptr);
+    const Principal s        = spectrum(stress).value;
+    const double    two_G    = elasticity().two_G;
 
     FlowCheck here;
     here.stress     = stress.norm();
     here.size       = exact_here.size / sqrt2;
-    here.flow       = y.norm();
+    here.flow       = y.whole.norm();
     here.compliance = 1. / two_G;
     here.violation  = solved.yield_function(s);
     here.excess     = exact_here.yield_function(s);
     // Normals have (1 - sin(phi)) plus >= (1 + sin(phi)) minus, with more at the apex.
     here.dual =
-      std::max(0., (1. + solved.sine) * minus - (1. - solved.sine) * plus);
+      std::max(0., (1. + solved.sine) * y.minus - (1. - solved.sine) * y.plus);
     here.complementary =
-      std::abs(stress.dot(normal) - (solved.sine > 0.
-                                       ? solved.apex() * (plus - minus)
-                                       : solved.size / 2. * (plus + minus)));
-
-    const auto      at = spectrum(SpatialMandel(stress + two_G * normal));
-    Principal       projected;
-    PrincipalMatrix tangent;
-    return_principal(
-      Elasticity(1., 0.), solved, solved.sine, at.value, projected, tangent);
-    here.natural_map =
-      (stress - at.directions.template leftCols<3>() * projected).norm();
+      std::abs(stress.dot(y.whole) -
+               (solved.sine > 0. ? solved.apex() * (y.plus - y.minus)
+                                 : solved.size / 2. * (y.plus + y.minus)));
+    SpatialMandel projected;
+    project(solved, stress + two_G * y.whole, projected, nullptr);
+    here.natural_map = (stress - projected).norm();
     return here;
   }
 
@@ -252,19 +267,76 @@ namespace geocone
                                          SpatialMandel       &stress,
                                          SpatialMandelMatrix *tangent) const
   {
-    const Pyramid strength = delayed(own);
-    if (strength.holds_cone(trial))
+    return return_to(
+      elasticity(), delayed(own), sin_theta, trial, stress, tangent);
+  }
+
+  SpatialMohrCoulomb::Normal
+  SpatialMohrCoulomb::normal_of(const SpatialMandel &plastic_strain,
+                                const Pyramid       &pyramid,
+                                SpatialMandelMatrix *slope) const
+  {
+    const auto      at = spectrum(plastic_strain);
+    Normal          result;
+    Principal       y;
+    PrincipalMatrix factors = PrincipalMatrix::Zero();
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        const double sign = at.value[i] > 0. ? 1. : -1.;
+        factors(i, i) = (1. + sign * pyramid.sine) / (1. + sign * sin_theta);
+        y[i]          = factors(i, i) * at.value[i];
+        (sign > 0. ? result.plus : result.minus) += std::abs(y[i]);
+      }
+    result.whole = at.directions.template leftCols<3>() * y;
+    if (slope != nullptr)
+      *slope = slope_in_axes(at, y, factors, 1.);
+    return result;
+  }
+
+  std::optional<Material::Projection>
+  SpatialMohrCoulomb::project_natural_map(const Mandel  &s,
+                                          const Mandel  &z,
+                                          const double   rho,
+                                          const Mandel  &stress_n,
+                                          const double  *history_n,
+                                          const StepLaw &step) const
+  {
+    if (dim == 2)
+      return std::nullopt;
+    const Pyramid pyramid =
+      delayed(own_strength(extended(stress_n, 0.), history_n, step));
+    SpatialMandelMatrix psi_slope, slope;
+    SpatialMandel       projected;
+    // Psi is odd, and z is less the plastic strain.
+    const Normal y = normal_of(-extended(z, 0.), pyramid, &psi_slope);
+    Projection   result;
+    result.mode =
+      project(pyramid, extended(s, 0.) + rho * y.whole, projected, &slope);
+    result.stress    = projected.head<n_mandel>();
+    result.slope     = slope.topLeftCorner<n_mandel, n_mandel>();
+    result.psi_slope = psi_slope.topLeftCorner<n_mandel, n_mandel>();
+    return result;
+  }
+
+  Mode
+  SpatialMohrCoulomb::return_to(const Elasticity    &elastic,
+                                const Pyramid       &pyramid,
+                                const double         flow,
+                                const SpatialMandel &trial,
+                                SpatialMandel       &stress,
+                                SpatialMandelMatrix *tangent)
+  {
+    if (pyramid.holds_cone(trial))
       {
         stress = trial;
         if (tangent != nullptr)
-          *tangent = elasticity().stiffness<n_spatial>();
+          *tangent = elastic.stiffness<n_spatial>();
         return Mode::elastic;
       }
     const auto      at = spectrum(trial);
     Principal       s;
     PrincipalMatrix C;
-    const Mode      mode =
-      return_principal(elasticity(), strength, sin_theta, at.value, s, C);
+    const Mode mode = return_principal(elastic, pyramid, flow, at.value, s, C);
     // An elastic point keeps its trial stress to the last digit.
     if (mode == Mode::elastic)
       stress = trial;
@@ -272,19 +344,7 @@ namespace geocone
       stress = at.directions.template leftCols<3>() * s;
     if (tangent == nullptr)
       return mode;
-    SpatialMandelMatrix along   = SpatialMandelMatrix::Zero();
-    along.topLeftCorner<3, 3>() = C;
-    for (unsigned int k = 3; k < n_spatial; ++k)
-      {
-        // Shear turns the directions: (s_a - s_b)/(e_a - e_b).
-        const auto [a, b]  = at.pair[k - 3];
-        const double apart = at.value[a] - at.value[b];
-        along(k, k)        = std::abs(apart) > 1e-12 * (std::abs(at.value[a]) +
-                                                 std::abs(at.value[b]))
-                               ? elasticity().two_G * (s[a] - s[b]) / apart
-                               : C(a, a) - C(a, b);
-      }
-    *tangent = at.directions * (along * at.directions.transpose());
+    *tangent = slope_in_axes(at, s, C, elastic.two_G);
     return mode;
   }
 } // namespace geocone

@@ -250,10 +250,10 @@ namespace geocone
     const double rho = at.rho, w = u * n - node.least, p = at.r * n - rho * w;
     result.F = at.r;
     // What rests without a force is held: it may have no other support.
-    if (!(p >= 0.))
+    if (!(p >= 0.) && !(holds && node.is_closed))
       return result;
     const double mu    = rubs ? node.friction : 0.;
-    const double bound = rubs ? mu * p + node.adhesion : 0.;
+    const double bound = rubs ? mu * std::max(p, 0.) + node.adhesion : 0.;
     const Force  u_T = u - (u * n) * n, r_T = at.r - (at.r * n) * n,
                 pull  = r_T - rho * u_T;
     const double size = pull.norm();
@@ -372,9 +372,11 @@ namespace geocone
   Contact::replace(Vector       &residual,
                    const Vector &v,
                    const Vector &scale,
-                   const bool    rubs_now)
+                   const bool    rubs_now,
+                   const bool    holds_now)
   {
     rubs    = rubs_now;
+    holds   = holds_now;
     relaxed = false;
     touch.assign(list.size(), Touch());
     rho_Q.assign(list.size(), Matrix());

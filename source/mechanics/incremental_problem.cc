@@ -92,7 +92,8 @@ namespace geocone
       }
     if (contact_term)
       {
-        contact_term->replace(dst, v, scale(), law.obstacles_rub);
+        contact_term->replace(
+          dst, v, scale(), law.obstacles_rub, law.contact_holds);
         sums.push_back(contact_term->size());
         for (const Contact::Touch &touch : contact_term->touches())
           {

@@ -61,12 +61,13 @@ namespace geocone
         if (moves)
           s += slope[p] * (strain[p] - last_strain[p]);
 
-        mode[p] = Mode::elastic;
+        mode[p]            = Mode::elastic;
+        const double rho_p = rho * elasticity.two_G;
+        const Mandel z =
+          elasticity.strain(Mandel(s - points.stress[p])) - strain[p];
         if (cones[material])
           {
-            const double rho_p = rho * elasticity.two_G;
-            const Mandel z     = to_cone_axes(
-              elasticity.strain(Mandel(s - points.stress[p])) - strain[p]);
+            const Mandel z_axes  = to_cone_axes(z);
             const Mandel x       = to_cone_axes(s);
             const auto   cone_of = [&](const double slip) {
               return varies[material]
@@ -74,14 +75,17 @@ namespace geocone
                            points.stress[p], points.history_of(p), step, slip)
                          : *cones[material];
             };
-            const auto project_on = [&](const FlowCone &cone,
-                                        Mandel         &projected,
-                                        MandelMatrix   *J) {
-              const FlowCone convex{cone.a, cone.a, cone.k, cone.tension};
-              return return_map(
-                convex, 1., 1., Mandel(x - rho_p * cone.psi(z)), projected, J);
-            };
-            const double   slip = FlowCone::tangential_norm(z);
+            const auto project_on =
+              [&](const FlowCone &cone, Mandel &projected, MandelMatrix *J) {
+                const FlowCone convex{cone.a, cone.a, cone.k, cone.tension};
+                return return_map(convex,
+                                  1.,
+                                  1.,
+                                  Mandel(x - rho_p * cone.psi(z_axes)),
+                                  projected,
+                                  J);
+              };
+            const double   slip = FlowCone::tangential_norm(z_axes);
             const FlowCone cone = cone_of(slip);
             Mandel         projected;
             MandelMatrix   J;
@@ -95,16 +99,34 @@ namespace geocone
                 const double compliance = 1. / elasticity.two_G;
                 Mandel       S          = Mandel::Constant(compliance);
                 S[0]                    = 1. / elasticity.normal_stiffness();
-                MandelMatrix B          = rho_p * J * cone.psi_slope(z);
+                MandelMatrix B          = rho_p * J * cone.psi_slope(z_axes);
                 if (materials[material].hardens())
                   B -= slope_by_slip(
                          cone_of, project_on, slip, compliance * x.norm()) *
-                       tangential_direction(z).transpose();
+                       tangential_direction(z_axes).transpose();
                 const MandelMatrix A =
                   MandelMatrix::Identity() - J + B * S.asDiagonal();
                 const auto factors = A.partialPivLu();
                 iterate[p] = from_cone_axes(Mandel(x - factors.solve(R)));
                 slope[p]   = from_cone_axes(MandelMatrix(factors.solve(B)));
+              }
+          }
+        else if (const auto at = materials[material].project_natural_map(
+                   s, z, rho_p, points.stress[p], points.history_of(p), step))
+          {
+            mode[p]                = at->mode;
+            const Mandel R         = s - at->stress;
+            error.largest_residual = std::max(error.largest_residual, R.norm());
+            error.stress_scale     = std::max(error.stress_scale, s.norm());
+            if (mode[p] != Mode::elastic)
+              {
+                const MandelMatrix B = rho_p * at->slope * at->psi_slope,
+                                   S = elasticity.stiffness().inverse(),
+                                   A = MandelMatrix::Identity() - at->slope +
+                                       B * S;
+                const auto factors = A.partialPivLu();
+                iterate[p]         = s - factors.solve(R);
+                slope[p]           = factors.solve(B);
               }
           }
         if (mode[p] == Mode::elastic)

@@ -243,9 +243,10 @@ namespace geocone
         Tensor<1, dim>       u       = v;
         for (const ContactNode::Partner &other : contact.partners)
           u -= other.part * value_at(velocity_n, other.node);
-        contact.least    = -at.gap / h;
-        contact.velocity = v - u;
-        const double u_n = u * contact.normal;
+        contact.least     = -at.gap / h;
+        contact.is_closed = at.gap <= closed_gap * size;
+        contact.velocity  = v - u;
+        const double u_n  = u * contact.normal;
         rebound(
           u_n,
           scene.contacts.list[contact.obstacle - scene.obstacles.list.size()]
@@ -338,13 +339,14 @@ namespace geocone
               mesh_is_body ? at.distance
                            : std::max(gaps[o].local_element(dim * node), 0.);
             ContactNode contact;
-            contact.node     = node;
-            contact.obstacle = o;
-            contact.normal   = at.normal;
-            contact.arm      = arm;
-            contact.velocity = V;
-            contact.least    = -gap / h;
-            contact.friction = list[o]->law.friction;
+            contact.node      = node;
+            contact.obstacle  = o;
+            contact.normal    = at.normal;
+            contact.arm       = arm;
+            contact.velocity  = V;
+            contact.least     = -gap / h;
+            contact.is_closed = gap <= closed_gap * size;
+            contact.friction  = list[o]->law.friction;
             contact.length =
               mesh_is_body ? length.local_element(dim * node) : 0.;
             contact.adhesion = list[o]->law.adhesion * contact.length;

@@ -146,7 +146,8 @@ namespace geocone
         "Newton/Formulation",
         formulation.word(),
         std::string("automatic | return map with ") +
-          (pressures ? "B-bar for soil that dilates" : "laws that are spatial"),
+          (pressures ? "B-bar for soil that dilates"
+                     : "laws of all principal stresses in the plane, and caps"),
         "set it to automatic");
     if (pressures &&
         (is_reduced() || first_iterate == FirstIterate::gauss_seidel))
@@ -222,6 +223,22 @@ namespace geocone
     const bool bears_obstacles = moves_obstacles &&
                                  !work.problem.has_inertia() &&
                                  work.problem.contact().motions().are_loaded();
+    // Nodes that part in an iterate only, as soil that flows has moved on, leave it without
+    // a support, and the search does not find back. So what touches stays in touch until
+    // the iterate is near.
+    if (work.problem.has_contact() && !moves_obstacles &&
+        natural_map_start == nullptr)
+      {
+        newton.law.contact_holds = true;
+        newton.tolerance         = NewtonLoop::near;
+        run(10, true);
+        newton.law.contact_holds = false;
+        newton.tolerance         = relative_tolerance;
+        if (work.report.converged)
+          newton.elastic_first = false;
+        else
+          work.v = start;
+      }
     const auto run_with_exact_contact = [&]() {
       newton.exact_contact = true;
       run(automatic, true);

@@ -57,6 +57,17 @@ namespace geocone
                       : std::nullopt;
     }
 
+    std::optional<FlowCone>
+    step_cone(const Mandel  &stress_n,
+              const double  *history_n,
+              const StepLaw &step) const override;
+
+    bool
+    has_natural_map() const override
+    {
+      return dim == 3;
+    }
+
     double
     power_beyond_strength(const SpatialMandel &plastic_strain,
                           const SpatialMandel &stress,
@@ -100,6 +111,13 @@ namespace geocone
     Choice<Match> match = {{{"plane strain", Match::plane_strain},
                             {"outer", Match::outer},
                             {"inner", Match::inner}}};
+
+    /** The cone that a step solves for. */
+    FlowCone
+    cone_of(const OwnStrength &own) const
+    {
+      return cone_with(own.cohesion).delayed(own.part, own.normal);
+    }
 
     /** The cone where the cohesion is larger by so much (Pa). */
     FlowCone

@@ -22,6 +22,12 @@ namespace geocone
     }
 
     bool
+    has_natural_map() const override
+    {
+      return dim == 3 || !axisymmetric;
+    }
+
+    bool
     set_axisymmetric() override
     {
       return axisymmetric = true;

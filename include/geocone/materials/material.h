@@ -228,6 +228,36 @@ namespace geocone
     virtual std::optional<FlowCheck>
     check_flow(const PointStep &point, const StepLaw &step) const;
 
+    /** @name The law as a root of its natural map, see NaturalMap */
+    /** @{ */
+    /** Whether it has one in this dimension: laws that are spatial change s_zz besides
+     *  what scenes in the plane solve for. */
+    virtual bool
+    has_natural_map() const
+    {
+      return !is_spatial();
+    }
+
+    /** Of a law that is no cone, where s - rho Psi(z) is projected. */
+    struct Projection
+    {
+      Mode         mode;      ///< where it lies
+      Mandel       stress;    ///< P_C (Pa)
+      MandelMatrix slope;     ///< J of P_C
+      MandelMatrix psi_slope; ///< Psi'
+    };
+    virtual std::optional<Projection>
+    project_natural_map(const Mandel & /*s*/,
+                        const Mandel & /*z*/,
+                        const double /*rho*/,
+                        const Mandel & /*stress_n*/,
+                        const double * /*history_n*/,
+                        const StepLaw & /*step*/) const
+    {
+      return std::nullopt;
+    }
+    /** @} */
+
     /** overstress() of laws that are spatial. @param history of the point */
     virtual std::optional<double>
     yield_function(const SpatialMandel & /*stress*/,

@@ -55,6 +55,10 @@ namespace geocone
     bool
     are_spatial() const;
 
+    /** Whether all laws have a natural map, see Material::has_natural_map(). */
+    bool
+    have_natural_map() const;
+
     /** Whether a law checks the flow of a step, which Quality tells of. */
     bool
     have_flow_check() const;

@@ -56,6 +56,20 @@ namespace geocone
     void
     set_friction_memory(const double tau) override;
 
+    bool
+    has_natural_map() const override
+    {
+      return dim == 3;
+    }
+
+    std::optional<Projection>
+    project_natural_map(const Mandel  &s,
+                        const Mandel  &z,
+                        const double   rho,
+                        const Mandel  &stress_n,
+                        const double  *history_n,
+                        const StepLaw &step) const override;
+
     double
     power_beyond_strength(const SpatialMandel &plastic_strain,
                           const SpatialMandel &stress,
@@ -67,15 +81,6 @@ namespace geocone
     void
     set_strength(const double F) override;
 
-    /**
-     * The flow of the pyramid for theta is mapped to the normals of that for phi by
-     *   y_i = e_i (1 + sin(phi))/(1 + sin(theta))   where e_i > 0,
-     *   y_i = e_i (1 - sin(phi))/(1 - sin(theta))   where e_i < 0,
-     * of the principal values e_i of the plastic strain increment, in its own axes
-     * (doc/theory.md, section "All principal stresses"): De Saxce's change of variable
-     * for the pyramid. The projection onto it is its associated return map with the
-     * stiffness 1.
-     */
     FlowCheck
     check_plastic_strain(const SpatialMandel &plastic_strain,
                          const SpatialMandel &stress,
@@ -141,7 +146,48 @@ namespace geocone
     Pyramid
     delayed(const OwnStrength &own) const;
 
-    /** The one-point problem of stresses in order.
+    /** A vector of principal directions, and the sums of its values of both signs. */
+    struct Normal
+    {
+      SpatialMandel whole;
+      double        plus = 0., minus = 0.;
+    };
+
+    /**
+     * The flow of the pyramid for theta is mapped to the normals of that for phi by
+     *   y_i = e_i (1 + sin(phi))/(1 + sin(theta))   where e_i > 0,
+     *   y_i = e_i (1 - sin(phi))/(1 - sin(theta))   where e_i < 0,
+     * of the principal values e_i of the plastic strain increment, in its own axes
+     * (doc/theory.md, section "All principal stresses"): De Saxce's change of variable
+     * for the pyramid. @param[out] slope dy/de, or null
+     */
+    Normal
+    normal_of(const SpatialMandel &plastic_strain,
+              const Pyramid       &pyramid,
+              SpatialMandelMatrix *slope) const;
+
+    /** The one-point problem. @param flow the sine of its dilatancy angle
+     *  @param[out] tangent ds/de, or null */
+    static Mode
+    return_to(const Elasticity    &elastic,
+              const Pyramid       &pyramid,
+              const double         flow,
+              const SpatialMandel &trial,
+              SpatialMandel       &stress,
+              SpatialMandelMatrix *tangent);
+
+    /** The projection onto a pyramid: its associated return map with the stiffness 1. */
+    static Mode
+    project(const Pyramid       &pyramid,
+            const SpatialMandel &x,
+            SpatialMandel       &projected,
+            SpatialMandelMatrix *slope)
+    {
+      return return_to(
+        Elasticity(1., 0.), pyramid, pyramid.sine, x, projected, slope);
+    }
+
+    /** return_to() of stresses in order.
      *  @param flow the sine of its dilatancy angle
      *  @param[out] tangent ds/de of principal values */
     static Mode

@@ -86,6 +86,8 @@ namespace geocone
       return !partners.empty();
     }
 
+    bool is_closed = false; ///< at the beginning
+
     double friction = 0.; ///< mu
     double adhesion = 0.; ///< borne besides friction, while closed (N/m)
   };
@@ -169,13 +171,15 @@ namespace geocone
      * Replaces the forces r in the rows of contact by F, and keeps both.
      * @param[in,out] residual in owned rows
      * @param scale the diagonal of the elastic Jacobian (kg/(m s))
-     * @param rubs whether there is friction. Collective.
+     * @param rubs whether there is friction
+     * @param holds whether what is closed at the beginning stays so. Collective.
      */
     void
     replace(Vector       &residual,
             const Vector &v,
             const Vector &scale,
-            const bool    rubs);
+            const bool    rubs,
+            const bool    holds);
 
     /** A and B of the last replace() in place of the Jacobian's rows. Collective
      *  where obstacles are free.
@@ -363,6 +367,7 @@ namespace geocone
     bool                     has_pairs  = false; ///< of bodies, on any rank
     double                   body_error = 0.;    ///< of their equilibrium (N/m)
     bool                     rubs       = true;  ///< in the last replace()
+    bool                     holds      = false; ///< in the last replace()
     bool                     relaxed    = false; ///< since the last replace()
   };
 } // namespace geocone

@@ -150,11 +150,11 @@ namespace geocone
     }
 
     /** Whether points have a local solver of their own, beside which the natural map
-     *  cannot stand: laws that are spatial, and pressures of cells. */
+     *  cannot stand: laws without one, and pressures of cells. */
     bool
     needs_return_map() const
     {
-      return is_spatial() || internal.has_cell_pressures();
+      return !materials.have_natural_map() || internal.has_cell_pressures();
     }
 
     /** Whether there are CellPressures. */

@@ -23,6 +23,10 @@ namespace geocone
 
     /** Whether obstacles rub: without, a step is a start for one that does. */
     bool obstacles_rub = true;
+
+    /** Whether what touches at the beginning stays in touch, whatever the force: a start
+     *  for a step that lets it go. */
+    bool contact_holds = false;
   };
 
   /**
