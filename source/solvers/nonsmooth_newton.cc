@@ -223,17 +223,19 @@ namespace geocone
     const bool bears_obstacles = moves_obstacles &&
                                  !work.problem.has_inertia() &&
                                  work.problem.contact().motions().are_loaded();
-    // Nodes that part in an iterate only, as soil that flows has moved on, leave it without
-    // a support, and the search does not find back. So what touches stays in touch until
-    // the iterate is near.
+    // An obstacle that gives way leaves nodes of an iterate without a support, soil flows
+    // there, and the search does not find back. So what touches it stays in touch until
+    // the iterate is near; it soon is, or something parts.
     if (work.problem.has_contact() && !moves_obstacles &&
-        natural_map_start == nullptr)
+        !work.problem.contact().is_of_bodies() && natural_map_start == nullptr)
       {
         newton.law.contact_holds = true;
         newton.tolerance         = NewtonLoop::near;
+        newton.allowed_if_far    = 3;
         run(10, true);
         newton.law.contact_holds = false;
         newton.tolerance         = relative_tolerance;
+        newton.allowed_if_far    = NewtonLoop().allowed_if_far;
         if (work.report.converged)
           newton.elastic_first = false;
         else

@@ -274,6 +274,13 @@ namespace geocone
       return touch;
     }
 
+    /** Whether bodies may touch each other, on any rank. */
+    bool
+    is_of_bodies() const
+    {
+      return has_pairs;
+    }
+
     /** Whether a node of any rank has friction. Collective. */
     bool
     has_friction(const MPI_Comm comm) const;
