@@ -169,11 +169,13 @@ class Rough:
             low, high = (low, angle) if too_much else (angle, high)
         self.angle, self.on_base = angle, on_base
         self.on_cone = max(len(ends) - 1 - on_base, 1)
+        if self.on_base + self.on_cone < 5:
+            raise ArithmeticError('too few lines')
 
     def refine(self):
         self.lines, self.step = 2 * self.lines, self.step / 2.
         self.on_base, self.on_cone = 2 * self.on_base, 2 * self.on_cone
-        while True:  # not beyond the axis
+        for _ in range(100):  # not beyond the axis
             r, psi = self.last(self.angle, self.step)
             if r > 0. and -self.soil.full < psi < 0.:
                 break
@@ -204,9 +206,24 @@ class Rough:
                 part /= 2.
             self.angle, self.step = self.angle + part * angle, self.step + part * step
         else:
-            raise SystemExit('the cone does not close on the axis')
+            raise ArithmeticError('the cone does not close on the axis')
         return self.soil.load(list(self.ends(self.angle, self.step, self.on_base,
                                              self.on_cone)))
+
+
+def rough(soil):
+    """With some 16 lines, and twice as many: one of these numbers succeeds."""
+    for lines in 8, 10, 12, 9, 11:
+        try:
+            scene, loads = Rough(soil, lines), []
+            for refinements in range(3):
+                if refinements > 0:
+                    scene.refine()
+                loads.append(scene.solve())
+            return loads[1:]
+        except ArithmeticError:
+            pass
+    raise SystemExit('no cone is found: try a little more or less growth')
 
 
 def main():
@@ -218,12 +235,7 @@ def main():
     for degrees in given.degrees:
         soil = Soil(degrees * pi / 180., given.growth)
         if given.rough:
-            scene = Rough(soil, 8)
-            scene.solve()
-            scene.refine()
-            coarse = scene.solve()
-            scene.refine()
-            fine = scene.solve()
+            coarse, fine = rough(soil)
         else:
             coarse, fine = smooth(soil, 15), smooth(soil, 30)
         print(f'phi = {degrees:g}: N_c = {fine:.3f}, '
