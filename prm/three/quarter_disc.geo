@@ -4,11 +4,13 @@
 radius = 0.1;  // of the footing
 width  = 0.6;  // of the ground
 depth  = 0.4;
-n      = 2;    // cells along the half of the arc
-inner  = 4;    // rings in the footing
-outer  = 7;    // rings beyond
-layers = 6;
-ratio  = 2;    // of a cell to its neighbour that is nearer to the edge
+If(!Exists(n))  // a file that includes this one may have its own
+  n      = 2;    // cells along the half of the arc
+  inner  = 4;    // rings in the footing
+  outer  = 7;    // rings beyond
+  layers = 6;
+  ratio  = 2;    // of a cell to its neighbour that is nearer to the edge
+EndIf
 
 // Chords of a circle that is a little larger, so that they enclose the footing's area.
 chord  = Pi / 4 / n;
