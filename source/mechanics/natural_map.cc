@@ -9,10 +9,11 @@ namespace geocone
 {
   namespace
   {
-    /** rho of laws with edges, over that of cones: with longer steps the places that are
-     *  projected hop between planes and edges, and the iteration goes in circles (0.1 to
-     *  0.3 do in one layer of cells, 0.5 and 1 do not). */
-    constexpr double rho_with_edges = 0.2;
+    /** rho of laws with edges over that of cones, whose best is smaller: there the places
+     *  that are projected hop between planes and edges where rho is small, and beyond them
+     *  where it is large (of 2G, 0.1 to 0.25 do in one layer of cells; 0.03 and 0.4 go in
+     *  circles). */
+    constexpr double rho_with_edges = 5.;
 
     /** Derivative of the projection by |z_t| through the cone, as a difference
      *  quotient. @param strain the size of elastic strains */
