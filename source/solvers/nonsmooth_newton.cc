@@ -226,8 +226,9 @@ namespace geocone
     // An obstacle that gives way leaves nodes of an iterate without a support, soil flows
     // there, and the search does not find back. So what touches it stays in touch until
     // the iterate is near; it soon is, or something parts.
-    if (work.problem.has_contact() && !moves_obstacles &&
-        !work.problem.contact().is_of_bodies() && natural_map_start == nullptr)
+    if (work.problem.has_contact() && work.problem.may_flow() &&
+        !moves_obstacles && !work.problem.contact().is_of_bodies() &&
+        natural_map_start == nullptr)
       {
         newton.law.contact_holds = true;
         newton.tolerance         = NewtonLoop::near;

@@ -122,6 +122,13 @@ namespace geocone
       return materials.yield_without_friction();
     }
 
+    /** Whether there is soil with a strength that flows. */
+    bool
+    may_flow() const
+    {
+      return materials.have_flow_check();
+    }
+
     /** Whether the points are particles, also if this rank has none. */
     bool
     points_move() const
