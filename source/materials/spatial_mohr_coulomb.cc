@@ -75,9 +75,11 @@ namespace geocone
     }
 
     /**
-     * The derivative of an isotropic function of a tensor x, which may be by another one
-     * that is x/scale but for its volume, as strain is beside a trial stress.
-     * @param at x @param y the function's principal values @param C their derivatives
+     * The derivative of an isotropic function y(x) of a tensor, by x times a factor: of a
+     * stress that returns from the trial stress x, by the strain.
+     * @param at x
+     * @param y,C principal values of y there, and their derivatives, with the factor
+     * @param scale the factor, for what shears
      */
     template <int n>
     Eigen::Matrix<double, n, n, Eigen::RowMajor>
