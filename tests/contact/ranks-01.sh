@@ -34,7 +34,7 @@ for name in "block", "wall":
     table = [{column: [float(row[column]) for row in rows] for column in one[0]}
              for rows in (one, two)]
     largest = {column: max(map(abs, values)) for column, values in table[0].items()}
-    unit = lambda column: column[column.rindex("("):]
+    unit = lambda column: column.rpartition("(")[2]
     scale_of = {}
     for column, size in largest.items():
         scale_of[unit(column)] = max(size, scale_of.get(unit(column), 0.))
