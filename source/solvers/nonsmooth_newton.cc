@@ -12,6 +12,8 @@
 
 #include <algorithm>
 
+#include <cmath>
+
 namespace geocone
 {
   using dealii::TimerOutput;
@@ -225,7 +227,7 @@ namespace geocone
                                  work.problem.contact().motions().are_loaded();
     // An obstacle that gives way leaves nodes of an iterate without a support, soil flows
     // there, and the search does not find back. So what touches it stays in touch until
-    // the iterate is near; it soon is, or something parts.
+    // the iterate is near, or is not soon: then something parts, or nothing would have.
     if (work.problem.has_contact() && work.problem.may_flow() &&
         !moves_obstacles && !work.problem.contact().is_of_bodies() &&
         natural_map_start == nullptr)
@@ -237,7 +239,7 @@ namespace geocone
         newton.law.contact_holds = false;
         newton.tolerance         = relative_tolerance;
         newton.allowed_if_far    = NewtonLoop().allowed_if_far;
-        if (work.report.converged)
+        if (std::isfinite(work.report.residual))
           newton.elastic_first = false;
         else
           work.v = start;
