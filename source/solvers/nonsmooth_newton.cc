@@ -227,7 +227,7 @@ namespace geocone
                                  work.problem.contact().motions().are_loaded();
     // An obstacle that gives way leaves nodes of an iterate without a support, soil flows
     // there, and the search does not find back. So what touches it stays in touch until
-    // the iterate is near, or is not soon: then something parts, or nothing would have.
+    // the iterate is near, or far even after three iterations: then it parts.
     if (work.problem.has_contact() && work.problem.may_flow() &&
         !moves_obstacles && !work.problem.contact().is_of_bodies() &&
         natural_map_start == nullptr)
