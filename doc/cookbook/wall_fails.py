@@ -13,6 +13,7 @@ import pathlib
 import sys
 
 import numpy as np
+from scipy.optimize import minimize
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
@@ -36,6 +37,37 @@ def acceleration(friction, dilatancy=np.pi / 6.):
     return (at_rest * share - friction * LEFT * GRAVITY) / (LEFT + slope * share)
 
 
+def planes(friction):
+    """For theta = phi: angles of the planes from the horizontal (degrees), for which the sand's
+    accelerations, given the wall's, make sum m (u^2/2 - g u) least, and a of the wall (m/s^2)."""
+    phi, wall = np.pi / 6., WALL + SAND * HEEL
+
+    def parts(left, right):
+        """Masses beside the vertical plane, way and fall of the wedge over the way of the wall."""
+        m = SAND / 2. / np.tan([left, right])
+        w = np.sin(left - phi) / np.sin(left + right - 2. * phi)
+        return m[0], m.sum(), w, w * np.sin(right - phi)
+
+    def acceleration_of(left, right):
+        m_left, m, w, fall = parts(left, right)
+        u, across = np.array([-w * np.cos(right - phi), -fall]), left - phi
+        return np.linalg.solve(
+            [[m * u[0], -np.sin(across), np.sin(right - phi)],
+             [m * u[1], -np.cos(across), -np.cos(right - phi)],
+             [wall - m_left, friction * np.cos(across) - np.sin(across), 0.]],
+            GRAVITY * np.array([0., -m, -friction * (wall - m_left)]))[0]
+
+    def least(angles, a):
+        m_left, m, w, fall = parts(*angles)
+        return (m * w**2 - m_left) * a**2 / 2. - m * GRAVITY * fall * a
+
+    best = np.radians([60., 60.])
+    for _ in range(40):
+        best = minimize(least, best, args=(acceleration_of(*best),), method="Nelder-Mead",
+                        options={"xatol": 1e-9, "fatol": 1e-12}).x
+    return np.degrees(best), acceleration_of(*best)
+
+
 def way(a, t):
     """With gravity that grows linearly in RAMP."""
     after = np.maximum(t - RAMP, 0.)
@@ -45,6 +77,10 @@ def way(a, t):
 def main():
     print(f"critical friction {CRITICAL:.5f}; a = {acceleration(0.15):.4f} m/s^2 for 0.15, "
           f"theta = phi; 0.99 of the critical one: {acceleration(0.99 * CRITICAL):.4f}")
+    for friction in (0.15, 0.99 * CRITICAL):
+        angles, a = planes(friction)
+        print(f"friction {friction:.4f}, planes at {angles.round(2)} degrees: a = {a:.4f} m/s^2, "
+              f"{1e3 * way(a, 1.):.2f} mm after 1 s")
     runs = [geocone.read(folder) for folder in sys.argv[1:]]
     if not runs:
         return
