@@ -79,36 +79,25 @@ namespace geocone
             break; // nor has any other point of the law
           largest.take_worse(*here);
         }
-    std::array<double, 9> values = {{largest.natural_map,
-                                     largest.violation,
-                                     largest.dual,
-                                     largest.complementary,
-                                     largest.excess,
-                                     largest.stress,
-                                     largest.size,
-                                     largest.flow,
-                                     largest.compliance}};
-    Utilities::MPI::max(ArrayView<const double>(values.data(), values.size()),
-                        comm,
-                        ArrayView<double>(values.data(), values.size()));
-    const auto [natural_map,
-                violation,
-                dual,
-                complementary,
-                excess,
-                stress,
-                size,
-                flow,
-                compliance] = values;
+    std::array<double, FlowCheck::n_numbers> of_ranks;
+    for (std::size_t i = 0; i < of_ranks.size(); ++i)
+      of_ranks[i] = largest.*FlowCheck::numbers()[i];
+    Utilities::MPI::max(
+      ArrayView<const double>(of_ranks.data(), of_ranks.size()),
+      comm,
+      ArrayView<double>(of_ranks.data(), of_ranks.size()));
+    for (std::size_t i = 0; i < of_ranks.size(); ++i)
+      largest.*FlowCheck::numbers()[i] = of_ranks[i];
     // y is rounding where nothing flows.
-    const double stress_scale = stress + size,
-                 strain_scale = std::max(flow, stress_scale * compliance);
+    const double stress_scale = largest.stress + largest.size,
+                 strain_scale =
+                   std::max(largest.flow, stress_scale * largest.compliance);
     if (stress_scale == 0.)
       return {};
-    return {natural_map / stress_scale,
-            violation / stress_scale,
-            dual / strain_scale,
-            complementary / (strain_scale * stress_scale),
-            excess};
+    return {largest.natural_map / stress_scale,
+            largest.violation / stress_scale,
+            largest.dual / strain_scale,
+            largest.complementary / (strain_scale * stress_scale),
+            largest.excess};
   }
 } // namespace geocone

@@ -182,13 +182,14 @@ namespace geocone
         bool upright = false;
         for (const std::string &side : condition.sides)
           upright = upright || side == "left" || side == "right";
-        double     length  = std::abs(high[upright] - low[upright]);
-        const auto centre  = dealii::Point<dim>((low + high) / 2.);
-        const bool is_half = std::abs(observation.factor) == 2. &&
+        double       length  = std::abs(high[upright] - low[upright]);
+        const auto   centre  = dealii::Point<dim>((low + high) / 2.);
+        const double factor  = std::abs(observation.factor);
+        const bool   is_part = (factor == 2. || (dim == 3 && factor == 4.)) &&
                              std::count(observation.conditions.begin(),
                                         observation.conditions.end(),
                                         c);
-        if (is_half)
+        if (is_part)
           length *= 2.;
         add(length, speed_of([&](const double t) {
               double square = 0.;

@@ -97,3 +97,9 @@ block --output full
 fails grep -q 'is zero at t = 0' log
 block --output ramp --set 'Obstacles/block/Force y = -60000*min(t, 1)'
 [ "$(grep -c "load of the obstacle 'block' is zero at t = 0" log)" = 1 ]
+
+# A quarter of a footing, 0.1 m wide at 0.02 m/s, remembers as the whole one of 0.2 m does.
+"$program" "$root/prm/three/square_footing.prm" --dry-run --set 'Discretisation/B-bar = false' \
+  --set 'Materials/soil/Type = Mohr-Coulomb' --set 'Materials/soil/Friction angle = 25' \
+  --set 'Materials/soil/Dilatancy angle = 0' >log 2>&1
+grep -q 'friction has a memory of 0.01 s' log

@@ -7,7 +7,9 @@
 #include <geocone/materials/second_order_cone.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace geocone
 {
@@ -31,18 +33,26 @@ namespace geocone
     double flow   = 0.; ///< |y| (-)
     double compliance = 0.; ///< 1/2G (1/Pa)
 
+    /** All of them: what is found of many points or ranks is the largest of each. */
+    static constexpr std::size_t n_numbers = 9;
+    static constexpr std::array<double FlowCheck::*, n_numbers>
+    numbers()
+    {
+      return {{&FlowCheck::natural_map,
+               &FlowCheck::violation,
+               &FlowCheck::dual,
+               &FlowCheck::complementary,
+               &FlowCheck::excess,
+               &FlowCheck::stress,
+               &FlowCheck::size,
+               &FlowCheck::flow,
+               &FlowCheck::compliance}};
+    }
+
     void
     take_worse(const FlowCheck &other)
     {
-      for (const auto member : {&FlowCheck::natural_map,
-                                &FlowCheck::violation,
-                                &FlowCheck::dual,
-                                &FlowCheck::complementary,
-                                &FlowCheck::excess,
-                                &FlowCheck::stress,
-                                &FlowCheck::size,
-                                &FlowCheck::flow,
-                                &FlowCheck::compliance})
+      for (const auto member : numbers())
         this->*member = std::max(this->*member, other.*member);
     }
 

@@ -52,8 +52,8 @@ namespace geocone
      * The time in which a part of the boundary that is pushed moves by a thousandth
      * of its length (s): the least of all of them at their greatest speed, or 0 if
      * nothing is pushed. The length is that of the box or the side, and twice it
-     * for an observed condition with |Factor| = 2, half of a symmetric one; of an
-     * obstacle its width, or that of the body.
+     * for an observed condition with |Factor| = 2, half of a symmetric one, or 4 in
+     * three dimensions, a quarter; of an obstacle its width, or that of the body.
      */
     double
     time_of_small_motion() const;
