@@ -56,9 +56,19 @@ namespace geocone
       }
   }
 
+  Archive::Archive(const MPI_Comm comm)
+    : Archive(comm, "")
+  {}
+
   void
   Archive::add(const std::string &name, const std::vector<double> &values)
   {
+    if (file_name.empty())
+      {
+        names += name + "\n";
+        arrays[name] = broadcast(comm, values);
+        return;
+      }
     if (!file)
       return;
     names += name + "\n";
@@ -155,6 +165,8 @@ namespace geocone
   {
     if (!has(name))
       throw RunError("the checkpoint '" + file_name + "' lacks '" + name + "'");
+    if (file_name.empty())
+      return arrays.at(name);
     return file->has(name) ? file->read_doubles(name) : std::vector<double>();
   }
 

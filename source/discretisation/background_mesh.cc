@@ -227,12 +227,32 @@ namespace geocone
     else
       map = std::make_unique<MappingQ1<dim>>();
 
+    find_owners();
+  }
+
+  void
+  BackgroundMesh::find_owners()
+  {
     // No cell is ever divided, so that each rank has all of them, in one order.
     owners.assign(tria->n_active_cells(), 0);
     for (const auto &cell : own_cells())
       owners[cell->active_cell_index()] =
         Utilities::MPI::this_mpi_process(comm);
     Utilities::MPI::max(owners, comm, owners);
+  }
+
+  void
+  BackgroundMesh::repartition(
+    const std::function<unsigned int(const Cell &)> &weight)
+  {
+    using Status = Triangulation<dim>::CellStatus;
+    const auto connection = tria->signals.weight.connect(
+      [&](const Triangulation<dim>::cell_iterator &cell, const Status) {
+        return weight(Cell(tria.get(), cell->level(), cell->index()));
+      });
+    tria->execute_coarsening_and_refinement(); // divides nothing, but parts anew
+    connection.disconnect();
+    find_owners();
   }
 
   std::array<unsigned int, dim>

@@ -125,6 +125,12 @@ namespace geocone
     if (dim == 3)
       n_nodes_per_cell = simplicial ? n_nodes_per_cell * (p + 3) / 3
                                     : n_nodes_per_cell * (p + 1);
+    follow_ranks();
+  }
+
+  void
+  Space::follow_ranks()
+  {
     const IndexSet owned =
       is_spline() ? prepare_splines(*mesh) : prepare_finite_element(*mesh);
 
@@ -206,6 +212,7 @@ namespace geocone
   IndexSet
   Space::prepare_finite_element(const BackgroundMesh &mesh)
   {
+    lattice.clear();
     if (!mesh.is_simplicial())
       {
         if (basis == Basis::bernstein)
@@ -235,6 +242,9 @@ namespace geocone
   IndexSet
   Space::prepare_splines(const BackgroundMesh &mesh)
   {
+    splines.clear();
+    lattice.clear();
+    spline_number.clear();
     for (unsigned int c = 0; c < dim; ++c)
       splines.emplace_back(p, mesh.grid()[c]);
     for (unsigned int i = 0; i < n_nodes_per_cell; ++i)

@@ -12,10 +12,25 @@
 #include <deal.II/lac/solver_control.h>
 
 #include <algorithm>
+#include <map>
 
 namespace geocone
 {
   using namespace dealii;
+
+  namespace
+  {
+    /** The points of the fullest rank over their mean. Collective. */
+    double
+    imbalance(const MaterialPoints &points, const MPI_Comm comm)
+    {
+      const double n = points.n_points(), all = Utilities::MPI::sum(n, comm);
+      if (all == 0.)
+        return 1.;
+      return Utilities::MPI::max(n, comm) *
+             Utilities::MPI::n_mpi_processes(comm) / all;
+    }
+  } // namespace
 
   ImplicitMPM::ImplicitMPM(const ParameterFile &file)
     : ParameterAcceptor("/Material point method")
@@ -63,6 +78,11 @@ namespace geocone
                   largest_move,
                   "A step in which a particle would move farther than so many "
                   "cells is cut.");
+    add_parameter("Largest imbalance",
+                  largest_imbalance,
+                  "On several ranks: cells are handed over between them where "
+                  "the fullest has more than so many times the mean number of "
+                  "particles; at least 1.");
   }
 
   void
@@ -80,6 +100,11 @@ namespace geocone
     if (!(largest_move > 0.))
       throw InputError(
         section + "Largest move", largest_move, "> 0 cells", "3 is usual");
+    if (!(largest_imbalance >= 1.))
+      throw InputError(section + "Largest imbalance",
+                       largest_imbalance,
+                       ">= 1, the fullest rank beside the mean",
+                       "1.2 is usual; 1000 leaves all cells where they are");
     if (ghosts == Ghosts::all && !space->is_spline())
       throw InputError(
         section + "Ghost stiffness of",
@@ -203,7 +228,6 @@ namespace geocone
       condition->refuse_normal("free with MPM",
                                "give Velocity x and y, or set "
                                "Discretisation/Method = FEM");
-    moving = std::make_unique<MovingConditions>(*scene, *mesh, *space);
 
     std::string warning = particles.prepare(*scene, *mesh, *space, points);
     if (integration == Integration::midpoint &&
@@ -213,22 +237,10 @@ namespace geocone
                  "the total energy grow where particles and nodes move "
                  "differently: take the grid velocity";
     datum = mesh->lower_corner();
-
-    constraints = std::make_unique<Constraints>(*scene, *mesh, *space);
-    absorbing =
-      std::make_unique<AbsorbingBoundary>(*scene, *mesh, *space, nullptr);
-    obstacles =
-      std::make_unique<ObstacleContact>(*scene, *mesh, *space, nullptr);
-    if (!scene->contacts.list.empty())
-      bodies.emplace(*scene, *mesh, *space);
+    if (is_unbalanced(points))
+      balance(points);
+    set_up(newton);
     check_contact(points);
-    system = std::make_unique<LinearSystem>(
-      newton.linear_solver(),
-      mesh->triangulation().get_communicator(),
-      scene->materials.symmetric() && !obstacles->exists());
-    force.reinit(space->partitioner());
-    if (space->is_spline() && advection != Advection::none)
-      ghost_places.emplace(*mesh, *space);
     if (!grid_follows.empty())
       begin_to_follow();
     if (rule.is_affine())
@@ -252,6 +264,70 @@ namespace geocone
         !bent.empty())
       warning += (warning.empty() ? "" : "; ") + bent;
     return warning;
+  }
+
+  void
+  ImplicitMPM::set_up(const NonsmoothNewton &newton)
+  {
+    problem.reset(); // it refers to what is replaced
+    moving      = std::make_unique<MovingConditions>(*scene, *mesh, *space);
+    constraints = std::make_unique<Constraints>(*scene, *mesh, *space);
+    absorbing =
+      std::make_unique<AbsorbingBoundary>(*scene, *mesh, *space, nullptr);
+    obstacles =
+      std::make_unique<ObstacleContact>(*scene, *mesh, *space, nullptr);
+    if (!scene->contacts.list.empty())
+      bodies.emplace(*scene, *mesh, *space);
+    system = std::make_unique<LinearSystem>(
+      newton.linear_solver(),
+      mesh->triangulation().get_communicator(),
+      scene->materials.symmetric() && !obstacles->exists());
+    force.reinit(space->partitioner());
+    if (space->is_spline() && advection != Advection::none)
+      ghost_places.emplace(*mesh, *space);
+  }
+
+  bool
+  ImplicitMPM::is_unbalanced(const MaterialPoints &points) const
+  {
+    return imbalance(points, mesh->triangulation().get_communicator()) >
+           std::max(largest_imbalance, 1.1 * least_imbalance);
+  }
+
+  void
+  ImplicitMPM::balance(MaterialPoints &points)
+  {
+    // Cells without points cost next to nothing, but must be somewhere.
+    std::map<BackgroundMesh::Cell, unsigned int> n_points;
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      n_points[points.cells[c]] =
+        points.first_point[c + 1] - points.first_point[c];
+    mesh->repartition([&](const BackgroundMesh::Cell &cell) {
+      const auto found = n_points.find(cell);
+      return 1 + (found == n_points.end() ? 0 : 100 * found->second);
+    });
+    space->follow_ranks();
+    particles.follow_ranks(points);
+    least_imbalance =
+      imbalance(points, mesh->triangulation().get_communicator());
+  }
+
+  void
+  ImplicitMPM::balance(const NonsmoothNewton &newton,
+                       TimerOutput           &timer,
+                       Kinematics            &kinematics,
+                       MaterialPoints        &points)
+  {
+    Archive archive(mesh->triangulation().get_communicator());
+    save_nodes(archive, "velocity", *mesh, *space, kinematics.velocity);
+    save_grid(archive);
+    balance(points);
+    set_up(newton);
+    kinematics.velocity.reinit(space->partitioner());
+    velocity_L.reinit(space->partitioner());
+    load_nodes(archive, "velocity", *mesh, *space, kinematics.velocity);
+    load_grid(archive);
+    begin(points, timer);
   }
 
   void
@@ -635,6 +711,8 @@ namespace geocone
       before = state_energies(kinematics, points, t + h);
     particles.sort(points);
     begun = false;
+    if (is_unbalanced(points))
+      balance(newton, timer, kinematics, points);
 
     report.energies = state_energies(kinematics, points, t + h);
     if (particles.n_lost() > n_lost_before)

@@ -95,9 +95,16 @@ namespace geocone
         StateRow row;
         row(added);
         archive.write_row("added", row);
-        fading.save(archive, *mesh, *space);
       }
     particles.save(archive, points);
+    save_grid(archive);
+  }
+
+  void
+  ImplicitMPM::save_grid(Archive &archive) const
+  {
+    if (scene->loading.changes_body())
+      fading.save(archive, *mesh, *space);
     Vector mass(velocity_L);
     for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
       mass.local_element(i) = had_mass.empty() || had_mass[i];
@@ -124,19 +131,26 @@ namespace geocone
         archive.read_row("added")(added);
         for (const unsigned int material : added)
           particles.forget(material); // they will not be again
-        fading.load(archive, *mesh, *space);
       }
-    StateRow row = archive.read_row("sides");
-    moving->state(row);
-    obstacles->state(row);
+    load_grid(archive);
     if (following)
       follow_side();
     particles.load(archive, points);
+    begun = false;
+  }
+
+  void
+  ImplicitMPM::load_grid(const Archive &archive)
+  {
+    if (scene->loading.changes_body())
+      fading.load(archive, *mesh, *space);
+    StateRow row = archive.read_row("sides");
+    moving->state(row);
+    obstacles->state(row);
     Vector mass(velocity_L);
     load_nodes(archive, "had mass", *mesh, *space, mass);
     had_mass.resize(mass.locally_owned_size());
     for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
       had_mass[i] = mass.local_element(i) > 0.;
-    begun = false;
   }
 } // namespace geocone

@@ -9,6 +9,7 @@
 
 #include <mpi.h>
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,7 +20,8 @@ namespace geocone
    * The state of a run as a file of named arrays (HDF5), which any number of ranks
    * can read. Written whole by the first rank, which holds it in memory; with a
    * checksum over all arrays, so that a damaged file is found before any of it is
-   * used. All functions are collective.
+   * used. Or without a file, to hand state over between the ranks of a run: each of
+   * them then holds all that is written. All functions are collective.
    */
   class Archive
   {
@@ -28,6 +30,9 @@ namespace geocone
     Archive(const MPI_Comm     comm,
             const std::string &file_name,
             const std::string &run);
+
+    /** A new one without a file, read by the ranks that write it. */
+    explicit Archive(const MPI_Comm comm);
 
     /**
      * @return one to be read, or nothing
@@ -83,6 +88,9 @@ namespace geocone
 
     /** On the first rank, or on all where it is read. */
     std::unique_ptr<Hdf5File> file;
+
+    /** The arrays, where there is no file. */
+    std::map<std::string, std::vector<double>> arrays;
   };
 } // namespace geocone
 

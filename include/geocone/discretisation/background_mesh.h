@@ -106,6 +106,11 @@ namespace geocone
       return owners;
     }
 
+    /** Parts the cells anew between the ranks, so that the sums of their weights are
+     *  about equal. @param weight > 0 of a cell that this rank has. Collective. */
+    void
+    repartition(const std::function<unsigned int(const Cell &)> &weight);
+
     /** Whether a cell, of this rank or beside it, is one of those that the ranks give,
      *  each of its own; by the active cell index. Collective. */
     std::vector<bool>
@@ -227,6 +232,10 @@ namespace geocone
     connected_parts(const std::vector<Cell> &cells) const;
 
   private:
+    /** Finds out which rank has which cell. Collective. */
+    void
+    find_owners();
+
     enum class Storage
     {
       automatic,
@@ -250,7 +259,7 @@ namespace geocone
     bool                      simplicial = false, parted = false;
     unsigned int              layers = 1;
     std::optional<CellSizes>  sizes;
-    std::vector<unsigned int> owners;
+    std::vector<unsigned int> owners; ///< owner_of_cell()
   };
 } // namespace geocone
 

@@ -64,6 +64,14 @@ namespace geocone
     void
     sort(MaterialPoints &points);
 
+    /** After BackgroundMesh::repartition(), and Space::follow_ranks(): sends particles to
+     *  where their cells are. Collective. */
+    void
+    follow_ranks(MaterialPoints &points) const
+    {
+      find_cells(points);
+    }
+
     /** @name The state, as part of a checkpoint. Collective. */
     /** @{ */
     void

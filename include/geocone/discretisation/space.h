@@ -82,6 +82,10 @@ namespace geocone
     void
     follow_grid();
 
+    /** After BackgroundMesh::repartition(): the nodes are numbered anew. Collective. */
+    void
+    follow_ranks();
+
     using Cell = BackgroundMesh::Cell;
 
     /** Name of the element: P1 ... Q3, B-spline 2, B-spline 3. */

@@ -160,6 +160,34 @@ namespace geocone
       dealii::Tensor<1, n_rotations> spin; ///< angles of rotation (rad)
     };
 
+    /** Makes what depends on which rank has which cells. Collective. */
+    void
+    set_up(const NonsmoothNewton &newton);
+
+    /** Whether the fullest rank has too many of the points. Collective. */
+    bool
+    is_unbalanced(const MaterialPoints &points) const;
+
+    /** Hands over cells between the ranks, so that each has as many points. Nodes are
+     *  numbered anew: set_up() is to follow. Collective. */
+    void
+    balance(MaterialPoints &points);
+
+    /** The same in the course of a run, with all that is state. Collective. */
+    void
+    balance(const NonsmoothNewton &newton,
+            dealii::TimerOutput   &timer,
+            Kinematics            &kinematics,
+            MaterialPoints        &points);
+
+    /** @name The state of nodes, sides and obstacles. Collective. */
+    /** @{ */
+    void
+    save_grid(Archive &archive) const;
+    void
+    load_grid(const Archive &archive);
+    /** @} */
+
     /** Mass, vL, unknowns and pattern: all that depends on t_n only. */
     void
     begin(const MaterialPoints &points, dealii::TimerOutput &timer);
@@ -326,6 +354,10 @@ namespace geocone
     double consistent_mass = 0.;
     double ghost_part      = 1e-5; ///< gamma of GhostStiffness
     double largest_move    = 3.;
+
+    /** Points of the fullest rank over their mean: that is borne, and that the last
+     *  balance left, since cells are not divided. */
+    double largest_imbalance = 1.2, least_imbalance = 1.;
 
     std::string                  grid_follows; ///< a condition, or nothing
     std::optional<FollowingGrid> following;
