@@ -137,6 +137,27 @@ namespace geocone
     return "";
   }
 
+  bool
+  Scene::is_symmetric(const std::string &side, const unsigned int axis) const
+  {
+    bool is_held = false;
+    for (const auto &condition : dirichlet.list)
+      if (condition->is_on_side(side))
+        {
+          for (unsigned int d = 0; d < dim; ++d)
+            if (condition->components[d] &&
+                (d != axis || !condition->components[d]->is_zero()))
+              return false;
+          if (condition->tangential ||
+              (condition->normal && !condition->normal->is_zero()))
+            return false;
+          is_held =
+            is_held || ((condition->components[axis] || condition->normal) &&
+                        !condition->wide_box() && !condition->has_formula());
+        }
+    return is_held;
+  }
+
   double
   Scene::time_of_small_motion() const
   {
@@ -166,9 +187,9 @@ namespace geocone
           speed_of([&](const double t) {
             return obstacle->velocity(t).centre.norm();
           }));
-    for (unsigned int c = 0; c < dirichlet.list.size(); ++c)
+    for (const auto &entry : dirichlet.list)
       {
-        const BoundaryCondition &condition = *dirichlet.list[c];
+        const BoundaryCondition &condition = *entry;
         auto [low, high]                   = body.get_boundary_points();
         if (condition.has_formula())
           continue; // whose length is not known
@@ -182,14 +203,14 @@ namespace geocone
         bool upright = false;
         for (const std::string &side : condition.sides)
           upright = upright || side == "left" || side == "right";
-        double       length  = std::abs(high[upright] - low[upright]);
-        const auto   centre  = dealii::Point<dim>((low + high) / 2.);
-        const double factor  = std::abs(observation.factor);
-        const bool   is_part = (factor == 2. || (dim == 3 && factor == 4.)) &&
-                             std::count(observation.conditions.begin(),
-                                        observation.conditions.end(),
-                                        c);
-        if (is_part)
+        double     length = std::abs(high[upright] - low[upright]);
+        const auto centre = dealii::Point<dim>((low + high) / 2.);
+        // A part that ends in a plane of symmetry goes on beyond it.
+        const auto [left, right] = body.get_boundary_points();
+        const bool goes_on_left  = low[0] <= left[0] && is_symmetric("left", 0),
+                   goes_on_right =
+                     high[0] >= right[0] && is_symmetric("right", 0);
+        if (!upright && goes_on_left != goes_on_right)
           length *= 2.;
         add(length, speed_of([&](const double t) {
               double square = 0.;

@@ -37,6 +37,13 @@ namespace geocone
     double
     value(const dealii::Point<dim> &x, const double t) const;
 
+    /** Whether it is the number 0. */
+    bool
+    is_zero() const
+    {
+      return number == 0.;
+    }
+
     /** When a record ends with a value that is not zero, which then stays (s); infinite
      *  otherwise. */
     double

@@ -48,12 +48,17 @@ namespace geocone
       contacts.refuse(what, remedy);
     }
 
+    /** Whether a side of the body is a plane of symmetry, or the axis of a round body: on all of
+     *  it the velocity along this axis is held at zero, and nothing else is. */
+    bool
+    is_symmetric(const std::string &side, const unsigned int axis) const;
+
     /**
      * The time in which a part of the boundary that is pushed moves by a thousandth
      * of its length (s): the least of all of them at their greatest speed, or 0 if
      * nothing is pushed. The length is that of the box or the side, and twice it
-     * for an observed condition with |Factor| = 2, half of a symmetric one, or 4 in
-     * three dimensions, a quarter; of an obstacle its width, or that of the body.
+     * where one end is in a plane of symmetry; of an obstacle its width, or that of the
+     * body.
      */
     double
     time_of_small_motion() const;
