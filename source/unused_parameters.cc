@@ -181,6 +181,7 @@ namespace geocone
       {"Material point method/Integration", method, {"MPM"}},
       {"Material point method/Start", method, {"MPM"}},
       {"Material point method/Largest move", method, {"MPM"}},
+      {"Material point method/Largest imbalance", method, {"MPM"}},
       {"Material point method/Grid follows", method, {"MPM"}},
       {"Material point method/FLIP part",
        "Material point method/Transfer",

@@ -245,12 +245,13 @@ namespace geocone
   BackgroundMesh::repartition(
     const std::function<unsigned int(const Cell &)> &weight)
   {
-    using Status = Triangulation<dim>::CellStatus;
+    using Status          = Triangulation<dim>::CellStatus;
     const auto connection = tria->signals.weight.connect(
       [&](const Triangulation<dim>::cell_iterator &cell, const Status) {
         return weight(Cell(tria.get(), cell->level(), cell->index()));
       });
-    tria->execute_coarsening_and_refinement(); // divides nothing, but parts anew
+    // Divides nothing, but parts anew.
+    tria->execute_coarsening_and_refinement();
     connection.disconnect();
     find_owners();
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/over_ranks.h>
 #include <geocone/base/stop_request.h>
 #include <geocone/output/run_status.h>
 #include <geocone/run/implicit_simulation.h>
@@ -592,7 +593,9 @@ namespace geocone
             {"points", Utilities::MPI::sum(points.n_points(), comm)},
             {"lost_points", stepper->n_lost()},
             {"nonzeros", Utilities::MPI::sum(stepper->n_nonzeros(), comm)},
-            {"ranks", Utilities::MPI::n_mpi_processes(comm)}};
+            {"ranks", Utilities::MPI::n_mpi_processes(comm)},
+            {"imbalance", imbalance(points.n_points(), comm)},
+            {"repartitions", stepper->n_repartitions()}};
   }
 
   Json

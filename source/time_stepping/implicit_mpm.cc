@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/over_ranks.h>
 #include <geocone/discretisation/point_elasticity.h>
 #include <geocone/time_stepping/implicit_mpm.h>
 
@@ -17,20 +18,6 @@
 namespace geocone
 {
   using namespace dealii;
-
-  namespace
-  {
-    /** The points of the fullest rank over their mean. Collective. */
-    double
-    imbalance(const MaterialPoints &points, const MPI_Comm comm)
-    {
-      const double n = points.n_points(), all = Utilities::MPI::sum(n, comm);
-      if (all == 0.)
-        return 1.;
-      return Utilities::MPI::max(n, comm) *
-             Utilities::MPI::n_mpi_processes(comm) / all;
-    }
-  } // namespace
 
   ImplicitMPM::ImplicitMPM(const ParameterFile &file)
     : ParameterAcceptor("/Material point method")
@@ -290,7 +277,8 @@ namespace geocone
   bool
   ImplicitMPM::is_unbalanced(const MaterialPoints &points) const
   {
-    return imbalance(points, mesh->triangulation().get_communicator()) >
+    return imbalance(points.n_points(),
+                     mesh->triangulation().get_communicator()) >
            std::max(largest_imbalance, 1.1 * least_imbalance);
   }
 
@@ -309,7 +297,8 @@ namespace geocone
     space->follow_ranks();
     particles.follow_ranks(points);
     least_imbalance =
-      imbalance(points, mesh->triangulation().get_communicator());
+      imbalance(points.n_points(), mesh->triangulation().get_communicator());
+    ++n_repartitions_;
   }
 
   void

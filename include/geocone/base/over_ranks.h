@@ -29,6 +29,18 @@ namespace geocone
         dealii::ArrayView<Number>(x.data(), x.size()));
   }
 
+  /** What the fullest rank has over the mean of all, 1 where there is nothing.
+   *  Collective. */
+  inline double
+  imbalance(const double of_this_rank, const MPI_Comm comm)
+  {
+    const double sum     = dealii::Utilities::MPI::sum(of_this_rank, comm),
+                 fullest = dealii::Utilities::MPI::max(of_this_rank, comm);
+    return sum > 0.
+             ? fullest * dealii::Utilities::MPI::n_mpi_processes(comm) / sum
+             : 1.;
+  }
+
   /** Sums all that the classes of a list name in their function state(), of as many on
    *  all ranks, in place. Collective. */
   template <typename Class>

@@ -122,6 +122,12 @@ namespace geocone
       return particles.n_lost();
     }
 
+    unsigned int
+    n_repartitions() const override
+    {
+      return n_repartitions_;
+    }
+
     /** Where its particles come from. */
     Seeding &
     seeding()
@@ -357,7 +363,8 @@ namespace geocone
 
     /** Points of the fullest rank over their mean: that is borne, and that the last
      *  balance left, since cells are not divided. */
-    double largest_imbalance = 1.2, least_imbalance = 1.;
+    double       largest_imbalance = 1.2, least_imbalance = 1.;
+    unsigned int n_repartitions_   = 0;
 
     std::string                  grid_follows; ///< a condition, or nothing
     std::optional<FollowingGrid> following;

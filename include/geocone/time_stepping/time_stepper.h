@@ -299,6 +299,13 @@ namespace geocone
       return 0;
     }
 
+    /** How often cells were handed over between ranks. */
+    virtual unsigned int
+    n_repartitions() const
+    {
+      return 0;
+    }
+
   private:
     /** Takes the points of a checkpoint of any run. Collective. */
     virtual void
