@@ -76,16 +76,8 @@ namespace geocone
                            const double   *history_n,
                            const StepLaw  &step) const
   {
-    // A solver's lag takes more of the past.
-    if (memory.time() > 0.)
-      {
-        const double part = memory.remembered(step.size);
-        return exact.delayed(part + (1. - part) * step.friction_lag,
-                             history_n[place_of_memory()]);
-      }
-    return step.friction_lag > 0.
-             ? exact.delayed(step.friction_lag, to_cone_axes(stress_n)[0])
-             : exact;
+    const Past past = past_of(step, history_n, to_cone_axes(stress_n)[0]);
+    return past.part > 0. ? exact.delayed(past.part, past.stress) : exact;
   }
 
   Mode

@@ -68,17 +68,11 @@ namespace geocone
   {
     OwnStrength own;
     own.cohesion = grown_cohesion(history_n);
-    // A solver's lag takes more of the past.
-    if (memory.time() > 0.)
+    if (non_associativity() > 0.)
       {
-        const double part = memory.remembered(step.size);
-        own.part          = part + (1. - part) * step.friction_lag;
-        own.normal        = history_n[place_of_memory()];
-      }
-    else if (step.friction_lag > 0. && non_associativity() > 0.)
-      {
-        own.part   = step.friction_lag;
-        own.normal = normal_stress(stress_n);
+        const Past past = past_of(step, history_n, normal_stress(stress_n));
+        own.part        = past.part;
+        own.normal      = past.stress;
       }
     return own;
   }

@@ -5,6 +5,7 @@
 #define geocone_materials_with_friction_memory_h
 
 #include <geocone/materials/friction_memory.h>
+#include <geocone/materials/material.h>
 
 #include <string>
 #include <vector>
@@ -78,6 +79,27 @@ namespace geocone
     place_of_memory() const
     {
       return Base::n_history();
+    }
+
+    /** What a step takes of the past: the part of it in the stress on which friction
+     *  depends, and that stress of the past (Pa). */
+    struct Past
+    {
+      double part, stress;
+    };
+
+    /** A solver's lag takes more of the past, also where there is no memory.
+     *  @param s_n the stress of that kind where the step begins (Pa) */
+    Past
+    past_of(const StepLaw &step,
+            const double  *history_n,
+            const double   s_n) const
+    {
+      if (memory.time() == 0.)
+        return {step.friction_lag, s_n};
+      const double part = memory.remembered(step.size);
+      return {part + (1. - part) * step.friction_lag,
+              history_n[place_of_memory()]};
     }
 
     FrictionMemory memory;
