@@ -521,7 +521,7 @@ namespace geocone
           const unsigned int first = points.first_point[c];
           const unsigned int n_q   = points.first_point[c + 1] - first;
           C.resize(n_q);
-          scratch.resize(n_q * n_mandel * dim * n);
+          scratch.resize(kernels::scratch_size(n_q, n));
           for (unsigned int q = 0; q < n_q; ++q)
             {
               const unsigned int p = first + q;

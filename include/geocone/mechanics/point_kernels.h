@@ -8,8 +8,10 @@
 
 #include <deal.II/base/exceptions.h>
 
+#include <algorithm>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 /**
@@ -106,120 +108,128 @@ namespace geocone::kernels
           f[dim * i + d] += g[n * ((d + c) % dim) + i] * t[d][(d + c) % dim];
   }
 
+  /** The places of the entries of a tensor in a Mandel vector. */
+  struct PlacesOfTensor
+  {
+    constexpr PlacesOfTensor()
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        of[d][d] = place_of_normal[d];
+      for (int k = 0; k < n_shears; ++k)
+        of[shears[k].first][shears[k].second] =
+          of[shears[k].second][shears[k].first] = shears[k].place;
+    }
+    int of[dim][dim] = {};
+  };
+  constexpr PlacesOfTensor place;
+
+  /** Calls f with each direction as a compile-time constant. */
+  template <typename F>
+  [[gnu::always_inline]] inline void
+  for_each_direction(const F &f)
+  {
+    f(std::integral_constant<unsigned int, 0>());
+    f(std::integral_constant<unsigned int, 1>());
+    if constexpr (dim == 3)
+      f(std::integral_constant<unsigned int, 2>());
+  }
+
+  /** The entry d of t g, of a tensor of which at(r) is the value in the place r of a
+   *  Mandel vector, shears over sqrt2, with a gradient whose entries are n apart. */
+  template <int n, unsigned int d, typename F, std::size_t... k>
+  [[gnu::always_inline]] inline auto
+  along(const double *g, const F &at, std::index_sequence<k...>)
+  {
+    return (... + (g[n * ((d + k) % dim)] * at(place.of[d][(d + k) % dim])));
+  }
+
+  /** Columns of a stiffness matrix that are summed up at once. */
+  constexpr int block = 4;
+
+  /** Values that stiffness() needs for its own use. */
+  inline std::size_t
+  scratch_size(const unsigned int n_points, const unsigned int n_nodes)
+  {
+    const std::size_t n_blocks = (dim * n_nodes + block - 1) / block;
+    return n_points * n_mandel * n_blocks * block;
+  }
+
   /**
-   * K = sum_q B_q' C_q B_q of a cell, row-major (dim n)^2. In the plane K is computed
-   * in small blocks of nodes whose sums over the points stay in registers.
+   * K = sum_q B_q' C_q B_q of a cell, row-major (dim n)^2, in blocks of a node's rows and
+   * a few columns whose sums over the points stay in registers.
    * @tparam upper whether only the blocks of nodes i <= j are needed
    * @param g gradients of the points one after another, dim n each
    * @param C tangents times weights
-   * @param scratch at least n_points x n_mandel x dim n values
+   * @param scratch scratch_size() values
    */
   template <int n, bool upper>
   [[gnu::always_inline]] inline void
-  stiffness_of_plane(const double       *g,
-                     const MandelMatrix *C,
-                     const unsigned int  n_points,
-                     double             *scratch,
-                     double             *K)
+  stiffness_of_points(const double       *g,
+                      const MandelMatrix *C,
+                      const unsigned int  n_points,
+                      double             *scratch,
+                      double             *K)
   {
-    constexpr int m = 2 * n;
+    constexpr int  m = dim * n, stride = (m + block - 1) / block * block;
+    constexpr auto directions = std::make_index_sequence<dim>();
+    // The rows of C B, those of shears over sqrt2, for B' picks them so.
     for (unsigned int q = 0; q < n_points; ++q)
-      {
-        const double *gx = g + q * m, *gy = gx + n;
-        for (int r = 0; r < 3; ++r)
-          {
-            double      *row = scratch + (3 * q + r) * m;
-            const double c0 = C[q](r, 0), c1 = C[q](r, 1),
-                         c2 = C[q](r, 2) / sqrt2;
-            // Row r of C B; rows 0, 1 of B' pick it as it is, row 2 by 1/sqrt2.
-            const double s = r == 2 ? 1. / sqrt2 : 1.;
-            for (int j = 0; j < n; ++j)
-              {
-                row[2 * j]     = s * (c0 * gx[j] + c2 * gy[j]);
-                row[2 * j + 1] = s * (c1 * gy[j] + c2 * gx[j]);
-              }
-          }
-      }
-    constexpr int block = n % 2 == 0 ? 4 : 2; // columns, of two nodes or one
-    using Pack [[gnu::vector_size(block * sizeof(double))]] = double;
-    for (int i = 0; i < n; ++i)
-      for (int first = upper ? 2 * i / block * block : 0; first < m;
-           first += block)
+      for (int r = 0; r < int(n_mandel); ++r)
         {
-          Pack x = {}, y = {}, row0, row1, row2;
-          for (unsigned int q = 0; q < n_points; ++q)
-            {
-              const double  gx = g[q * m + i], gy = g[q * m + n + i];
-              const double *row = scratch + 3 * q * m + first;
-              std::memcpy(&row0, row, sizeof(Pack));
-              std::memcpy(&row1, row + m, sizeof(Pack));
-              std::memcpy(&row2, row + 2 * m, sizeof(Pack));
-              x += gx * row0 + gy * row2;
-              y += gy * row1 + gx * row2;
-            }
-          std::memcpy(K + 2 * i * m + first, &x, sizeof(Pack));
-          std::memcpy(K + (2 * i + 1) * m + first, &y, sizeof(Pack));
-        }
-  }
-
-  /** The same in three dimensions. */
-  template <int n, bool upper>
-  [[gnu::always_inline]] inline void
-  stiffness_of_space(const double       *g,
-                     const MandelMatrix *C,
-                     const unsigned int  n_points,
-                     double             *scratch,
-                     double             *K)
-  {
-    constexpr int m = dim * n;
-    std::memset(K, 0, sizeof(double) * m * m);
-    for (unsigned int q = 0; q < n_points; ++q, g += m)
-      {
-        // C B by rows, those of shears over sqrt2, for B' picks them so.
-        for (int r = 0; r < n_mandel; ++r)
-          {
-            double *const row = scratch + r * m;
-            const double  s   = r == 2 || r > 3 ? 1. / sqrt2 : 1.;
-            // As a stress tensor, so that a column is its row along the gradient.
-            double t[dim][dim] = {};
-            for (unsigned int d = 0; d < dim; ++d)
-              t[d][d] = s * C[q](r, place_of_normal[d]);
-            for (int k = 0; k < n_shears; ++k)
-              t[shears[k].first][shears[k].second] =
-                t[shears[k].second][shears[k].first] =
-                  s * C[q](r, shears[k].place) / sqrt2;
-            for (int j = 0; j < n; ++j)
-              for (unsigned int d = 0; d < dim; ++d)
-                {
-                  double sum = 0.;
-                  for (unsigned int c = 0; c < dim; ++c)
-                    sum += t[d][c] * g[n * c + j];
-                  row[dim * j + d] = sum;
-                }
-          }
-        for (int i = 0; i < n; ++i)
+          double t[n_mandel], part = 1. / sqrt2;
+          for (int k = 0; k < int(n_mandel); ++k)
+            t[k] = C[q](r, k) / sqrt2;
           for (unsigned int d = 0; d < dim; ++d)
             {
-              // Of the rows of C B those in which this function has a strain.
-              const double *of[dim];
-              of[d] = scratch + place_of_normal[d] * m;
-              for (int k = 0; k < n_shears; ++k)
-                if (static_cast<int>(d) == shears[k].first)
-                  of[shears[k].second] = scratch + shears[k].place * m;
-                else if (static_cast<int>(d) == shears[k].second)
-                  of[shears[k].first] = scratch + shears[k].place * m;
-              double *const row = K + (dim * i + d) * m;
-              double        slope[dim];
-              for (unsigned int c = 0; c < dim; ++c)
-                slope[c] = g[n * c + i];
-              for (int j = upper ? dim * i : 0; j < m; ++j)
-                {
-                  double sum = row[j];
-                  for (unsigned int c = 0; c < dim; ++c)
-                    sum += slope[c] * of[c][j];
-                  row[j] = sum;
-                }
+              t[place_of_normal[d]] = C[q](r, place_of_normal[d]);
+              if (r == place_of_normal[d])
+                part = 1.;
             }
+          const auto at = [&](const int k) __attribute__((always_inline))
+          {
+            return t[k];
+          };
+          double *row = scratch + (q * n_mandel + r) * stride;
+          for (int j = 0; j < n; ++j)
+            for_each_direction([&](
+              const auto d) __attribute__((always_inline)) {
+              row[dim * j + d] =
+                part * along<n, d>(g + q * m + j, at, directions);
+            });
+        }
+    using Pack [[gnu::vector_size(block * sizeof(double))]] = double;
+    for (int first = 0; first < m; first += block)
+      {
+        const int last = std::min(first + block, m) - 1;
+        const int end  = upper ? last / int(dim) + 1 : n;
+        for (int i = 0; i < end; ++i)
+          {
+            Pack sum[dim] = {};
+            for (unsigned int q = 0; q < n_points; ++q)
+              {
+                const auto at = [&](const int r) __attribute__((always_inline))
+                {
+                  Pack t;
+                  std::memcpy(&t,
+                              scratch + (q * n_mandel + r) * stride + first,
+                              sizeof(Pack));
+                  return t;
+                };
+                for_each_direction([&](
+                  const auto d) __attribute__((always_inline)) {
+                  sum[d] += along<n, d>(g + q * m + i, at, directions);
+                });
+              }
+            for_each_direction([&](
+              const auto d) __attribute__((always_inline)) {
+              const Pack of_row = sum[d]; // so that sums need no address
+              double    *to     = K + (dim * i + d) * m + first;
+              if (first + block <= m)
+                std::memcpy(to, &of_row, sizeof(Pack));
+              else
+                std::memcpy(to, &of_row, sizeof(double) * (m % block));
+            });
+          }
       }
   }
 
@@ -286,10 +296,7 @@ namespace geocone::kernels
                  double             *scratch,
                  double             *K)
   {
-    if constexpr (dim == 2)
-      stiffness_of_plane<n, upper>(g, C, n_points, scratch, K);
-    else
-      stiffness_of_space<n, upper>(g, C, n_points, scratch, K);
+    stiffness_of_points<n, upper>(g, C, n_points, scratch, K);
     if (volumetric != nullptr)
       add_volumetric_stiffness<n, upper>(g, hoop, volumetric, C, n_points, K);
   }
