@@ -50,6 +50,7 @@ namespace geocone
         cones.push_back(materials[i].initial_cone());
         // A law may have a history without a cone.
         varies.push_back(materials[i].has_history() && cones.back());
+        compliance.push_back(materials[i].elasticity().stiffness().inverse());
       }
   }
 
@@ -133,9 +134,8 @@ namespace geocone
               {
                 const MandelMatrix B = rho_with_edges * rho_p * at->slope *
                                        at->psi_slope,
-                                   S = elasticity.stiffness().inverse(),
                                    A = MandelMatrix::Identity() - at->slope +
-                                       B * S;
+                                       B * compliance[material];
                 const auto factors = A.partialPivLu();
                 iterate[p]         = s - factors.solve(R);
                 slope[p]           = factors.solve(B);

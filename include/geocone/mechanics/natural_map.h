@@ -75,6 +75,7 @@ namespace geocone
     const double                         rho;
     std::vector<std::optional<FlowCone>> cones;  ///< by material
     std::vector<char>                    varies; ///< whether by point, too
+    std::vector<MandelMatrix>            compliance; ///< by material
     std::vector<Mandel>                  iterate;
     std::vector<MandelMatrix>            slope;
     std::vector<Mandel>                  last_strain; ///< or empty
