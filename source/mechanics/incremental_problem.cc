@@ -94,12 +94,11 @@ namespace geocone
       {
         contact_term->replace(
           dst, v, scale(), law.obstacles_rub, law.contact_holds);
-        sums.push_back(contact_term->size());
-        for (const Contact::Touch &touch : contact_term->touches())
-          {
-            sums[of_contact] += touch.error * touch.error;
-            sums[of_contact + 1] += touch.size;
-          }
+        // What obstacles ask of a body at rest is a part of what is compared with.
+        const Contact::Sums sums_of_contact = contact_term->sums();
+        sums.push_back(sums_of_contact.of_errors + sums_of_contact.of_bodies);
+        sums[of_contact]     = sums_of_contact.of_errors;
+        sums[of_contact + 1] = sums_of_contact.of_sizes;
       }
     internal.count_modes(sums.data());
     for (unsigned int i = 0; i < dst.locally_owned_size(); ++i)

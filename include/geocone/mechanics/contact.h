@@ -192,15 +192,24 @@ namespace geocone
     void
     apply_tangent(Vector &dst, const Vector &dv) const;
 
-    /** The sum of |F|^2 on this rank: what obstacles ask of a body at rest is a part of
-     *  the residual that it is compared with. */
-    double
-    size() const
+    /** Sums over what touches, and may touch, on this rank. */
+    struct Sums
     {
-      double square = body_error * body_error;
+      double of_errors = 0.; ///< |F|^2
+      double of_bodies = 0.; ///< the same of free obstacles
+      double of_sizes  = 0.; ///< what errors are compared with
+    };
+    Sums
+    sums() const
+    {
+      Sums sums;
+      sums.of_bodies = body_error * body_error;
       for (const Touch &at : touch)
-        square += at.error * at.error;
-      return square;
+        {
+          sums.of_errors += at.error * at.error;
+          sums.of_sizes += at.size;
+        }
+      return sums;
     }
 
     enum class State

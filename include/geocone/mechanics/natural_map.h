@@ -73,8 +73,8 @@ namespace geocone
     const Materials                     &materials;
     const StepLaw                        step;
     const double                         rho;
-    std::vector<std::optional<FlowCone>> cones;  ///< by material
-    std::vector<char>                    varies; ///< whether by point, too
+    std::vector<std::optional<FlowCone>> cones;      ///< by material
+    std::vector<char>                    varies;     ///< whether by point, too
     std::vector<MandelMatrix>            compliance; ///< by material
     std::vector<Mandel>                  iterate;
     std::vector<MandelMatrix>            slope;
