@@ -48,8 +48,8 @@ namespace geocone
       contacts.refuse(what, remedy);
     }
 
-    /** Whether a side of the body is a plane of symmetry, or the axis of a round body: on all of
-     *  it the velocity along this axis is held at zero, and nothing else is. */
+    /** Whether a side of the body is a plane of symmetry, or the axis of a round body: on
+     *  all of it the velocity along this axis is held at zero, and nothing else is. */
     bool
     is_symmetric(const std::string &side, const unsigned int axis) const;
 
