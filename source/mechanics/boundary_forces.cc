@@ -15,16 +15,29 @@ namespace geocone
   BoundaryForces::BoundaryForces(const Scene          &scene,
                                  const BackgroundMesh &mesh,
                                  const Space          &space)
-    : space(space)
+    : scene(scene)
+    , mesh(mesh)
+    , space(space)
     , has_tractions(!scene.tractions.list.empty())
-    , moving(scene, mesh, space)
-    , absorbing(scene, mesh, space, nullptr)
-    , tractions(space.partitioner())
-    , coefficient(space.partitioner())
-    , incoming(space.partitioner())
   {
+    follow_ranks();
+  }
+
+  void
+  BoundaryForces::follow_ranks()
+  {
+    StateRow places;
+    if (moving)
+      moving->state(places);
+    moving = std::make_unique<MovingConditions>(scene, mesh, space);
+    if (StateRow row(places.values()); !row.at_end())
+      moving->state(row);
+    absorbing =
+      std::make_unique<AbsorbingBoundary>(scene, mesh, space, nullptr);
+    for (Vector *vector : {&tractions, &coefficient, &incoming})
+      vector->reinit(space.partitioner());
     bool oblique = false;
-    for (const AbsorbingBoundary::Dashpot &dashpot : absorbing.all())
+    for (const AbsorbingBoundary::Dashpot &dashpot : absorbing->all())
       for (unsigned int d = 0; d < dim; ++d)
         {
           const double C = dashpot.C[d][d];
@@ -53,13 +66,13 @@ namespace geocone
       {
         tractions.zero_out_ghost_values();
         tractions = 0.;
-        moving.add_tractions(tractions, t);
+        moving->add_tractions(tractions, t);
         tractions.update_ghost_values();
       }
-    if (absorbing.exists())
+    if (absorbing->exists())
       {
         incoming.zero_out_ghost_values();
-        absorbing.incoming_force(t, incoming);
+        absorbing->incoming_force(t, incoming);
         incoming.update_ghost_values();
       }
   }
@@ -120,6 +133,6 @@ namespace geocone
       for (unsigned int d = 0; d < dim; ++d)
         v.local_element(dim * i + d) = nodes.read[node_size * i + d];
     v.update_ghost_values();
-    moving.move(v, dt, 0.);
+    moving->move(v, dt, 0.);
   }
 } // namespace geocone

@@ -13,16 +13,28 @@ namespace geocone
 {
   using namespace dealii;
 
-  MeshTransfer::MeshTransfer(const Scene          &scene,
-                             const BackgroundMesh &mesh,
-                             const Space          &space)
-    : mesh(mesh)
+  MeshTransfer::MeshTransfer(const Scene    &scene,
+                             BackgroundMesh &mesh,
+                             Space          &space,
+                             RankBalance    &balance)
+    : scene(scene)
+    , mesh(mesh)
     , space(space)
+    , balance(balance)
     , comm(mesh.triangulation().get_communicator())
     , n(space.nodes_per_cell())
     , search(mesh)
-    , exchanged(space.partitioner())
   {
+    store_nodes();
+    const Constraints constraints(scene, mesh, space);
+    for (unsigned int c = 0; c < scene.dirichlet.list.size(); ++c)
+      centres.push_back(constraints.centre(c));
+  }
+
+  void
+  MeshTransfer::store_nodes()
+  {
+    exchanged.reinit(space.partitioner());
     const auto &tria = mesh.triangulation();
     cell_nodes.assign(n * tria.n_active_cells(), numbers::invalid_unsigned_int);
     std::vector<types::global_dof_index> nodes;
@@ -38,17 +50,45 @@ namespace geocone
     read.resize(node_size * n_nodes);
     write.resize(node_size * n_nodes);
     mass.resize(n_nodes);
-    mine = {{{0, space.n_owned_nodes()}}};
+    mine       = {{{0, space.n_owned_nodes()}}};
+    prescribed = Constraints(scene, mesh, space).prescribed_nodes();
+  }
 
-    const Constraints constraints(scene, mesh, space);
-    prescribed = constraints.prescribed_nodes();
-    for (unsigned int c = 0; c < scene.dirichlet.list.size(); ++c)
-      centres.push_back(constraints.centre(c));
+  void
+  MeshTransfer::hand_over(const std::vector<PointArrays> &groups)
+  {
+    std::vector<unsigned int> n_in_cell(mesh.triangulation().n_active_cells());
+    for (const PointArrays &group : groups)
+      for (unsigned int p = 0; p < group.n_points(); ++p)
+        if (group.cell[p] != numbers::invalid_unsigned_int)
+          ++n_in_cell[group.cell[p]];
+    balance.repartition(std::move(n_in_cell), mesh, space);
+    store_nodes();
   }
 
   void
   MeshTransfer::sort(std::vector<PointArrays> &groups)
   {
+    double n_here = 0.;
+    for (PointArrays &group : groups)
+      for (unsigned int p = 0; p < group.n_points(); ++p)
+        {
+          unsigned int &cell  = group.cell[p];
+          const auto    place = search.find(
+            group.position.of(p),
+            cell < mesh.triangulation().n_active_cells() ? search.cell(cell)
+                                                            : Cell());
+          cell = numbers::invalid_unsigned_int;
+          if (place)
+            {
+              cell          = place->cell->active_cell_index();
+              group.unit[p] = place->unit;
+              ++n_here;
+            }
+        }
+    if (balance.is_due(n_here, comm))
+      hand_over(groups);
+
     lost.clear();
     functions.resize(groups.size());
     const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
@@ -60,20 +100,15 @@ namespace geocone
         unsigned int              n_staying = 0;
         for (unsigned int p = 0; p < group.n_points(); ++p)
           {
-            const unsigned int c     = group.cell[p];
-            auto               place = search.find(group.position.of(p),
-                                     c < mesh.triangulation().n_active_cells()
-                                                     ? search.cell(c)
-                                                     : Cell());
-            if (place)
-              owner[p] = search.owner(place->cell);
+            unsigned int &cell = group.cell[p];
+            if (cell != numbers::invalid_unsigned_int)
+              owner[p] = search.owner(search.cell(cell));
             else
               {
                 lost.push_back({{g, n_staying}});
-                place = CellSearch::Place{*mesh.own_cells().begin(), {}};
+                cell = (*mesh.own_cells().begin())->active_cell_index();
+                group.unit[p] = Point<dim>();
               }
-            group.cell[p] = place->cell->active_cell_index();
-            group.unit[p] = place->unit;
             n_staying += owner[p] == rank;
           }
         migrate(group, owner, comm);

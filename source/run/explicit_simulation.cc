@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/over_ranks.h>
 #include <geocone/output/run_status.h>
 #include <geocone/run/explicit_simulation.h>
 #include <geocone/run/run_estimate.h>
@@ -154,7 +155,9 @@ namespace geocone
             {"cells", stepper.grid().n_cells()},
             {"nodes", stepper.grid().n_all_nodes()},
             {"points", state.n_points},
-            {"ranks", Utilities::MPI::n_mpi_processes(comm)}};
+            {"ranks", Utilities::MPI::n_mpi_processes(comm)},
+            {"imbalance", imbalance(stepper.n_points_of_rank(), comm)},
+            {"repartitions", stepper.grid().n_repartitions()}};
   }
 
   Json

@@ -130,6 +130,7 @@ namespace geocone
     check_parameters();
     check_round_body(*scene);
     seeding.prepare(*scene);
+    balance.prepare();
     kernels = &transfer_kernels();
 
     std::vector<std::string> remarks;
@@ -148,7 +149,7 @@ namespace geocone
       {
         mesh.prepare(*scene, method);
         space.prepare(mesh, method);
-        transfer = std::make_unique<MeshTransfer>(*scene, mesh, space);
+        transfer = std::make_unique<MeshTransfer>(*scene, mesh, space, balance);
         datum    = mesh.lower_corner();
         seed_points(
           seeding.count(*scene, mesh),
@@ -223,16 +224,16 @@ namespace geocone
   {
     if (Utilities::MPI::logical_or(some_left, comm))
       remove_massless();
-    unsigned long n_points = 0;
-    for (const PointArrays &group : groups)
-      n_points += group.n_points();
-    if (Utilities::MPI::sum(n_points, comm) == 0)
+    if (Utilities::MPI::sum(n_points_of_rank(), comm) == 0)
       throw StepFailure("all points have left the background mesh\n"
                         "  remedy:  end the loading earlier, or enlarge "
                         "'Mesh/Box'");
     {
-      const Stopwatch watch(clock.refresh);
+      const Stopwatch    watch(clock.refresh);
+      const unsigned int before = transfer->n_repartitions();
       transfer->sort(groups);
+      if (boundary && transfer->n_repartitions() > before)
+        boundary->follow_ranks();
     }
     for (const auto &[g, p] : transfer->lost)
       {

@@ -3,7 +3,6 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
-#include <geocone/base/over_ranks.h>
 #include <geocone/discretisation/point_elasticity.h>
 #include <geocone/time_stepping/implicit_mpm.h>
 
@@ -13,7 +12,6 @@
 #include <deal.II/lac/solver_control.h>
 
 #include <algorithm>
-#include <map>
 
 namespace geocone
 {
@@ -65,11 +63,6 @@ namespace geocone
                   largest_move,
                   "A step in which a particle would move farther than so many "
                   "cells is cut.");
-    add_parameter("Largest imbalance",
-                  largest_imbalance,
-                  "On several ranks: cells are handed over between them where "
-                  "the fullest has more than so many times the mean number of "
-                  "particles; at least 1.");
   }
 
   void
@@ -87,11 +80,7 @@ namespace geocone
     if (!(largest_move > 0.))
       throw InputError(
         section + "Largest move", largest_move, "> 0 cells", "3 is usual");
-    if (!(largest_imbalance >= 1.))
-      throw InputError(section + "Largest imbalance",
-                       largest_imbalance,
-                       ">= 1, the fullest rank beside the mean",
-                       "1.2 is usual; 1000 leaves all cells where they are");
+    balance.prepare();
     if (ghosts == Ghosts::all && !space->is_spline())
       throw InputError(
         section + "Ghost stiffness of",
@@ -225,7 +214,7 @@ namespace geocone
                  "differently: take the grid velocity";
     datum = mesh->lower_corner();
     if (is_unbalanced(points))
-      balance(points);
+      hand_over(points);
     set_up(newton);
     check_contact(points);
     if (!grid_follows.empty())
@@ -277,40 +266,30 @@ namespace geocone
   bool
   ImplicitMPM::is_unbalanced(const MaterialPoints &points) const
   {
-    return imbalance(points.n_points(),
-                     mesh->triangulation().get_communicator()) >
-           std::max(largest_imbalance, 1.1 * least_imbalance);
+    return balance.is_due(points.n_points(),
+                          mesh->triangulation().get_communicator());
   }
 
   void
-  ImplicitMPM::balance(MaterialPoints &points)
+  ImplicitMPM::hand_over(MaterialPoints &points)
   {
-    // Cells without points cost next to nothing, but must be somewhere.
-    std::map<BackgroundMesh::Cell, unsigned int> n_points;
-    for (unsigned int c = 0; c < points.n_cells(); ++c)
-      n_points[points.cells[c]] =
-        points.first_point[c + 1] - points.first_point[c];
-    mesh->repartition([&](const BackgroundMesh::Cell &cell) {
-      const auto found = n_points.find(cell);
-      return 1 + (found == n_points.end() ? 0 : 100 * found->second);
-    });
-    space->follow_ranks();
+    std::vector<unsigned int> n_in_cell(mesh->triangulation().n_active_cells());
+    for (const unsigned int cell : points.cell)
+      ++n_in_cell[cell];
+    balance.repartition(std::move(n_in_cell), *mesh, *space);
     particles.follow_ranks(points);
-    least_imbalance =
-      imbalance(points.n_points(), mesh->triangulation().get_communicator());
-    ++n_repartitions_;
   }
 
   void
-  ImplicitMPM::balance(const NonsmoothNewton &newton,
-                       TimerOutput           &timer,
-                       Kinematics            &kinematics,
-                       MaterialPoints        &points)
+  ImplicitMPM::hand_over_state(const NonsmoothNewton &newton,
+                               TimerOutput           &timer,
+                               Kinematics            &kinematics,
+                               MaterialPoints        &points)
   {
     Archive archive(mesh->triangulation().get_communicator());
     save_nodes(archive, "velocity", *mesh, *space, kinematics.velocity);
     save_grid(archive);
-    balance(points);
+    hand_over(points);
     set_up(newton);
     kinematics.velocity.reinit(space->partitioner());
     velocity_L.reinit(space->partitioner());
@@ -701,7 +680,7 @@ namespace geocone
     particles.sort(points);
     begun = false;
     if (is_unbalanced(points))
-      balance(newton, timer, kinematics, points);
+      hand_over_state(newton, timer, kinematics, points);
 
     report.energies = state_energies(kinematics, points, t + h);
     if (particles.n_lost() > n_lost_before)

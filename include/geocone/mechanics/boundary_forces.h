@@ -8,6 +8,7 @@
 #include <geocone/mechanics/grid_transfer.h>
 #include <geocone/mechanics/moving_conditions.h>
 
+#include <memory>
 #include <vector>
 
 namespace geocone
@@ -27,6 +28,10 @@ namespace geocone
     BoundaryForces(const Scene          &scene,
                    const BackgroundMesh &mesh,
                    const Space          &space);
+
+    /** After BackgroundMesh::repartition(), and Space::follow_ranks(). Collective. */
+    void
+    follow_ranks();
 
     /** Evaluates what acts in the middle of a step, at time t. Collective.
      *  @throws StepFailure if a loaded side has left the mesh */
@@ -63,15 +68,17 @@ namespace geocone
     void
     state(StateRow &row)
     {
-      moving.state(row);
+      moving->state(row);
     }
 
   private:
-    const Space      &space;
-    const bool        has_tractions;
-    MovingConditions  moving;
-    AbsorbingBoundary absorbing;
-    Vector            tractions, coefficient, incoming;
+    const Scene                       &scene;
+    const BackgroundMesh              &mesh;
+    const Space                       &space;
+    const bool                         has_tractions;
+    std::unique_ptr<MovingConditions>  moving;
+    std::unique_ptr<AbsorbingBoundary> absorbing;
+    Vector                             tractions, coefficient, incoming;
   };
 } // namespace geocone
 

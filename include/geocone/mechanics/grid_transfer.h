@@ -110,6 +110,13 @@ namespace geocone
       return false;
     }
 
+    /** How often sort() has handed over cells between ranks, and numbered nodes anew. */
+    virtual unsigned int
+    n_repartitions() const
+    {
+      return 0;
+    }
+
     /** Whether points know their cells (PointState::cell and unit), which sort()
      *  finds. */
     virtual bool

@@ -5,6 +5,7 @@
 #define geocone_mechanics_mesh_transfer_h
 
 #include <geocone/discretisation/cell_search.h>
+#include <geocone/discretisation/rank_balance.h>
 #include <geocone/discretisation/space.h>
 #include <geocone/mechanics/grid_transfer.h>
 #include <geocone/mechanics/point_functions.h>
@@ -14,15 +15,17 @@ namespace geocone
   /**
    * The transfer on any mesh: each step looks for the cell of
    * each point, first in the cell where it was, then in those that share a vertex
-   * with it, then everywhere, and evaluates the functions there once.
+   * with it, then everywhere, and evaluates the functions there once. Where ranks have
+   * too unequal numbers of points they hand over cells.
    */
   class MeshTransfer : public GridTransfer
   {
   public:
     /** @throws InputError for sides that the mesh has not */
-    MeshTransfer(const Scene          &scene,
-                 const BackgroundMesh &mesh,
-                 const Space          &space);
+    MeshTransfer(const Scene    &scene,
+                 BackgroundMesh &mesh,
+                 Space          &space,
+                 RankBalance    &balance);
 
     void
     sort(std::vector<PointArrays> &groups) override;
@@ -38,6 +41,12 @@ namespace geocone
     }
     bool
     owns(const dealii::Point<dim> &x) const override;
+
+    unsigned int
+    n_repartitions() const override
+    {
+      return balance.n_repartitions();
+    }
 
     bool
     moves_each_step() const override
@@ -123,6 +132,16 @@ namespace geocone
       std::array<std::vector<double>, dim> slopes;
     };
 
+    /** Makes room for the nodes of this rank, and finds what conditions prescribe.
+     *  Collective. */
+    void
+    store_nodes();
+
+    /** Hands over cells between ranks. @param groups of points that know their cells,
+     *  or have none. Collective. */
+    void
+    hand_over(const std::vector<PointArrays> &groups);
+
     /** Evaluates the functions of all points of a group, and its padding. */
     void
     evaluate(const PointArrays &group, Functions &functions) const;
@@ -140,11 +159,13 @@ namespace geocone
                 const BlockScratch  &scratch,
                 const bool           with_mass);
 
-    const BackgroundMesh &mesh;
-    const Space          &space;
-    const MPI_Comm        comm;
-    const unsigned int    n; ///< nodes per cell
-    const CellSearch      search;
+    const Scene       &scene;
+    BackgroundMesh    &mesh;
+    Space             &space;
+    RankBalance       &balance;
+    const MPI_Comm     comm;
+    const unsigned int n; ///< nodes per cell
+    const CellSearch   search;
 
     std::vector<unsigned int> cell_nodes; ///< n per active cell index
     std::vector<Functions>    functions;  ///< per group

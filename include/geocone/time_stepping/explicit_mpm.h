@@ -9,6 +9,7 @@
 #include <geocone/discretisation/background_mesh.h>
 #include <geocone/discretisation/outflow.h>
 #include <geocone/discretisation/point_arrays.h>
+#include <geocone/discretisation/rank_balance.h>
 #include <geocone/discretisation/seeding.h>
 #include <geocone/discretisation/space.h>
 #include <geocone/mechanics/grid_transfer.h>
@@ -163,6 +164,16 @@ namespace geocone
     grid() const
     {
       return *transfer;
+    }
+
+    /** How many points this rank has. */
+    unsigned long
+    n_points_of_rank() const
+    {
+      unsigned long n = 0;
+      for (const PointArrays &group : groups)
+        n += group.n_points();
+      return n;
     }
 
     std::string
@@ -395,6 +406,7 @@ namespace geocone
     Space          space;
     Seeding        seeding;
     Outflow        outflow;
+    RankBalance    balance;
 
     ParticleTransfer rule;
 

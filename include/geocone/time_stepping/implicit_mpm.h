@@ -6,6 +6,7 @@
 
 #include <geocone/base/choice.h>
 #include <geocone/discretisation/particles.h>
+#include <geocone/discretisation/rank_balance.h>
 #include <geocone/mechanics/absorbing_boundary.h>
 #include <geocone/mechanics/moving_conditions.h>
 #include <geocone/mechanics/particle_contact.h>
@@ -125,7 +126,7 @@ namespace geocone
     unsigned int
     n_repartitions() const override
     {
-      return n_repartitions_;
+      return balance.n_repartitions();
     }
 
     /** Where its particles come from. */
@@ -170,21 +171,20 @@ namespace geocone
     void
     set_up(const NonsmoothNewton &newton);
 
-    /** Whether the fullest rank has too many of the points. Collective. */
+    /** Whether the ranks have too unequal numbers of the points. Collective. */
     bool
     is_unbalanced(const MaterialPoints &points) const;
 
-    /** Hands over cells between the ranks, so that each has as many points. Nodes are
-     *  numbered anew: set_up() is to follow. Collective. */
+    /** Hands over cells between the ranks: set_up() is to follow. Collective. */
     void
-    balance(MaterialPoints &points);
+    hand_over(MaterialPoints &points);
 
     /** The same in the course of a run, with all that is state. Collective. */
     void
-    balance(const NonsmoothNewton &newton,
-            dealii::TimerOutput   &timer,
-            Kinematics            &kinematics,
-            MaterialPoints        &points);
+    hand_over_state(const NonsmoothNewton &newton,
+                    dealii::TimerOutput   &timer,
+                    Kinematics            &kinematics,
+                    MaterialPoints        &points);
 
     /** @name The state of nodes, sides and obstacles. Collective. */
     /** @{ */
@@ -361,16 +361,12 @@ namespace geocone
     double ghost_part      = 1e-5; ///< gamma of GhostStiffness
     double largest_move    = 3.;
 
-    /** Points of the fullest rank over their mean: that is borne, and that the last
-     *  balance left, since cells are not divided. */
-    double       largest_imbalance = 1.2, least_imbalance = 1.;
-    unsigned int n_repartitions_   = 0;
-
     std::string                  grid_follows; ///< a condition, or nothing
     std::optional<FollowingGrid> following;
     bool nodes_moved = false; ///< since the constraints were made
 
-    Particles particles;
+    Particles   particles;
+    RankBalance balance;
 
     unsigned int n_light = 0; ///< light functions of the present points
 
