@@ -24,9 +24,11 @@ namespace geocone
       "nu > 0.49) and a soil with theta below about phi/2 and "
       "sin(phi) - sin(theta) > 0.2 that a part of the boundary is "
       "pushed into: B/1000 over its speed, B its length (twice "
-      "that where it ends in a plane of symmetry: a side left or right "
-      "on all of which only 'Velocity x' is held, at 0; of a round "
-      "body its radius); with 'Time stepping/Friction' = exact it is "
+      "that where it is a part of a side and ends in a plane of "
+      "symmetry: a side left or right on all of which only "
+      "'Velocity x' is held, at 0; of a round body its radius); with "
+      "'Time stepping/Friction' = exact it is 0 always, and for "
+      "Drucker-Prager's cone, which is easy without."); with 'Time stepping/Friction' = exact it is "
       "0 always, and for Drucker-Prager's cone, which is easy "
       "without.");
   }

@@ -205,13 +205,13 @@ namespace geocone
           upright = upright || side == "left" || side == "right";
         double     length = std::abs(high[upright] - low[upright]);
         const auto centre = dealii::Point<dim>((low + high) / 2.);
-        // A part that ends in a plane of symmetry goes on beyond it; of a round body the
-        // radius counts, or loads would come out lower by a per cent.
+        // A part of a side that ends in a plane of symmetry goes on beyond it; of a round
+        // body the radius counts, or loads would come out lower by a per cent.
         const auto [left, right] = body.get_boundary_points();
-        const bool goes_on_left  = low[0] <= left[0] && is_symmetric("left", 0),
-                   goes_on_right =
-                     high[0] >= right[0] && is_symmetric("right", 0);
-        if (!upright && goes_on_left != goes_on_right &&
+        const bool ends_left     = low[0] <= left[0],
+                   ends_right    = high[0] >= right[0];
+        if (!upright && ends_left != ends_right &&
+            is_symmetric(ends_left ? "left" : "right", 0) &&
             !geometry.is_axisymmetric())
           length *= 2.;
         add(length, speed_of([&](const double t) {

@@ -225,6 +225,7 @@ namespace geocone
           points.position[p],
           scene->geometry.size_of_point(points.position[p], points.weight[p]));
     begin(points, timer);
+    unknowns = constraints->n_rows;
     if (bodies)
       bodies->check_start(points, *constraints);
     constraints->check_axis(*mesh, *space);
@@ -610,9 +611,9 @@ namespace geocone
     const TimeStep    step(integration, t, h);
     const RaisedLoads raised = begin_step(step, points, timer);
     StepReport        report;
-    report.unknowns    = constraints->n_rows;
-    report.multipliers = constraints->multipliers.n_rows();
-    report.rows        = constraints->multipliers.n_given();
+    report.unknowns = unknowns = constraints->n_rows;
+    report.multipliers         = constraints->multipliers.n_rows();
+    report.rows                = constraints->multipliers.n_given();
     Vector v = problem->make_vector(), residual = problem->make_vector();
     report.newton =
       solve(step, kinematics, newton, freezer, timer, v, residual);

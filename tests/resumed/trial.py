@@ -92,7 +92,8 @@ NOT_COMPARED = {"run", "cost", "warnings"}  # of the summary
 TIMES = {"CPU time of rank 0 (s)"}
 # Counts, and errors that are rounding themselves.
 NOISE = ("(-)", "newton", "quality", "residual", "identity", "least_step", "cone excess",
-         "relative_error", "penetration", "drift", "natural_map", "nonzeros", "ranks")
+         "relative_error", "penetration", "drift", "natural_map", "nonzeros", "ranks", "imbalance",
+         "repartitions")
 PATIENCE = 300.  # s
 
 

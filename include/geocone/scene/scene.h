@@ -56,9 +56,9 @@ namespace geocone
     /**
      * The time in which a part of the boundary that is pushed moves by a thousandth
      * of its length (s): the least of all of them at their greatest speed, or 0 if
-     * nothing is pushed. The length is that of the box or the side, and twice it
-     * where one end is in a plane of symmetry; of an obstacle its width, or that of the
-     * body.
+     * nothing is pushed. The length is that of the box or the side, and twice it where
+     * it is a part of a side and ends in a plane of symmetry; of an obstacle its width,
+     * or that of the body.
      */
     double
     time_of_small_motion() const;

@@ -84,7 +84,7 @@ namespace geocone
     unsigned int
     n_unknowns() const override
     {
-      return constraints->n_rows;
+      return unknowns;
     }
 
     bool
@@ -384,6 +384,7 @@ namespace geocone
     std::optional<GhostPlaces>          ghost_places; ///< of splines that move
     std::unique_ptr<IncrementalProblem> problem;
     std::unique_ptr<LinearSystem>       system;
+    unsigned int                        unknowns    = 0; ///< of the last step
     bool                                begun       = false;
     bool                                has_pattern = false; ///< of begin()
     Vector                              lumped_mass;
