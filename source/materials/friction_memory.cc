@@ -28,9 +28,7 @@ namespace geocone
       "symmetry: a side left or right on all of which only "
       "'Velocity x' is held, at 0; of a round body its radius); with "
       "'Time stepping/Friction' = exact it is 0 always, and for "
-      "Drucker-Prager's cone, which is easy without."); with 'Time stepping/Friction' = exact it is "
-      "0 always, and for Drucker-Prager's cone, which is easy "
-      "without.");
+      "Drucker-Prager's cone, which is easy without.");
   }
 
   void

@@ -680,6 +680,7 @@ namespace geocone
       before = state_energies(kinematics, points, t + h);
     particles.sort(points);
     begun = false;
+    const unsigned int n_light_of_step = n_light;
     if (is_unbalanced(points))
       hand_over_state(newton, timer, kinematics, points);
 
@@ -688,7 +689,7 @@ namespace geocone
       report.of_lost = before - report.energies;
     report.largest_plastic_strain =
       largest_plastic_strain(points, v.get_mpi_communicator());
-    report.motion = {n_light,
+    report.motion = {n_light_of_step,
                      moving->n_behind(points),
                      put_back.first,
                      put_back.second,
