@@ -679,7 +679,7 @@ namespace geocone
     if (points_may_leave())
       before = state_energies(kinematics, points, t + h);
     particles.sort(points);
-    begun = false;
+    begun                              = false;
     const unsigned int n_light_of_step = n_light;
     if (is_unbalanced(points))
       hand_over_state(newton, timer, kinematics, points);
