@@ -25,7 +25,6 @@ import json
 import math
 import os
 import random
-import re
 import signal
 import subprocess
 import sys
@@ -156,15 +155,6 @@ def numbers(folder):
                    if "timestep" in line]
 
 
-def unit_of(column):
-    """That of a column, "load (N/m)", or of an entry of the summary, "kinetic_J_per_m"."""
-    found = re.search(r"\(([^()]*)\)$|_(J|N_s|N)(_per_m)?$", column)
-    if not found:
-        return column
-    unit = found[1] or found[2].replace("_", " ") + ("/m" if found[3] else "")
-    return unit.replace("N m/m", "N/m")
-
-
 def compare(expected, results, tolerance):
     """@throws Wrong if numbers differ by more than a part of the largest of a column."""
     (numbers_a, times_a), (numbers_b, times_b) = expected, results
@@ -175,14 +165,14 @@ def compare(expected, results, tolerance):
     scale, largest = {}, {}
     for name, value in numbers_a.items():
         column = name.split(", ")[-1]
-        unit = unit_of(column)
+        unit = column.rsplit("(", 1)[-1].replace("N m/m", "N/m")
         scale[column] = max(scale.get(column, 0.), abs(value))
         largest[unit] = max(largest.get(unit, 0.), abs(value))
     for name, value in numbers_a.items():
         column = name.split(", ")[-1]
         other = numbers_b[name]
         # What rounding leaves of nothing is compared with the largest of its unit.
-        unit = unit_of(column)
+        unit = column.rsplit("(", 1)[-1].replace("N m/m", "N/m")
         allowed = tolerance * max(scale[column], 0.1 * largest[unit])
         if tolerance > 0. and any(word in column for word in NOISE):
             continue
