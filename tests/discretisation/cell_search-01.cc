@@ -16,7 +16,6 @@
 
 using namespace geocone;
 using dealii::Point;
-namespace mpi = dealii::Utilities::MPI;
 
 void
 check(const std::string &name, const std::vector<std::string> &overrides)

@@ -16,9 +16,6 @@
 using namespace geocone;
 using dealii::Point;
 using dealii::Tensor;
-namespace mpi = dealii::Utilities::MPI;
-
-const MPI_Comm comm = MPI_COMM_WORLD;
 
 void
 check(const std::string &name, const std::vector<std::string> &overrides)

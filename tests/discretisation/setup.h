@@ -11,6 +11,10 @@
 
 #include <cstdio>
 
+namespace mpi = dealii::Utilities::MPI;
+
+const MPI_Comm comm = MPI_COMM_WORLD;
+
 /** Scene, mesh, space and seeding of a parameter file with overrides. */
 struct Setup
 {
@@ -19,7 +23,7 @@ struct Setup
             GEOCONE_SOURCE_DIR "/tests/" + file_name),
            overrides)
     , scene(file)
-    , mesh(MPI_COMM_WORLD)
+    , mesh(comm)
     , particles(file)
   {}
 
@@ -43,15 +47,14 @@ struct Setup
 inline bool
 speaks()
 {
-  return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  return mpi::this_mpi_process(comm) == 0;
 }
 
 /** Prints a verdict on what must hold on all ranks. Collective. */
 inline void
 print(const std::string &what, const bool holds)
 {
-  const bool all =
-    dealii::Utilities::MPI::min(holds ? 1 : 0, MPI_COMM_WORLD) == 1;
+  const bool all = mpi::min(holds ? 1 : 0, comm) == 1;
   if (speaks())
     std::printf("  %s: %s\n", what.c_str(), all ? "yes" : "NO");
 }

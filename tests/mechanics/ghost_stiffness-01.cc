@@ -16,9 +16,6 @@
 
 using namespace geocone;
 using dealii::Point;
-namespace mpi = dealii::Utilities::MPI;
-
-const MPI_Comm comm = MPI_COMM_WORLD;
 
 /** How full a function at x is: below a surface that rises to the right, between
  *  half and nothing in a band, and full below. */

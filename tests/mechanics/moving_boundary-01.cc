@@ -15,9 +15,6 @@
 
 using namespace geocone;
 using dealii::Point;
-namespace mpi = dealii::Utilities::MPI;
-
-const MPI_Comm comm = MPI_COMM_WORLD;
 
 /** int_from^to (s x + t y)^k along a + r (b - a) with respect to r. */
 double

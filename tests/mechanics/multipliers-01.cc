@@ -16,9 +16,7 @@
 
 using namespace geocone;
 using dealii::Point;
-namespace mpi = dealii::Utilities::MPI;
 
-const MPI_Comm     comm  = MPI_COMM_WORLD;
 const unsigned int plate = 1, wall = 2; // conditions
 
 /** A velocity asked for at a point. */

@@ -18,9 +18,6 @@ using namespace geocone;
 using dealii::Point;
 using dealii::Tensor;
 using dealii::TimerOutput;
-namespace mpi = dealii::Utilities::MPI;
-
-const MPI_Comm comm = MPI_COMM_WORLD;
 
 /** A run of some steps, whose particles can be set in between. */
 struct Run
