@@ -25,14 +25,14 @@ namespace geocone
     , n(space.nodes_per_cell())
     , search(mesh)
   {
-    store_nodes();
     const Constraints constraints(scene, mesh, space);
+    store_nodes(constraints);
     for (unsigned int c = 0; c < scene.dirichlet.list.size(); ++c)
       centres.push_back(constraints.centre(c));
   }
 
   void
-  MeshTransfer::store_nodes()
+  MeshTransfer::store_nodes(const Constraints &constraints)
   {
     exchanged.reinit(space.partitioner());
     const auto &tria = mesh.triangulation();
@@ -51,7 +51,7 @@ namespace geocone
     write.resize(node_size * n_nodes);
     mass.resize(n_nodes);
     mine       = {{{0, space.n_owned_nodes()}}};
-    prescribed = Constraints(scene, mesh, space).prescribed_nodes();
+    prescribed = constraints.prescribed_nodes();
   }
 
   void
@@ -63,7 +63,7 @@ namespace geocone
         if (group.cell[p] != numbers::invalid_unsigned_int)
           ++n_in_cell[group.cell[p]];
     balance.repartition(std::move(n_in_cell), mesh, space);
-    store_nodes();
+    store_nodes(Constraints(scene, mesh, space));
   }
 
   void

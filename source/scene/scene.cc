@@ -12,6 +12,32 @@
 
 namespace geocone
 {
+  namespace
+  {
+    /** Whether a side of the body, left or right, is a plane of symmetry: on all of it the
+     *  velocity across is held at zero, and nothing else is. */
+    bool
+    is_symmetric(const BoundaryConditions &conditions, const std::string &side)
+    {
+      bool is_held = false;
+      for (const auto &condition : conditions.list)
+        if (condition->is_on_side(side))
+          {
+            for (unsigned int d = 0; d < dim; ++d)
+              if (condition->components[d] &&
+                  (d > 0 || !condition->components[d]->is_zero()))
+                return false;
+            if (condition->tangential ||
+                (condition->normal && !condition->normal->is_zero()))
+              return false;
+            is_held =
+              is_held || ((condition->components[0] || condition->normal) &&
+                          !condition->wide_box() && !condition->has_formula());
+          }
+      return is_held;
+    }
+  } // namespace
+
   Scene::Scene(const ParameterFile &file)
     : geometry(file)
     , materials(file)
@@ -137,27 +163,6 @@ namespace geocone
     return "";
   }
 
-  bool
-  Scene::is_symmetric(const std::string &side, const unsigned int axis) const
-  {
-    bool is_held = false;
-    for (const auto &condition : dirichlet.list)
-      if (condition->is_on_side(side))
-        {
-          for (unsigned int d = 0; d < dim; ++d)
-            if (condition->components[d] &&
-                (d != axis || !condition->components[d]->is_zero()))
-              return false;
-          if (condition->tangential ||
-              (condition->normal && !condition->normal->is_zero()))
-            return false;
-          is_held =
-            is_held || ((condition->components[axis] || condition->normal) &&
-                        !condition->wide_box() && !condition->has_formula());
-        }
-    return is_held;
-  }
-
   double
   Scene::time_of_small_motion() const
   {
@@ -211,7 +216,7 @@ namespace geocone
         const bool ends_left     = low[0] <= left[0],
                    ends_right    = high[0] >= right[0];
         if (!upright && ends_left != ends_right &&
-            is_symmetric(ends_left ? "left" : "right", 0) &&
+            is_symmetric(dirichlet, ends_left ? "left" : "right") &&
             !geometry.is_axisymmetric())
           length *= 2.;
         add(length, speed_of([&](const double t) {

@@ -12,6 +12,8 @@
 
 namespace geocone
 {
+  class Constraints;
+
   /**
    * The transfer on any mesh: each step looks for the cell of
    * each point, first in the cell where it was, then in those that share a vertex
@@ -132,10 +134,9 @@ namespace geocone
       std::array<std::vector<double>, dim> slopes;
     };
 
-    /** Makes room for the nodes of this rank, and finds what conditions prescribe.
-     *  Collective. */
+    /** Makes room for the nodes of this rank, and finds what conditions prescribe. */
     void
-    store_nodes();
+    store_nodes(const Constraints &constraints);
 
     /** Hands over cells between ranks. @param groups of points that know their cells,
      *  or have none. Collective. */

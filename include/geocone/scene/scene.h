@@ -48,11 +48,6 @@ namespace geocone
       contacts.refuse(what, remedy);
     }
 
-    /** Whether a side of the body is a plane of symmetry, or the axis of a round body: on
-     *  all of it the velocity along this axis is held at zero, and nothing else is. */
-    bool
-    is_symmetric(const std::string &side, const unsigned int axis) const;
-
     /**
      * The time in which a part of the boundary that is pushed moves by a thousandth
      * of its length (s): the least of all of them at their greatest speed, or 0 if
