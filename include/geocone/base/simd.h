@@ -122,6 +122,44 @@ namespace geocone
       return p;
     }
 
+    /** Whether lower <= a <= upper in all places. */
+    friend bool
+    all_between(const Pack &a, const Pack &lower, const Pack &upper)
+    {
+      bool all = true;
+      for (int k = 0; k < n_parts; ++k)
+        all = all && xsimd::all((lower.part[k] <= a.part[k]) &
+                                (a.part[k] <= upper.part[k]));
+      return all;
+    }
+
+    /**
+     * The whole parts of values from 0 to 2^31 - 1, also as integers.
+     */
+    friend Pack
+    whole_part(const Pack &a, int *integers)
+    {
+      Pack p;
+#ifdef __AVX2__
+      if constexpr (n_parts == 1)
+        {
+          const __m128i whole = _mm256_cvttpd_epi32(a.part[0]);
+          _mm_storeu_si128(reinterpret_cast<__m128i *>(integers), whole);
+          p.part[0] = _mm256_cvtepi32_pd(whole);
+          return p;
+        }
+#endif
+      double v[4];
+      a.store(v);
+      for (int k = 0; k < 4; ++k)
+        {
+          integers[k] = static_cast<int>(v[k]);
+          v[k]        = integers[k];
+        }
+      p = load(v);
+      return p;
+    }
+
     double
     sum() const
     {

@@ -10,8 +10,8 @@
 
 /*
  * The versions of the kernels: a unit per architecture includes this file and
- * instantiates make_transfer_kernels(). Vectors run over the four values of a
- * node, which needs no lists of the points of a cell, or over four points.
+ * instantiates make_transfer_kernels(). Vectors run over four points, or over the
+ * four values of a node, which needs no lists of the points of a cell.
  * Everything here is a template over the architecture, or a member of one: a
  * plain inline function might be taken from the unit of another one.
  */
@@ -22,52 +22,152 @@ namespace geocone
   {
     using P = Pack<Arch>;
 
-    /** The functions that live at a point, the first of its (p + 1)^dim nodes, and
-     *  the values of the last direction as they are added to masses. */
+    /** A value of each function of each direction, at four points. */
     template <int p>
-    struct Nodes
-    {
-      long   first = 0;   ///< among those that are stored
-      int    lowest[dim]; ///< functions of the directions, among all
-      double N[dim][4], dN[dim][4];
-      P      last;
+    using Values = double[dim][p + 1][4];
 
-      Nodes(const GridView &grid, const TransferBlock &points, const unsigned k)
+    /** What a direction of a grid has for all points. */
+    template <int p>
+    struct Axis
+    {
+      P origin, inverse_size, last, first, stride;
+
+      /** Of the intervals p - 1 ... n_intervals - p, which are of one type. */
+      P inner_first, inner_last, inner[2 * p + 1][p + 1];
+    };
+
+    /** A grid as functions of degree p are found on it; a copy, which stores to
+     *  points and nodes cannot change. */
+    template <int p>
+    struct Grid : GridView
+    {
+      Axis<p> at[dim];
+
+      Grid(const GridView &view)
+        : GridView(view)
       {
         for (unsigned int d = 0; d < dim; ++d)
           {
-            const GridAxis &axis = grid.axes[d];
-            const double u = (points.x[d][k] - axis.origin) * axis.inverse_size;
-            int          i = static_cast<int>(u);
-            i              = i < 0 ? 0 : i;
-            i              = i < axis.n_intervals ? i : axis.n_intervals - 1;
-            const P       xi(u - i);
-            const double *c =
-              axis.coefficients + 4 * (2 * p + 1) * axis.type[i];
-            P value = P::load(c + 4 * p);
-            P slope = P::load(c + 4 * (2 * p));
-            for (int power = p - 1; power >= 0; --power)
-              value = value * xi + P::load(c + 4 * power);
-            for (int power = 2 * p - 1; power >= p + 1; --power)
-              slope = slope * xi + P::load(c + 4 * power);
-            value.store(N[d]);
-            slope.store(dN[d]);
-            first += (i - axis.first) * grid.stride[d];
-            lowest[d] = i;
-            last      = value;
+            const GridAxis &axis = axes[d];
+            const int       n    = axis.n_intervals;
+            at[d].origin         = P(axis.origin);
+            at[d].inverse_size   = P(axis.inverse_size);
+            at[d].last           = P(n - 1);
+            at[d].first          = P(axis.first);
+            at[d].stride         = P(stride[d]);
+            at[d].inner_first    = P(p - 1);
+            at[d].inner_last     = P(n - p); // there are none if n < 2 p - 1
+            const double *inner =
+              coefficients(axis, axis.type[p - 1 < n ? p - 1 : 0]);
+            for (int power = 0; power <= 2 * p; ++power)
+              for (int f = 0; f <= p; ++f)
+                at[d].inner[power][f] = P(inner[4 * power + f]);
           }
       }
 
-      /** Where the first node has its doubles. */
-      const double *
-      read(const GridView &grid) const
+      static const double *
+      coefficients(const GridAxis &axis, const int type)
       {
-        return grid.read + node_size * first;
+        return axis.coefficients + 4 * (2 * p + 1) * type;
+      }
+    };
+
+    /** The (p + 1)^dim functions that live at four points, k, k + 1, ... of a block. */
+    template <int p>
+    struct Nodes
+    {
+      int       first[4];       ///< of them, among those that are stored
+      int       lowest[dim][4]; ///< functions of the directions, among all
+      Values<p> N, dN;
+
+      Nodes(const Grid<p> &grid, const TransferBlock &points, const unsigned k)
+      {
+        P    place(0.), xi[dim];
+        bool inner = true;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const Axis<p> &axis = grid.at[d];
+            const P        u =
+              (P::load(points.x[d] + k) - axis.origin) * axis.inverse_size;
+            // Zero comes second, so that it is taken for what is not a number.
+            const P interval =
+              whole_part(min(max(u, P(0.)), axis.last), lowest[d]);
+            xi[d] = u - interval;
+            place += (interval - axis.first) * axis.stride;
+            inner =
+              inner && all_between(interval, axis.inner_first, axis.inner_last);
+          }
+        whole_part(place, first);
+        for (unsigned int d = 0; d < dim; ++d)
+          if (inner)
+            find(grid.at[d].inner, xi[d], N[d], dN[d]);
+          else
+            find_each(grid.axes[d], lowest[d], xi[d], N[d], dN[d]);
+      }
+
+      /** Where the first node of a point has its doubles. */
+      const double *
+      read(const GridView &grid, const int m) const
+      {
+        return grid.read + node_size * static_cast<long>(first[m]);
       }
       double *
-      write(const GridView &grid) const
+      write(const GridView &grid, const int m) const
       {
-        return grid.write + node_size * first;
+        return grid.write + node_size * static_cast<long>(first[m]);
+      }
+
+    private:
+      /** Of points on intervals with the same coefficients c: one function after the
+       *  other. */
+      static void
+      find(const P (&c)[2 * p + 1][p + 1],
+           const P &xi,
+           double (&N)[p + 1][4],
+           double (&dN)[p + 1][4])
+      {
+        for (int f = 0; f <= p; ++f)
+          {
+            P value = c[p][f], slope = c[2 * p][f];
+            for (int power = p - 1; power >= 0; --power)
+              value = value * xi + c[power][f];
+            for (int power = 2 * p - 1; power >= p + 1; --power)
+              slope = slope * xi + c[power][f];
+            value.store(N[f]);
+            slope.store(dN[f]);
+          }
+      }
+
+      /** Of points of which some are near an end of the grid: one point after the
+       *  other. */
+      static void
+      find_each(const GridAxis &axis,
+                const int (&interval)[4],
+                const P &places,
+                double (&N)[p + 1][4],
+                double (&dN)[p + 1][4])
+      {
+        double xi[4];
+        places.store(xi);
+        P value[4], slope[4];
+        for (int m = 0; m < 4; ++m)
+          {
+            const double *c =
+              Grid<p>::coefficients(axis, axis.type[interval[m]]);
+            value[m] = P::load(c + 4 * p);
+            slope[m] = P::load(c + 4 * (2 * p));
+            for (int power = p - 1; power >= 0; --power)
+              value[m] = value[m] * P(xi[m]) + P::load(c + 4 * power);
+            for (int power = 2 * p - 1; power >= p + 1; --power)
+              slope[m] = slope[m] * P(xi[m]) + P::load(c + 4 * power);
+          }
+        transpose(value[0], value[1], value[2], value[3]);
+        transpose(slope[0], slope[1], slope[2], slope[3]);
+        for (int f = 0; f <= p; ++f)
+          {
+            value[f].store(N[f]);
+            slope[f].store(dN[f]);
+          }
       }
     };
 
@@ -85,27 +185,29 @@ namespace geocone
     };
 
     /**
-     * sum q N over the functions of the directions 0 ... d, q four doubles of a
-     * node, and the same with dN in place of N for one direction after the other.
+     * sum q N over the functions of the directions 0 ... d at the mth of four points,
+     * q four doubles of a node, and the same with dN in place of N for one direction
+     * after the other.
      */
     template <int p, int d, bool with_slopes>
     static Sum<d>
-    sum(const GridView &grid,
-        const double (&N)[dim][4],
-        const double (&dN)[dim][4],
-        const double *node)
+    sum(const GridView  &grid,
+        const Values<p> &N,
+        const Values<p> &dN,
+        const int        m,
+        const double    *node)
     {
       Sum<d> all;
       for (int i = 0; i <= p; ++i)
         {
           const double *at = node + node_size * i * grid.stride[d];
-          const P       N_i(N[d][i]);
+          const P       N_i(N[d][i][m]);
           P             below;
           if constexpr (d == 0)
             below = P::load(at);
           else
             {
-              const auto part = sum<p, d - 1, with_slopes>(grid, N, dN, at);
+              const auto part = sum<p, d - 1, with_slopes>(grid, N, dN, m, at);
               below           = part.value;
               if constexpr (with_slopes)
                 for (int e = 0; e < d; ++e)
@@ -113,7 +215,7 @@ namespace geocone
             }
           all.value += below * N_i;
           if constexpr (with_slopes)
-            all.slope[d] += below * P(dN[d][i]);
+            all.slope[d] += below * P(dN[d][i][m]);
         }
       return all;
     }
@@ -124,21 +226,24 @@ namespace geocone
            const TransferBlock &points,
            BlockScratch        &scratch)
     {
-      const GridView grid = view; // a copy: stores cannot change it
-      for (unsigned int k = 0; k < points.n; ++k)
+      const Grid<p> grid(view);
+      for (unsigned int k = 0; k < points.n; k += 4)
         {
           const Nodes<p> at(grid, points, k);
-          const double  *node = at.read(grid);
-          double        *out  = scratch.gathered + BlockScratch::n_gathered * k;
-          const auto     first =
-            sum<p, dim - 1, with_slopes>(grid, at.N, at.dN, node);
-          first.value.store(out);
-          if constexpr (dim == 3)
-            sum<p, dim - 1, false>(grid, at.N, at.dN, node + 4)
-              .value.store(out + 4);
-          if constexpr (with_slopes)
-            for (unsigned int d = 0; d < dim; ++d)
-              first.slope[d].store(out + node_size + 4 * d);
+          double        *out = scratch.gathered + BlockScratch::n_gathered * k;
+          for (int m = 0; m < 4; ++m, out += BlockScratch::n_gathered)
+            {
+              const double *node = at.read(grid, m);
+              const auto    first =
+                sum<p, dim - 1, with_slopes>(grid, at.N, at.dN, m, node);
+              first.value.store(out);
+              if constexpr (dim == 3)
+                sum<p, dim - 1, false>(grid, at.N, at.dN, m, node + 4)
+                  .value.store(out + 4);
+              if constexpr (with_slopes)
+                for (unsigned int d = 0; d < dim; ++d)
+                  first.slope[d].store(out + node_size + 4 * d);
+            }
         }
     }
 
@@ -148,21 +253,25 @@ namespace geocone
                   const TransferBlock &points,
                   BlockScratch &)
     {
-      const GridView grid = view; // a copy: stores cannot change it
-      for (unsigned int k = 0; k < points.n; ++k)
+      const Grid<p> grid(view);
+      for (unsigned int k = 0; k < points.n; k += 4)
         {
           const Nodes<p> at(grid, points, k);
-          double         weights[dim][4];
+          Values<p>      weights;
           for (unsigned int d = 0; d < dim; ++d)
-            moments(grid, at, d, points.x[d][k], weights[d]);
-          const auto all =
-            sum<p, dim - 1, true>(grid, at.N, weights, at.read(grid));
-          for (unsigned int d = 0; d < dim; ++d)
+            for (int m = 0; m < 4; ++m)
+              find_moments(grid, at, d, m, points.x[d][k + m], weights);
+          for (int m = 0; m < 4; ++m)
             {
-              double column[4];
-              all.slope[d].store(column);
-              for (unsigned int c = 0; c < dim; ++c)
-                points.c[dim * c + d][k] = column[c];
+              const auto all =
+                sum<p, dim - 1, true>(grid, at.N, weights, m, at.read(grid, m));
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  double column[4];
+                  all.slope[d].store(column);
+                  for (unsigned int c = 0; c < dim; ++c)
+                    points.c[dim * c + d][k + m] = column[c];
+                }
             }
         }
     }
@@ -170,62 +279,75 @@ namespace geocone
     /** N_i (x_i - x)/sum_i N_i (x_i - x)^2, or dN_i/dx where that is 0/0. */
     template <int p>
     static void
-    moments(const GridView    &grid,
-            const Nodes<p>    &at,
-            const unsigned int d,
-            const double       x,
-            double            *weights)
+    find_moments(const GridView    &grid,
+                 const Nodes<p>    &at,
+                 const unsigned int d,
+                 const int          m,
+                 const double       x,
+                 Values<p>         &weights)
     {
-      const double *x_i    = grid.axes[d].places + at.lowest[d];
+      const double *x_i    = grid.axes[d].places + at.lowest[d][m];
       const double  size   = grid.axes[d].inverse_size;
       double        second = 0.;
       for (int i = 0; i <= p; ++i)
         {
-          const double r = x_i[i] - x;
-          weights[i]     = at.N[d][i] * r;
-          second += weights[i] * r;
+          const double r   = x_i[i] - x;
+          weights[d][i][m] = at.N[d][i][m] * r;
+          second += weights[d][i][m] * r;
         }
       const bool vanishes = second * size * size < vanishing_moment;
       for (int i = 0; i <= p; ++i)
-        weights[i] = vanishes ? at.dN[d][i] : weights[i] / second;
+        weights[d][i][m] =
+          vanishes ? at.dN[d][i][m] : weights[d][i][m] / second;
     }
 
-    /** Adds a N to the functions of the directions 0 ... d, unless there is no a,
-     *  and b_e dN for each direction. */
-    template <int p, int d, bool has_a, bool has_b>
+    /**
+     * Adds a N of n points, the mth of four and the next ones, to the functions of the
+     * directions 0 ... d, unless there is no a, and b_e dN for each direction. Points
+     * that have their nodes in common read and write them once.
+     */
+    template <int p, int d, int n, bool has_a, bool has_b>
     static void
     add(const GridView &grid,
         const Nodes<p> &at,
-        const P        &a,
-        const P        *b,
-        double         *node)
+        const int       m,
+        const P (&a)[n],
+        const P (&b)[n][d + 1],
+        double *node)
     {
       for (int i = 0; i <= p; ++i)
         {
           double *const to = node + node_size * i * grid.stride[d];
-          const P       N(at.N[d][i]), dN(at.dN[d][i]);
           if constexpr (d == 0)
             {
               P all = P::load(to);
-              if constexpr (has_a)
-                all += a * N;
-              if constexpr (has_b)
-                all += b[0] * dN;
+              for (int q = 0; q < n; ++q)
+                {
+                  if constexpr (has_a)
+                    all += a[q] * P(at.N[d][i][m + q]);
+                  if constexpr (has_b)
+                    all += b[q][0] * P(at.dN[d][i][m + q]);
+                }
               all.store(to);
             }
           else
             {
-              P next, slope[d];
-              if constexpr (has_a)
-                next = a * N;
-              if constexpr (has_a && has_b)
-                next += b[d] * dN;
-              else if constexpr (has_b)
-                next = b[d] * dN;
-              if constexpr (has_b)
-                for (int e = 0; e < d; ++e)
-                  slope[e] = b[e] * N;
-              add<p, d - 1, has_a || has_b, has_b>(grid, at, next, slope, to);
+              P next[n], slope[n][d];
+              for (int q = 0; q < n; ++q)
+                {
+                  const P N(at.N[d][i][m + q]), dN(at.dN[d][i][m + q]);
+                  if constexpr (has_a)
+                    next[q] = a[q] * N;
+                  if constexpr (has_a && has_b)
+                    next[q] += b[q][d] * dN;
+                  else if constexpr (has_b)
+                    next[q] = b[q][d] * dN;
+                  if constexpr (has_b)
+                    for (int e = 0; e < d; ++e)
+                      slope[q][e] = b[q][e] * N;
+                }
+              add<p, d - 1, n, has_a || has_b, has_b>(
+                grid, at, m, next, slope, to);
             }
         }
     }
@@ -236,45 +358,96 @@ namespace geocone
             const TransferBlock &points,
             BlockScratch        &scratch)
     {
-      const GridView grid = view; // a copy: stores cannot change it
-      for (unsigned int k = 0; k < points.n; ++k)
+      const Grid<p> grid(view);
+      for (unsigned int k = 0; k < points.n; k += 4)
         {
           const Nodes<p> at(grid, points, k);
-          const double  *in   = scratch.given + BlockScratch::n_given * k;
-          double        *node = at.write(grid);
-          const P        a    = P::load(in);
-          P              b[dim];
-          for (unsigned int d = 0; d < dim; ++d)
-            b[d] = P::load(in + 4 + 4 * d);
-          if constexpr (dim == 2)
-            add<p, dim - 1, true, with_slopes>(grid, at, a, b, node);
-          else
-            {
-              add<p, dim - 1, true, false>(grid, at, a, b, node);
-              if constexpr (with_slopes)
-                add<p, dim - 1, false, true>(grid, at, a, b, node + 4);
-            }
+          const double  *in = scratch.given + BlockScratch::n_given * k;
+          P              masses[4];
           if (grid.mass != nullptr)
-            add_mass<p, 0>(
-              grid, at, at.last * P(points.mass[k]), grid.mass + at.first);
+            {
+              // The functions of the last direction, point by point.
+              for (int i = 0; i < 4; ++i)
+                masses[i] =
+                  i <= p ? P::load(at.N[dim - 1][i]) * P::load(points.mass + k)
+                         : P(0.);
+              transpose(masses[0], masses[1], masses[2], masses[3]);
+            }
+          for (int m = 0; m < 4;)
+            if (m < 3 && at.first[m] == at.first[m + 1])
+              {
+                give<p, with_slopes, 2>(grid, at, m, in, masses);
+                m += 2;
+              }
+            else
+              {
+                give<p, with_slopes, 1>(grid, at, m, in, masses);
+                ++m;
+              }
+        }
+    }
+
+    /** What scatter() does with n points that have their nodes in common. */
+    template <int p, bool with_slopes, int n>
+    static void
+    give(const GridView &grid,
+         const Nodes<p> &at,
+         const int       m,
+         const double   *given,
+         const P (&masses)[4])
+    {
+      P a[n], b[n][dim];
+      for (int q = 0; q < n; ++q)
+        {
+          const double *in = given + BlockScratch::n_given * (m + q);
+          a[q]             = P::load(in);
+          for (unsigned int d = 0; d < dim; ++d)
+            b[q][d] = P::load(in + 4 + 4 * d);
+        }
+      double *const node = at.write(grid, m);
+      if constexpr (dim == 2)
+        add<p, dim - 1, n, true, with_slopes>(grid, at, m, a, b, node);
+      else
+        {
+          add<p, dim - 1, n, true, false>(grid, at, m, a, b, node);
+          if constexpr (with_slopes)
+            add<p, dim - 1, n, false, true>(grid, at, m, a, b, node + 4);
+        }
+      if (grid.mass != nullptr)
+        {
+          P mass[n];
+          for (int q = 0; q < n; ++q)
+            mass[q] = masses[m + q];
+          add_masses<p, 0, n>(grid, at, m, mass, grid.mass + at.first[m]);
         }
     }
 
     /** Functions of the last direction by four: beyond the p + 1st, zeros are
      *  added. */
-    template <int p, int d>
+    template <int p, int d, int n>
     static void
-    add_mass(const GridView &grid,
-             const Nodes<p> &at,
-             const P        &column,
-             double         *mass)
+    add_masses(const GridView &grid,
+               const Nodes<p> &at,
+               const int       m,
+               const P (&column)[n],
+               double *mass)
     {
       if constexpr (d == dim - 1)
-        (P::load(mass) + column).store(mass);
+        {
+          P all = P::load(mass);
+          for (int q = 0; q < n; ++q)
+            all += column[q];
+          all.store(mass);
+        }
       else
         for (int i = 0; i <= p; ++i)
-          add_mass<p, d + 1>(
-            grid, at, column * P(at.N[d][i]), mass + i * grid.stride[d]);
+          {
+            P part[n];
+            for (int q = 0; q < n; ++q)
+              part[q] = column[q] * P(at.N[d][i][m + q]);
+            add_masses<p, d + 1, n>(
+              grid, at, m, part, mass + i * grid.stride[d]);
+          }
     }
 
     template <int p>
@@ -283,37 +456,49 @@ namespace geocone
                    const TransferBlock &points,
                    BlockScratch &)
     {
-      const GridView grid = view; // a copy: stores cannot change it
-      for (unsigned int k = 0; k < points.n; ++k)
+      const Grid<p> grid(view);
+      for (unsigned int k = 0; k < points.n; k += 4)
         {
           const Nodes<p> at(grid, points, k);
-          double         C[dim * dim], r[dim][p + 1];
-          for (unsigned int i = 0; i < dim * dim; ++i)
-            C[i] = points.c[i][k];
-          for (unsigned int d = 0; d < dim; ++d)
-            for (int i = 0; i <= p; ++i)
-              r[d][i] = grid.axes[d].places[at.lowest[d] + i] - points.x[d][k];
-          const double  m    = points.mass[k];
-          double *const node = at.write(grid);
-          for (int i = 0; i <= p; ++i)
-            for (int j = 0; j <= p; ++j)
-              {
-                const double mN = m * at.N[0][i] * at.N[1][j];
-                double      *to =
-                  node + node_size * (i * grid.stride[0] + j * grid.stride[1]);
-                if constexpr (dim == 2)
-                  for (unsigned int c = 0; c < dim; ++c)
-                    to[c] +=
-                      mN * (C[dim * c] * r[0][i] + C[dim * c + 1] * r[1][j]);
-                else
-                  for (int l = 0; l <= p; ++l, to += node_size)
-                    for (unsigned int c = 0; c < dim; ++c)
-                      to[c] +=
-                        mN * at.N[2][l] *
-                        (C[dim * c] * r[0][i] + C[dim * c + 1] * r[1][j] +
-                         C[dim * c + 2] * r[2][l]);
-              }
+          for (int m = 0; m < 4; ++m)
+            add_affine(grid, at, points, k, m);
         }
+    }
+
+    /** What scatter_affine() does with the mth of four points. */
+    template <int p>
+    static void
+    add_affine(const GridView      &grid,
+               const Nodes<p>      &at,
+               const TransferBlock &points,
+               const unsigned int   k,
+               const int            m)
+    {
+      double C[dim * dim], r[dim][p + 1];
+      for (unsigned int i = 0; i < dim * dim; ++i)
+        C[i] = points.c[i][k + m];
+      for (unsigned int d = 0; d < dim; ++d)
+        for (int i = 0; i <= p; ++i)
+          r[d][i] =
+            grid.axes[d].places[at.lowest[d][m] + i] - points.x[d][k + m];
+      const double  mass = points.mass[k + m];
+      double *const node = at.write(grid, m);
+      for (int i = 0; i <= p; ++i)
+        for (int j = 0; j <= p; ++j)
+          {
+            const double mN = mass * at.N[0][i][m] * at.N[1][j][m];
+            double      *to =
+              node + node_size * (i * grid.stride[0] + j * grid.stride[1]);
+            if constexpr (dim == 2)
+              for (unsigned int c = 0; c < dim; ++c)
+                to[c] += mN * (C[dim * c] * r[0][i] + C[dim * c + 1] * r[1][j]);
+            else
+              for (int l = 0; l <= p; ++l, to += node_size)
+                for (unsigned int c = 0; c < dim; ++c)
+                  to[c] += mN * at.N[2][l][m] *
+                           (C[dim * c] * r[0][i] + C[dim * c + 1] * r[1][j] +
+                            C[dim * c + 2] * r[2][l]);
+          }
     }
 
     static void
@@ -494,19 +679,31 @@ namespace geocone
     {
       // Of the four doubles that slopes are added to, in which forces are.
       constexpr unsigned int forces = change_of_node % 4;
-      for (unsigned int k = 0; k < points.n; ++k)
+      for (unsigned int k = 0; k < points.n; k += 4)
         {
-          double      *out = scratch.given + BlockScratch::n_given * k;
-          const double m   = momentum ? points.mass[k] : 0.;
-          const double V   = force ? points.volume[k] : 0.;
-          if constexpr (dim == 2)
-            out[forces] = force ? scratch.hoop_force[k] : 0.;
+          double *const out = scratch.given + BlockScratch::n_given * k;
+          // Four doubles of each of four points.
+          const auto store = [&](P(&values)[4], const unsigned int place) {
+            transpose(values[0], values[1], values[2], values[3]);
+            for (unsigned int m = 0; m < 4; ++m)
+              values[m].store(out + BlockScratch::n_given * m + place);
+          };
+          const P m      = momentum ? P::load(points.mass + k) : P(0.);
+          const P V      = force ? P(0.) - P::load(points.volume + k) : P(0.);
+          P       all[4] = {P(0.), P(0.), P(0.), P(0.)};
           for (unsigned int c = 0; c < dim; ++c)
+            all[c] = m * P::load(points.v[c] + k);
+          if constexpr (dim == 2)
+            if (force)
+              all[forces] = P::load(scratch.hoop_force + k);
+          store(all, 0);
+          for (unsigned int d = 0; d < dim; ++d)
             {
-              out[c] = m * points.v[c][k];
-              for (unsigned int d = 0; d < dim; ++d)
-                out[4 + 4 * d + forces + c] =
-                  -V * points.s[place_of_component[c][d]][k];
+              P slope[4] = {P(0.), P(0.), P(0.), P(0.)};
+              for (unsigned int c = 0; c < dim; ++c)
+                slope[forces + c] =
+                  V * P::load(points.s[place_of_component[c][d]] + k);
+              store(slope, 4 + 4 * d);
             }
         }
     }
