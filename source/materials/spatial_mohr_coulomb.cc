@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/materials/pyramid_kernel.h>
 #include <geocone/materials/spatial_mohr_coulomb.h>
 
 #include <algorithm>
@@ -119,6 +120,30 @@ namespace geocone
   SpatialMohrCoulomb::non_associativity() const
   {
     return exact.sine > 0. ? (exact.sine - sin_theta) / exact.sine : 0.;
+  }
+
+  void
+  SpatialMohrCoulomb::advance(const PointBlock &block, LawCounts &counts) const
+  {
+    counts.updates += block.n_points;
+    PyramidNumbers pyramid;
+    pyramid.flow   = sin_theta;
+    pyramid.size   = exact.size;
+    pyramid.lambda = elasticity().lambda;
+    pyramid.two_G  = elasticity().two_G;
+    if (memory.time() > 0.)
+      {
+        pyramid.memory  = place_of_memory();
+        pyramid.part    = memory.remembered(block.step);
+        pyramid.lagging = pyramid.part * (exact.sine - sin_theta);
+      }
+    pyramid.sine = exact.sine - pyramid.lagging;
+    if (cohesion_grows())
+      {
+        pyramid.growth            = place_of_growth();
+        pyramid.size_per_cohesion = size_per_cohesion;
+      }
+    advance_pyramid(pyramid, block);
   }
 
   std::optional<double>

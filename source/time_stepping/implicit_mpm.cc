@@ -682,7 +682,10 @@ namespace geocone
     begun                              = false;
     const unsigned int n_light_of_step = n_light;
     if (is_unbalanced(points))
-      hand_over_state(newton, timer, kinematics, points);
+      {
+        scope.stop(); // a new problem begins, which is timed by itself
+        hand_over_state(newton, timer, kinematics, points);
+      }
 
     report.energies = state_energies(kinematics, points, t + h);
     if (particles.n_lost() > n_lost_before)

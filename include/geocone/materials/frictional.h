@@ -108,14 +108,14 @@ namespace geocone
                                                     : 0.;
     }
 
-    FrictionalStrength given;
-
-  private:
+    /** Place of that in the history, if the cohesion grows. */
     unsigned int
     place_of_growth() const
     {
       return Remembering::n_history();
     }
+
+    FrictionalStrength given;
   };
 } // namespace geocone
 

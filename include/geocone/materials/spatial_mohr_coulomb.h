@@ -49,6 +49,10 @@ namespace geocone
       return sin_theta > 0.;
     }
 
+    /** By the kernel that takes several points at once. */
+    void
+    advance(const PointBlock &block, LawCounts &counts) const override;
+
     std::optional<double>
     yield_function(const SpatialMandel &stress,
                    const double        *history) const override;

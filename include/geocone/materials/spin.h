@@ -14,41 +14,44 @@ namespace geocone
   /**
    * The rotation of a spin increment w = (l_yx - l_xy)/2 by Cayley's transform,
    * tan(angle/2) = w/2: orthogonal exactly, so that invariants stay.
+   * @tparam T a number, or several at once
    */
+  template <typename T>
   class PlaneSpin
   {
   public:
     /** @param l the gradient, l_ij at 2 i + j */
-    explicit PlaneSpin(const std::array<double, 4> &l)
+    explicit PlaneSpin(const std::array<T, 4> &l)
     {
-      const double tan_half = (l[2] - l[1]) / 4.;
-      const double t2       = tan_half * tan_half;
-      const double cosine   = (1. - t2) / (1. + t2);
-      const double sine     = 2. * tan_half / (1. + t2);
-      cos2                  = cosine * cosine - sine * sine;
-      sin2                  = 2. * sine * cosine;
+      const T one(1.), two(2.);
+      const T tan_half = T(0.25) * (l[2] - l[1]);
+      const T t2       = tan_half * tan_half;
+      const T cosine   = (one - t2) / (one + t2);
+      const T sine     = two * tan_half / (one + t2);
+      cos2             = cosine * cosine - sine * sine;
+      sin2             = two * sine * cosine;
     }
 
     /** Turns the in-plane components xx, yy, xy of a symmetric tensor. */
     void
-    turn(std::array<double, 3> &s) const
+    turn(std::array<T, 3> &s) const
     {
       auto &[xx, yy, xy] = s;
-      const double mean = (xx + yy) / 2., half = (xx - yy) / 2.;
-      const double turned = cos2 * half - sin2 * xy;
-      xy                  = sin2 * half + cos2 * xy;
-      xx                  = mean + turned;
-      yy                  = mean - turned;
+      const T half(0.5);
+      const T mean = half * (xx + yy), difference = half * (xx - yy);
+      const T turned = cos2 * difference - sin2 * xy;
+      xy             = sin2 * difference + cos2 * xy;
+      xx             = mean + turned;
+      yy             = mean - turned;
     }
 
   private:
-    double cos2, sin2; ///< of the angle, doubled
+    T cos2, sin2; ///< of the angle, doubled
   };
 
   /**
    * The same in three dimensions: with half the axial vector g of the spin increment,
    *   Q = c 1 + s (g g' + [g x]),  s = 2/(1 + g.g),  c = 1 - s g.g.
-   * @tparam T a number, or several at once
    */
   template <typename T>
   class SpatialSpin
@@ -95,7 +98,8 @@ namespace geocone
     T Q[3][3];
   };
 
-  using Spin = std::conditional_t<dim == 2, PlaneSpin, SpatialSpin<double>>;
+  using Spin =
+    std::conditional_t<dim == 2, PlaneSpin<double>, SpatialSpin<double>>;
 } // namespace geocone
 
 #endif
