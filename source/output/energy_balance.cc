@@ -86,7 +86,7 @@ namespace geocone
   {
     // What rounding leaves of nothing is no energy.
     const double scale = std::max(turnover(), least);
-    if (warned || !(lost < -0.01 * scale) || !(lost < -1e-12))
+    if (warned || !(lost < -tolerance * scale) || !(lost < -1e-12))
       return;
     warned = true;
     log.warn(format("the numerical method has created %.3g %s, %.2g %% of the "

@@ -25,6 +25,9 @@ namespace geocone
   class EnergyBalance
   {
   public:
+    /** The part of what was turned over that may be created without a warning. */
+    static constexpr double tolerance = 0.01;
+
     /** The energies at the start. */
     void
     begin(const Energies &energies);
