@@ -7,6 +7,7 @@
 #include <geocone/materials/spin.h>
 #include <geocone/materials/subloading.h>
 #include <geocone/materials/subloading_curves.h>
+#include <geocone/materials/subloading_kernel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -518,52 +519,121 @@ namespace geocone
     return changed;
   }
 
+  namespace
+  {
+    /** The turned state and the strain increment of a point. */
+    void
+    begin(const PointBlock           &block,
+          const unsigned int          i,
+          SubloadingState<n_spatial> &y,
+          Model::Vector              &strain)
+    {
+      y            = state_of(block.stress(i),
+                   [&](const unsigned int k) { return block.history[k][i]; });
+      const auto l = block.gradient(i);
+      const Spin spin(l);
+      const auto turn = [&](Model::Vector &x) {
+        Components s = motion_of(x, -1.);
+        spin.turn(s);
+        take_stress(s, x);
+      };
+      turn(y.stress);
+      turn(y.a);
+      turn(y.beta);
+
+      strain = Model::Vector::Zero();
+      if (block.l_zz != nullptr)
+        strain[2] = -block.l_zz[i];
+      for (unsigned int d = 0; d < dim; ++d)
+        strain[d] = -l[(dim + 1) * d];
+      for (unsigned int k = 0; k < n_shears; ++k)
+        {
+          const auto [place, a, b] = shears[k];
+          strain[3 + k]            = -(l[dim * a + b] + l[dim * b + a]) / sqrt2;
+        }
+    }
+
+    void
+    put(const SubloadingState<n_spatial> &y,
+        const Model::Vector              &strain,
+        const unsigned int                j,
+        SubloadingLanes<n_spatial>       &lanes)
+    {
+      for (int k = 0; k < n_spatial; ++k)
+        {
+          lanes.stress[k][j] = y.stress[k];
+          lanes.a[k][j]      = y.a[k];
+          lanes.beta[k][j]   = y.beta[k];
+          lanes.strain[k][j] = strain[k];
+        }
+      lanes.pcb[j] = y.pcb;
+      lanes.Rb[j]  = y.Rb;
+    }
+
+    void
+    take(const SubloadingLanes<n_spatial> &lanes,
+         const unsigned int                j,
+         SubloadingState<n_spatial>       &y)
+    {
+      for (int k = 0; k < n_spatial; ++k)
+        {
+          y.stress[k] = lanes.stress[k][j];
+          y.a[k]      = lanes.a[k][j];
+          y.beta[k]   = lanes.beta[k][j];
+        }
+      y.pcb = lanes.pcb[j];
+      y.Rb  = lanes.Rb[j];
+    }
+  } // namespace
+
   void
   Subloading::advance(const PointBlock &block, LawCounts &counts) const
   {
     counts.updates += block.n_points;
-    const Model &law = model<n_spatial>();
-    for (unsigned int i = 0; i < block.n_points; ++i)
+    constexpr unsigned int     size = SubloadingLanes<n_spatial>::size;
+    const Model               &law  = model<n_spatial>();
+    SubloadingLanes<n_spatial> lanes;
+    SubloadingState<n_spatial> y[size];
+    Model::Vector              strain[size], before[size];
+    for (unsigned int first = 0; first < block.n_points; first += size)
       {
-        const auto history = [&](const unsigned int k) -> double & {
-          return block.history[k][i];
-        };
-        SubloadingState<n_spatial> y = state_of(block.stress(i), history);
-
-        const auto l = block.gradient(i);
-        const Spin spin(l);
-        const auto turn = [&](Model::Vector &x) {
-          Components s = motion_of(x, -1.);
-          spin.turn(s);
-          take_stress(s, x);
-        };
-        turn(y.stress);
-        turn(y.a);
-        turn(y.beta);
-
-        Model::Vector strain = Model::Vector::Zero();
-        if (block.l_zz != nullptr)
-          strain[2] = -block.l_zz[i];
-        for (unsigned int d = 0; d < dim; ++d)
-          strain[d] = -l[(dim + 1) * d];
-        for (unsigned int k = 0; k < n_shears; ++k)
+        // Lanes beyond the last point do as it does, and are not asked.
+        const unsigned int n = std::min(size, block.n_points - first);
+        for (unsigned int j = 0; j < size; ++j)
           {
-            const auto [place, a, b] = shears[k];
-            strain[3 + k] = -(l[dim * a + b] + l[dim * b + a]) / sqrt2;
+            if (j < n)
+              begin(block, first + j, y[j], strain[j]);
+            put(y[std::min(j, n - 1)], strain[std::min(j, n - 1)], j, lanes);
           }
-        const Model::Vector    before = y.stress;
-        const SubloadingReport report = law.integrate(y, strain);
-        counts.substeps += report.substeps;
-        counts.forced += report.forced;
-        counts.limited += report.limited;
-        counts.most = std::max(counts.most, report.substeps);
+        take_single_substeps(law.constants(), lanes);
+        for (unsigned int j = 0; j < n; ++j)
+          {
+            before[j] = y[j].stress;
+            SubloadingReport report;
+            if (lanes.is_done[j])
+              {
+                report.substeps       = 1;
+                report.plastic_strain = lanes.plastic_strain[j];
+                take(lanes, j, y[j]);
+              }
+            else
+              report = law.integrate(y[j], strain[j]);
+            counts.substeps += report.substeps;
+            counts.forced += report.forced;
+            counts.limited += report.limited;
+            counts.most = std::max(counts.most, report.substeps);
 
-        block.work[i] = 0.5 * strain.dot(before + y.stress);
-        block.plastic_strain[i] += report.plastic_strain;
-        block.wave_modulus[i] =
-          law.wave_modulus((y.stress[0] + y.stress[1] + y.stress[2]) / 3.);
-        block.set_stress(i, motion_of(y.stress, -1.));
-        store(y, history);
+            const unsigned int i      = first + j;
+            const auto         stress = y[j].stress;
+            block.work[i]             = 0.5 * strain[j].dot(before[j] + stress);
+            block.plastic_strain[i] += report.plastic_strain;
+            block.wave_modulus[i] =
+              law.wave_modulus((stress[0] + stress[1] + stress[2]) / 3.);
+            block.set_stress(i, motion_of(stress, -1.));
+            store(y[j], [&](const unsigned int k) -> double & {
+              return block.history[k][i];
+            });
+          }
       }
   }
 

@@ -87,14 +87,6 @@ namespace geocone
   };
 
   template <int n>
-  SubloadingModel<n>::SubloadingModel(const SubloadingConstants &constants)
-    : c(constants)
-    , shear_ratio(3. * (1. - 2. * c.nu) / (2. * (1. + c.nu)))
-    , slope(1.5 / (c.M * c.M))
-    , phi_slope(slope / (c.alpha * c.alpha))
-  {}
-
-  template <int n>
   typename SubloadingModel<n>::Quadratic
   SubloadingModel<n>::quadratic(const State &y) const
   {
@@ -105,9 +97,9 @@ namespace geocone
     f.sa =
       plus_isotropic(y.a, -f.pa) - (c.rotates_with_ph ? ph : f.pa) * y.beta;
     f.sd = plus_isotropic<Vector>(y.stress - y.a, -f.dp) - f.dp * y.beta;
-    f.A  = slope * f.sd.squaredNorm() + f.dp * f.dp;
-    f.B  = 2. * slope * f.sa.dot(f.sd) + f.dp * (2. * ph - y.pcb);
-    f.C  = slope * f.sa.squaredNorm() + ph * (ph - y.pcb);
+    f.A  = c.slope * f.sd.squaredNorm() + f.dp * f.dp;
+    f.B  = 2. * c.slope * f.sa.dot(f.sd) + f.dp * (2. * ph - y.pcb);
+    f.C  = c.slope * f.sa.squaredNorm() + ph * (ph - y.pcb);
     return f;
   }
 
@@ -127,7 +119,7 @@ namespace geocone
     const double p = mean(S), ph = p + c.xi * pcb;
     const Vector sh =
       plus_isotropic(S, -p) - (c.rotates_with_ph ? ph : p) * beta;
-    return slope * sh.squaredNorm() + ph * (ph - pcb);
+    return c.slope * sh.squaredNorm() + ph * (ph - pcb);
   }
 
   template <int n>
@@ -138,12 +130,12 @@ namespace geocone
     // fbar = 0 is A pc^2 + B pc - Q = 0 in the size pc.
     const double p  = mean(stress);
     const Vector sh = plus_isotropic(stress, -p) - p * beta;
-    const double Q  = p * p + slope * sh.squaredNorm();
+    const double Q  = p * p + c.slope * sh.squaredNorm();
     double       A = c.xi * (1. - c.xi), B = (1. - 2. * c.xi) * p;
     if (c.rotates_with_ph)
       {
-        A -= slope * c.xi * c.xi * beta.squaredNorm();
-        B += 2. * slope * c.xi * sh.dot(beta);
+        A -= c.slope * c.xi * c.xi * beta.squaredNorm();
+        B += 2. * c.slope * c.xi * sh.dot(beta);
       }
     const double sum = B + std::sqrt(std::max(0., B * B + 4. * A * Q));
     return sum > 0. ? 2. * Q / sum : 0.;
@@ -188,10 +180,10 @@ namespace geocone
     const Vector       d    = y.stress - y.a;
     const double       over = 1. / R;
     r.K                     = (p + c.pe) / c.kappa;
-    r.G                     = shear_ratio * r.K;
+    r.G                     = c.shear_ratio * r.K;
     const double two_G      = 2. * r.G;
 
-    // The gradients N, m = 2 slope sh + I/3 (2 ph - pcb - 2 slope sh:beta).
+    // The gradients N, m = 2 c.slope sh + I/3 (2 ph - pcb - 2 c.slope sh:beta).
     r.sy               = y.a + over * d;
     const double p_sy  = pa + over * (p - pa);
     const double ph    = p_sy + c.xi * y.pcb;
@@ -199,11 +191,11 @@ namespace geocone
     r.sh               = plus_isotropic(r.sy, -p_sy) - r.p_y * y.beta;
     const double sh_sh = r.sh.squaredNorm(), sh_beta = r.sh.dot(y.beta);
     const double along   = 2. * ph - y.pcb;
-    const double trace_N = along - 2. * slope * sh_beta;
-    r.trace_m            = along - 2. * phi_slope * sh_beta;
-    r.N = plus_isotropic<Vector>(2. * slope * r.sh, trace_N / 3.);
-    r.m = plus_isotropic<Vector>(2. * phi_slope * r.sh, r.trace_m / 3.);
-    const double dev_m2 = 4. * phi_slope * phi_slope * sh_sh;
+    const double trace_N = along - 2. * c.slope * sh_beta;
+    r.trace_m            = along - 2. * c.phi_slope * sh_beta;
+    r.N = plus_isotropic<Vector>(2. * c.slope * r.sh, trace_N / 3.);
+    r.m = plus_isotropic<Vector>(2. * c.phi_slope * r.sh, r.trace_m / 3.);
+    const double dev_m2 = 4. * c.phi_slope * c.phi_slope * sh_sh;
     r.norm_m            = std::sqrt(dev_m2 + r.trace_m * r.trace_m / 3.);
     // ln 0 at R = Rmin: a value so large that the response is elastic.
     r.U = -c.cR * std::log(std::max(1e-30, (R - c.Rmin) / (1. - c.Rmin)));
@@ -249,10 +241,10 @@ namespace geocone
     r.H = r.N.dot(growth * y.stress + (p + offset) * r.h_beta +
                   (1. - R) * to_st + (r.U * r.norm_m * over) * d);
     r.N_D_m =
-      r.K * trace_N * r.trace_m + two_G * 4. * slope * phi_slope * sh_sh;
+      r.K * trace_N * r.trace_m + two_G * 4. * c.slope * c.phi_slope * sh_sh;
     const double volume = strain[0] + strain[1] + strain[2];
     r.N_D_strain =
-      r.K * trace_N * volume + two_G * 2. * slope * r.sh.dot(strain);
+      r.K * trace_N * volume + two_G * 2. * c.slope * r.sh.dot(strain);
     const double denominator = r.N_D_m + r.H;
     r.stable                 = denominator > 0.;
     r.d_lambda =
@@ -274,8 +266,8 @@ namespace geocone
   SubloadingModel<n>::elastic_direction(const Vector &strain) const
   {
     const double volume = strain[0] + strain[1] + strain[2];
-    return plus_isotropic<Vector>(2. * shear_ratio * strain,
-                                  volume * (1. - 2. * shear_ratio / 3.));
+    return plus_isotropic<Vector>(2. * c.shear_ratio * strain,
+                                  volume * (1. - 2. * c.shear_ratio / 3.));
   }
 
   template <int n>
@@ -299,10 +291,10 @@ namespace geocone
     const Vector e      = elastic_direction(strain);
     const Vector se     = deviator(e) - volume * y.beta;
     const double p      = f.pa + f.dp;
-    const double A1     = 2. * (slope * f.sd.dot(se) + f.dp * volume);
-    const double A2     = slope * se.squaredNorm() + volume * volume;
-    const double B1 =
-      2. * slope * f.sa.dot(se) + volume * (2. * (f.pa + c.xi * y.pcb) - y.pcb);
+    const double A1     = 2. * (c.slope * f.sd.dot(se) + f.dp * volume);
+    const double A2     = c.slope * se.squaredNorm() + volume * volume;
+    const double B1     = 2. * c.slope * f.sa.dot(se) +
+                      volume * (2. * (f.pa + c.xi * y.pcb) - y.pcb);
 
     // Where R is least, dA + R dB = 0 with R the root of A + B R + C R^2.
     double u = 0., least = R;
@@ -359,8 +351,8 @@ namespace geocone
     const double volume = strain[0] + strain[1] + strain[2];
     const double sd_e = f.sd.dot(strain), sa_e = f.sa.dot(strain);
     const double sd_beta = f.sd.dot(y.beta), sa_beta = f.sa.dot(y.beta);
-    return 2. * slope *
-               (2. * shear_ratio * (sd_e + R * sa_e) -
+    return 2. * c.slope *
+               (2. * c.shear_ratio * (sd_e + R * sa_e) -
                 volume * (sd_beta + R * sa_beta)) +
              volume * (2. * (f.dp + R * (f.pa + c.xi * y.pcb)) - R * y.pcb) >=
            0.;

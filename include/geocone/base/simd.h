@@ -102,14 +102,20 @@ namespace geocone
     {
       return max(a, Pack(0.) - a);
     }
-    friend Pack
-    sqrt(const Pack &a)
-    {
-      Pack p;
-      for (int k = 0; k < n_parts; ++k)
-        p.part[k] = xsimd::sqrt(a.part[k]);
-      return p;
-    }
+#define GEOCONE_PACK_FUNCTION(name)       \
+  friend Pack name(const Pack &a)         \
+  {                                       \
+    Pack p;                               \
+    for (int k = 0; k < n_parts; ++k)     \
+      p.part[k] = xsimd::name(a.part[k]); \
+    return p;                             \
+  }
+    GEOCONE_PACK_FUNCTION(sqrt)
+    GEOCONE_PACK_FUNCTION(log)
+    GEOCONE_PACK_FUNCTION(expm1)
+    GEOCONE_PACK_FUNCTION(cos)
+    GEOCONE_PACK_FUNCTION(acos)
+#undef GEOCONE_PACK_FUNCTION
 
     /** a > b ? yes : no, in each place. */
     friend Pack

@@ -4,46 +4,12 @@
 #ifndef geocone_materials_subloading_model_h
 #define geocone_materials_subloading_model_h
 
+#include <geocone/materials/subloading_constants.h>
+
 #include <Eigen/Core>
 
 namespace geocone
 {
-  /**
-   * The constants of the subloading soil model of the STSM report by Pereira et
-   * al., called "the report"; numbers such as "(21)" are its equations. Any
-   * consistent unit of stress will do; defaults are in Pa. Compression is
-   * positive here.
-   */
-  struct SubloadingConstants
-  {
-    double kappa  = 0.01; ///< slope of swelling lines, ln v over ln p (-)
-    double lambda = 0.08; ///< slope of compression lines, ln v over ln p (-)
-    double nu     = 0.25; ///< Poisson ratio (-)
-    double pe     = 0.;   ///< K = (p + pe)/kappa (26) (Pa)
-    double xi     = 0.;   ///< tensile apex at p = -xi pcb (21) (-)
-    double M      = 1.2;  ///< slope of the yield ellipsoid (21) (-)
-    double Mc     = 1.2;  ///< critical state slope q/p in compression (-)
-    double k      = 1.;   ///< strength in extension over compression (-)
-    double alpha  = 1.;   ///< slope of the plastic potential over M (28) (-)
-    double cR     = 100.; ///< rate of the subloading ratio R (31) (-)
-    double cbeta  = 0.;   ///< rate of rotational hardening (32) (-)
-    double cb     = 0.;   ///< rate of the loss of structure (36) (-)
-    double Rbf    = 1.;   ///< structure ratio that remains (36) (-)
-    double ca     = 0.;   ///< rate of the similarity centre (38) (-)
-
-    double patm  = 1e5;  ///< reference pressure of (32) (Pa)
-    double Rmin  = 0.01; ///< elastic below this R (31) (-)
-    double delta = 0.01; ///< margin of the similarity centre (38) (-)
-
-    /** Rotation of (24): sh = s - ph beta if true, s - p beta if not. */
-    bool rotates_with_ph = false;
-
-    double tolerance        = 1e-4; ///< error per substep (STOL) (-)
-    double smallest_substep = 1e-4; ///< part of the increment (-)
-    double lowest_pressure  = 1.;   ///< p + pe is kept above it (Pa)
-    double smallest_size    = 1e3;  ///< pcb does not shrink below it (Pa)
-  };
-
   /**
    * A state. Vectors have n components: xx, yy, zz, sqrt2 xy, for n = 6 also
    * sqrt2 yz, sqrt2 zx, so that scalar products are double contractions.
@@ -111,9 +77,11 @@ namespace geocone
     using State  = SubloadingState<n>;
 
     SubloadingModel() = default;
-    explicit SubloadingModel(const SubloadingConstants &constants);
+    explicit SubloadingModel(const SubloadingConstants &constants)
+      : c(constants)
+    {}
 
-    const SubloadingConstants &
+    const SubloadingNumbers &
     constants() const
     {
       return c;
@@ -149,14 +117,14 @@ namespace geocone
     double
     wave_modulus(const double p) const
     {
-      return (1. + 4. / 3. * shear_ratio) * (p + c.pe) / c.kappa;
+      return (1. + 4. / 3. * c.shear_ratio) * (p + c.pe) / c.kappa;
     }
 
     /** G/K = 3(1-2nu)/(2(1+nu)) (25) (-). */
     double
     g_over_k() const
     {
-      return shear_ratio;
+      return c.shear_ratio;
     }
 
   private:
@@ -203,10 +171,7 @@ namespace geocone
     void
     limit(State &state, SubloadingReport &report) const;
 
-    SubloadingConstants c;
-    double              shear_ratio = 0.6;
-    double              slope       = 0.; ///< 3/(2 M^2)
-    double              phi_slope   = 0.; ///< 3/(2 (alpha M)^2)
+    SubloadingNumbers c;
   };
 
   extern template class SubloadingModel<4>;
