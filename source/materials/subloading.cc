@@ -553,6 +553,7 @@ namespace geocone
         }
     }
 
+    /** Into a lane, and back. */
     void
     put(const SubloadingState<n_spatial> &y,
         const Model::Vector              &strain,
@@ -590,16 +591,16 @@ namespace geocone
   Subloading::advance(const PointBlock &block, LawCounts &counts) const
   {
     counts.updates += block.n_points;
-    constexpr unsigned int     size = SubloadingLanes<n_spatial>::size;
-    const Model               &law  = model<n_spatial>();
+    constexpr unsigned int     n_lanes = SubloadingLanes<n_spatial>::size;
+    const Model               &law     = model<n_spatial>();
     SubloadingLanes<n_spatial> lanes;
-    SubloadingState<n_spatial> y[size];
-    Model::Vector              strain[size], before[size];
-    for (unsigned int first = 0; first < block.n_points; first += size)
+    SubloadingState<n_spatial> y[n_lanes];
+    Model::Vector              strain[n_lanes];
+    for (unsigned int first = 0; first < block.n_points; first += n_lanes)
       {
         // Lanes beyond the last point do as it does, and are not asked.
-        const unsigned int n = std::min(size, block.n_points - first);
-        for (unsigned int j = 0; j < size; ++j)
+        const unsigned int n = std::min(n_lanes, block.n_points - first);
+        for (unsigned int j = 0; j < n_lanes; ++j)
           {
             if (j < n)
               begin(block, first + j, y[j], strain[j]);
@@ -608,8 +609,8 @@ namespace geocone
         take_single_substeps(law.constants(), lanes);
         for (unsigned int j = 0; j < n; ++j)
           {
-            before[j] = y[j].stress;
-            SubloadingReport report;
+            const Model::Vector before = y[j].stress;
+            SubloadingReport    report;
             if (lanes.is_done[j])
               {
                 report.substeps       = 1;
@@ -625,7 +626,7 @@ namespace geocone
 
             const unsigned int i      = first + j;
             const auto         stress = y[j].stress;
-            block.work[i]             = 0.5 * strain[j].dot(before[j] + stress);
+            block.work[i]             = 0.5 * strain[j].dot(before + stress);
             block.plastic_strain[i] += report.plastic_strain;
             block.wave_modulus[i] =
               law.wave_modulus((stress[0] + stress[1] + stress[2]) / 3.);
