@@ -18,40 +18,6 @@ using State = SubloadingState<n>;
 
 template <int n>
 void
-put(const State<n>                            &y,
-    const typename SubloadingModel<n>::Vector &strain,
-    const int                                  k,
-    SubloadingLanes<n>                        &lanes)
-{
-  for (int i = 0; i < n; ++i)
-    {
-      lanes.stress[i][k] = y.stress[i];
-      lanes.a[i][k]      = y.a[i];
-      lanes.beta[i][k]   = y.beta[i];
-      lanes.strain[i][k] = strain[i];
-    }
-  lanes.pcb[k] = y.pcb;
-  lanes.Rb[k]  = y.Rb;
-}
-
-template <int n>
-State<n>
-state_of(const SubloadingLanes<n> &lanes, const int k)
-{
-  State<n> y;
-  for (int i = 0; i < n; ++i)
-    {
-      y.stress[i] = lanes.stress[i][k];
-      y.a[i]      = lanes.a[i][k];
-      y.beta[i]   = lanes.beta[i][k];
-    }
-  y.pcb = lanes.pcb[k];
-  y.Rb  = lanes.Rb[k];
-  return y;
-}
-
-template <int n>
-void
 compare(const std::string &name, const SubloadingConstants &constants)
 {
   using Vector = typename SubloadingModel<n>::Vector;
@@ -81,14 +47,15 @@ compare(const std::string &name, const SubloadingConstants &constants)
             for (int i = 0; i < n; ++i)
               direction[k][i] = random(1e-5) + (i < 3 ? 2e-6 : 0.);
           strain[k] = engine() % 500 == 0 ? 200. * direction[k] : direction[k];
-          put(y[k], strain[k], k, lanes);
+          lanes.put(y[k], strain[k], k);
         }
       take_single_substeps(model.constants(), lanes);
       for (int k = 0; k < 4; ++k)
         {
           const State<n>         before = y[k];
           const SubloadingReport report = model.integrate(y[k], strain[k]);
-          const State<n>         other  = state_of(lanes, k);
+          State<n>               other;
+          lanes.take(k, other);
           if (!lanes.is_done[k])
             {
               ++n_left;

@@ -231,6 +231,41 @@ namespace geocone
     P own[2], other[2]; ///< of the inverse of F' D G
   };
 
+  /** The stress of the points p, ... of a block, turned by the spin, and the strain with
+   *  shears gamma_ij = 2 e_ij. @param nu for s_zz in the plane, see Material */
+  template <typename P>
+  void
+  load_turned(const PointBlock         &block,
+              const unsigned int        p,
+              const P                  &nu,
+              std::array<P, n_spatial> &s,
+              std::array<P, n_spatial> &strain)
+  {
+    std::array<P, dim * dim> l;
+    for (unsigned int i = 0; i < dim * dim; ++i)
+      l[i] = P::load(block.l[i] + p);
+    std::array<P, n_mandel> moved;
+    for (int i = 0; i < n_mandel; ++i)
+      moved[i] = P::load(block.s[i] + p);
+    if constexpr (dim == 2)
+      {
+        s[3]      = nu * (moved[0] + moved[1]) + P::load(block.history[0] + p);
+        strain[3] = block.l_zz != nullptr ? P::load(block.l_zz + p) : P(0.);
+        PlaneSpin<P>(l).turn(moved);
+      }
+    else
+      SpatialSpin<P>(l).turn(moved);
+    for (int i = 0; i < n_mandel; ++i)
+      s[i] = moved[i];
+    for (unsigned int d = 0; d < dim; ++d)
+      strain[place_of_normal[d]] = l[(dim + 1) * d];
+    for (int i = 0; i < n_shears; ++i)
+      {
+        const auto [place, a, b] = shears[i];
+        strain[place]            = l[dim * a + b] + l[dim * b + a];
+      }
+  }
+
   /** advance_pyramid() for one architecture; see there. */
   template <typename Arch>
   void
@@ -244,46 +279,26 @@ namespace geocone
     const P round(2. * (1. + pyramid.sine * pyramid.sine / 3.));
     const P lambda(pyramid.lambda), two_G(pyramid.two_G),
       nu(pyramid.lambda / (2. * pyramid.lambda + pyramid.two_G));
-    const P                per_G2(1. / pyramid.two_G);
-    const P                bulk(pyramid.lambda /
+    const P      per_G2(1. / pyramid.two_G);
+    const P      bulk(pyramid.lambda /
                  (pyramid.two_G * (3. * pyramid.lambda + pyramid.two_G)));
-    const P                wave_modulus(pyramid.lambda + pyramid.two_G);
+    const P      wave_modulus(pyramid.lambda + pyramid.two_G);
+    const P      twice_lagging(2. * pyramid.lagging);
+    const double exact_sine = pyramid.sine + pyramid.lagging;
+    const auto   apex       = [&](const double sine, const P &size) {
+      return sine > 0. ? P(0.5 / sine) * size : large;
+    };
     const PyramidReturn<P> returns(pyramid);
     const auto             history = [&](const unsigned int place) {
       return place == PyramidNumbers::no_place ? nullptr : block.history[place];
     };
-    double *const memory       = history(pyramid.memory);
-    double *const growth       = history(pyramid.growth);
-    double *const out_of_plane = dim == 2 ? block.history[0] : nullptr;
+    double *const memory = history(pyramid.memory);
+    double *const growth = history(pyramid.growth);
 
     for (unsigned int p = 0; p < block.n_points; p += PointBlock::lanes)
       {
-        // The turned stress, and the strain with shears gamma_ij = 2 e_ij.
-        std::array<P, dim * dim> l;
-        for (unsigned int i = 0; i < dim * dim; ++i)
-          l[i] = P::load(block.l[i] + p);
-        std::array<P, n_mandel> moved;
-        for (int i = 0; i < n_mandel; ++i)
-          moved[i] = P::load(block.s[i] + p);
         T s, strain;
-        if constexpr (dim == 2)
-          {
-            s[3]      = nu * (moved[0] + moved[1]) + P::load(out_of_plane + p);
-            strain[3] = block.l_zz != nullptr ? P::load(block.l_zz + p) : zero;
-            PlaneSpin<P>(l).turn(moved);
-          }
-        else
-          SpatialSpin<P>(l).turn(moved);
-        for (int i = 0; i < n_mandel; ++i)
-          s[i] = moved[i];
-        for (unsigned int d = 0; d < dim; ++d)
-          strain[place_of_normal[d]] = l[(dim + 1) * d];
-        for (int i = 0; i < n_shears; ++i)
-          {
-            const auto [place, a, b] = shears[i];
-            strain[place]            = l[dim * a + b] + l[dim * b + a];
-          }
-
+        load_turned(block, p, nu, s, strain);
         const P pressed = lambda * (strain[0] + strain[1] + strain[3]);
         T       trial;
         for (int i = 0; i < n_spatial; ++i)
@@ -294,15 +309,9 @@ namespace geocone
         P size(pyramid.size);
         if (growth != nullptr)
           size += P(pyramid.size_per_cohesion) * P::load(growth + p);
-        const P per_2_sine(pyramid.sine > 0. ? 0.5 / pyramid.sine : 0.);
-        P       apex = pyramid.sine > 0. ? size * per_2_sine : large;
         if (memory != nullptr)
-          {
-            const P exact(0.5 / (pyramid.sine + pyramid.lagging));
-            size = size - P(2. * pyramid.lagging) *
-                            min(zero - P::load(memory + p), size * exact);
-            apex = pyramid.sine > 0. ? size * per_2_sine : large;
-          }
+          size = size - twice_lagging * min(zero - P::load(memory + p),
+                                            apex(exact_sine, size));
 
         // Within the round cone nothing is looked for.
         const P mean = third * (trial[0] + trial[1] + trial[3]);
@@ -320,7 +329,7 @@ namespace geocone
             const PrincipalAxes<P> axes(trial);
             const P f = more * axes.value[0] + less * axes.value[2] - size;
             P       values[3];
-            returns(axes.value, f, size, apex, values);
+            returns(axes.value, f, size, apex(pyramid.sine, size), values);
             const T back = axes.tensor(values);
             for (int i = 0; i < n_spatial; ++i)
               end[i] = where_greater(f, zero, back[i], trial[i]);
@@ -351,7 +360,7 @@ namespace geocone
         for (int i = 0; i < n_mandel; ++i)
           end[i].store(block.s[i] + p);
         if constexpr (dim == 2)
-          (end[3] - nu * (end[0] + end[1])).store(out_of_plane + p);
+          (end[3] - nu * (end[0] + end[1])).store(block.history[0] + p);
         (half * work).store(block.work + p);
         wave_modulus.store(block.wave_modulus + p);
       }

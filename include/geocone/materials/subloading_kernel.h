@@ -23,6 +23,36 @@ namespace geocone
     double plastic_strain[size]; ///< of the increment
     bool   is_done[size];        ///< or else the state is as it was
     /** @} */
+
+    /** @param y a SubloadingState; templates, for kernels that do not know it */
+    template <typename State, typename Strain>
+    void
+    put(const State &y, const Strain &of_step, const int lane)
+    {
+      for (int i = 0; i < n; ++i)
+        {
+          stress[i][lane] = y.stress[i];
+          a[i][lane]      = y.a[i];
+          beta[i][lane]   = y.beta[i];
+          strain[i][lane] = of_step[i];
+        }
+      pcb[lane] = y.pcb;
+      Rb[lane]  = y.Rb;
+    }
+
+    template <typename State>
+    void
+    take(const int lane, State &y) const
+    {
+      for (int i = 0; i < n; ++i)
+        {
+          y.stress[i] = stress[i][lane];
+          y.a[i]      = a[i][lane];
+          y.beta[i]   = beta[i][lane];
+        }
+      y.pcb = pcb[lane];
+      y.Rb  = Rb[lane];
+    }
   };
 
   /**

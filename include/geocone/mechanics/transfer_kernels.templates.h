@@ -5,6 +5,7 @@
 #define geocone_mechanics_transfer_kernels_templates_h
 
 #include <geocone/base/simd.h>
+#include <geocone/mechanics/nodes_of_four.templates.h>
 #include <geocone/mechanics/particle_transfer.h>
 #include <geocone/mechanics/transfer_kernels.h>
 
@@ -22,154 +23,10 @@ namespace geocone
   {
     using P = Pack<Arch>;
 
-    /** A value of each function of each direction, at four points. */
     template <int p>
-    using Values = double[dim][p + 1][4];
-
-    /** What a direction of a grid has for all points. */
+    using Grid = PackedGrid<P, p>;
     template <int p>
-    struct Axis
-    {
-      P origin, inverse_size, last, first, stride;
-
-      /** Of the intervals p - 1 ... n_intervals - p, which are of one type. */
-      P inner_first, inner_last, inner[2 * p + 1][p + 1];
-    };
-
-    /** A grid as functions of degree p are found on it; a copy, which stores to
-     *  points and nodes cannot change. */
-    template <int p>
-    struct Grid : GridView
-    {
-      Axis<p> at[dim];
-
-      Grid(const GridView &view)
-        : GridView(view)
-      {
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            const GridAxis &axis = axes[d];
-            const int       n    = axis.n_intervals;
-            at[d].origin         = P(axis.origin);
-            at[d].inverse_size   = P(axis.inverse_size);
-            at[d].last           = P(n - 1);
-            at[d].first          = P(axis.first);
-            at[d].stride         = P(stride[d]);
-            at[d].inner_first    = P(p - 1);
-            at[d].inner_last     = P(n - p); // there are none if n < 2 p - 1
-            const double *inner =
-              coefficients(axis, axis.type[p - 1 < n ? p - 1 : 0]);
-            for (int power = 0; power <= 2 * p; ++power)
-              for (int f = 0; f <= p; ++f)
-                at[d].inner[power][f] = P(inner[4 * power + f]);
-          }
-      }
-
-      static const double *
-      coefficients(const GridAxis &axis, const int type)
-      {
-        return axis.coefficients + 4 * (2 * p + 1) * type;
-      }
-    };
-
-    /** The (p + 1)^dim functions that live at four points, k, k + 1, ... of a block. */
-    template <int p>
-    struct Nodes
-    {
-      int       first[4];       ///< of them, among those that are stored
-      int       lowest[dim][4]; ///< functions of the directions, among all
-      Values<p> N, dN;
-
-      Nodes(const Grid<p> &grid, const TransferBlock &points, const unsigned k)
-      {
-        P    place(0.), xi[dim];
-        bool inner = true;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            const Axis<p> &axis = grid.at[d];
-            const P        u =
-              (P::load(points.x[d] + k) - axis.origin) * axis.inverse_size;
-            // Zero comes second, so that it is taken for what is not a number.
-            const P interval =
-              whole_part(min(max(u, P(0.)), axis.last), lowest[d]);
-            xi[d] = u - interval;
-            place += (interval - axis.first) * axis.stride;
-            inner =
-              inner && all_between(interval, axis.inner_first, axis.inner_last);
-          }
-        whole_part(place, first);
-        for (unsigned int d = 0; d < dim; ++d)
-          if (inner)
-            find(grid.at[d].inner, xi[d], N[d], dN[d]);
-          else
-            find_each(grid.axes[d], lowest[d], xi[d], N[d], dN[d]);
-      }
-
-      /** Where the first node of a point has its doubles. */
-      const double *
-      read(const GridView &grid, const int m) const
-      {
-        return grid.read + node_size * static_cast<long>(first[m]);
-      }
-      double *
-      write(const GridView &grid, const int m) const
-      {
-        return grid.write + node_size * static_cast<long>(first[m]);
-      }
-
-    private:
-      /** Of points on intervals with the same coefficients c: one function after the
-       *  other. */
-      static void
-      find(const P (&c)[2 * p + 1][p + 1],
-           const P &xi,
-           double (&N)[p + 1][4],
-           double (&dN)[p + 1][4])
-      {
-        for (int f = 0; f <= p; ++f)
-          {
-            P value = c[p][f], slope = c[2 * p][f];
-            for (int power = p - 1; power >= 0; --power)
-              value = value * xi + c[power][f];
-            for (int power = 2 * p - 1; power >= p + 1; --power)
-              slope = slope * xi + c[power][f];
-            value.store(N[f]);
-            slope.store(dN[f]);
-          }
-      }
-
-      /** Of points of which some are near an end of the grid: one point after the
-       *  other. */
-      static void
-      find_each(const GridAxis &axis,
-                const int (&interval)[4],
-                const P &places,
-                double (&N)[p + 1][4],
-                double (&dN)[p + 1][4])
-      {
-        double xi[4];
-        places.store(xi);
-        P value[4], slope[4];
-        for (int m = 0; m < 4; ++m)
-          {
-            const double *c =
-              Grid<p>::coefficients(axis, axis.type[interval[m]]);
-            value[m] = P::load(c + 4 * p);
-            slope[m] = P::load(c + 4 * (2 * p));
-            for (int power = p - 1; power >= 0; --power)
-              value[m] = value[m] * P(xi[m]) + P::load(c + 4 * power);
-            for (int power = 2 * p - 1; power >= p + 1; --power)
-              slope[m] = slope[m] * P(xi[m]) + P::load(c + 4 * power);
-          }
-        transpose(value[0], value[1], value[2], value[3]);
-        transpose(slope[0], slope[1], slope[2], slope[3]);
-        for (int f = 0; f <= p; ++f)
-          {
-            value[f].store(N[f]);
-            slope[f].store(dN[f]);
-          }
-      }
-    };
+    using Nodes = NodesOfFour<P, p>;
 
     /** A sum over the functions of the directions 0 ... d, and its slopes. */
     template <int d>
@@ -191,11 +48,11 @@ namespace geocone
      */
     template <int p, int d, bool with_slopes>
     static Sum<d>
-    sum(const GridView  &grid,
-        const Values<p> &N,
-        const Values<p> &dN,
-        const int        m,
-        const double    *node)
+    sum(const GridView        &grid,
+        const ValuesAtFour<p> &N,
+        const ValuesAtFour<p> &dN,
+        const int              m,
+        const double          *node)
     {
       Sum<d> all;
       for (int i = 0; i <= p; ++i)
@@ -256,8 +113,8 @@ namespace geocone
       const Grid<p> grid(view);
       for (unsigned int k = 0; k < points.n; k += 4)
         {
-          const Nodes<p> at(grid, points, k);
-          Values<p>      weights;
+          const Nodes<p>  at(grid, points, k);
+          ValuesAtFour<p> weights;
           for (unsigned int d = 0; d < dim; ++d)
             for (int m = 0; m < 4; ++m)
               find_moments(grid, at, d, m, points.x[d][k + m], weights);
@@ -284,7 +141,7 @@ namespace geocone
                  const unsigned int d,
                  const int          m,
                  const double       x,
-                 Values<p>         &weights)
+                 ValuesAtFour<p>   &weights)
     {
       const double *x_i    = grid.axes[d].places + at.lowest[d][m];
       const double  size   = grid.axes[d].inverse_size;

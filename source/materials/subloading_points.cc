@@ -1,0 +1,267 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// A point of the subloading law: its state among the numbers that a run keeps of it, its
+// explicit steps, and what is shown of it. Parameters and initial states:
+// subloading.cc.
+#include <geocone/base/types.h>
+#include <geocone/materials/spin.h>
+#include <geocone/materials/subloading.h>
+#include <geocone/materials/subloading_curves.h>
+#include <geocone/materials/subloading_kernel.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace geocone
+{
+  namespace
+  {
+    using Components = ConstitutiveLaw::Components;
+    using Model      = SubloadingModel<n_spatial>;
+
+    /** Places in the history of a point; s_zz is there in the plane only. */
+    enum
+    {
+      stress_zz,
+      centre      = stress_zz + (dim == 2),
+      inclination = centre + n_spatial,
+      size        = inclination + n_spatial,
+      structure
+    };
+
+    /** Names of the components in the order of the model, and where the motion has
+     *  each among its own; zz is not there in the plane. */
+    constexpr const char *component[6] = {"xx", "yy", "zz", "xy", "yz", "zx"};
+    constexpr int place_in_motion[6]   = {0, 1, dim == 2 ? -1 : 3, 2, 4, 5};
+
+    /** Of a component k of the model, in a Mandel vector. */
+    constexpr double
+    factor(const int k)
+    {
+      return k < 3 ? 1. : sqrt2;
+    }
+
+    /** A stress of the motion in that of the model, which keeps the others. */
+    void
+    take_stress(const Components &s, Model::Vector &stress)
+    {
+      for (int k = 0; k < n_spatial; ++k)
+        if (const int i = place_in_motion[k]; i >= 0)
+          stress[k] = -factor(k) * s[i];
+    }
+
+    Components
+    motion_of(const Model::Vector &t, const double sign)
+    {
+      Components s;
+      for (int k = 0; k < n_spatial; ++k)
+        if (const int i = place_in_motion[k]; i >= 0)
+          s[i] = sign * (t[k] / factor(k));
+      return s;
+    }
+
+    /** The history h_k of a point, k = 0, 1, ..., as its state. */
+    template <typename History>
+    SubloadingState<n_spatial>
+    state_of(const Components &s, const History &h)
+    {
+      SubloadingState<n_spatial> state;
+      if (dim == 2)
+        state.stress[2] = -h(stress_zz);
+      take_stress(s, state.stress);
+      for (int k = 0; k < n_spatial; ++k)
+        {
+          state.a[k]    = -factor(k) * h(centre + k);
+          state.beta[k] = factor(k) * h(inclination + k);
+        }
+      state.pcb = h(size);
+      state.Rb  = h(structure);
+      return state;
+    }
+
+    template <typename History>
+    void
+    store(const SubloadingState<n_spatial> &state, const History &h)
+    {
+      if (dim == 2)
+        h(stress_zz) = -state.stress[2];
+      for (int k = 0; k < n_spatial; ++k)
+        {
+          const double per_factor = k < 3 ? 1. : 1. / sqrt2;
+          h(centre + k)           = -per_factor * state.a[k];
+          h(inclination + k)      = per_factor * state.beta[k];
+        }
+      h(size)      = state.pcb;
+      h(structure) = state.Rb;
+    }
+  } // namespace
+
+  std::string
+  Subloading::initialise(const Stress &stress,
+                         const double,
+                         double *history) const
+  {
+    Model::Vector s;
+    for (int k = 0; k < n_spatial; ++k)
+      s[k] = -factor(k) * stress[k];
+    SubloadingState<n_spatial> state;
+    const std::string          changed = initial_state<n_spatial>(s, state);
+    store(state, [&](const unsigned int k) -> double & { return history[k]; });
+    return changed;
+  }
+
+  namespace
+  {
+    /** The turned state and the strain increment of a point. */
+    void
+    begin(const PointBlock           &block,
+          const unsigned int          i,
+          SubloadingState<n_spatial> &y,
+          Model::Vector              &strain)
+    {
+      y            = state_of(block.stress(i),
+                   [&](const unsigned int k) { return block.history[k][i]; });
+      const auto l = block.gradient(i);
+      const Spin spin(l);
+      const auto turn = [&](Model::Vector &x) {
+        Components s = motion_of(x, -1.);
+        spin.turn(s);
+        take_stress(s, x);
+      };
+      turn(y.stress);
+      turn(y.a);
+      turn(y.beta);
+
+      strain = Model::Vector::Zero();
+      if (block.l_zz != nullptr)
+        strain[2] = -block.l_zz[i];
+      for (unsigned int d = 0; d < dim; ++d)
+        strain[d] = -l[(dim + 1) * d];
+      for (unsigned int k = 0; k < n_shears; ++k)
+        {
+          const auto [place, a, b] = shears[k];
+          strain[3 + k]            = -(l[dim * a + b] + l[dim * b + a]) / sqrt2;
+        }
+    }
+  } // namespace
+
+  void
+  Subloading::advance(const PointBlock &block, LawCounts &counts) const
+  {
+    counts.updates += block.n_points;
+    constexpr unsigned int     n_lanes = SubloadingLanes<n_spatial>::size;
+    const Model               &law     = model<n_spatial>();
+    SubloadingLanes<n_spatial> lanes;
+    SubloadingState<n_spatial> y[n_lanes];
+    Model::Vector              strain[n_lanes];
+    for (unsigned int first = 0; first < block.n_points; first += n_lanes)
+      {
+        // Lanes beyond the last point do as it does, and are not asked.
+        const unsigned int n = std::min(n_lanes, block.n_points - first);
+        for (unsigned int j = 0; j < n_lanes; ++j)
+          {
+            if (j < n)
+              begin(block, first + j, y[j], strain[j]);
+            lanes.put(y[std::min(j, n - 1)], strain[std::min(j, n - 1)], j);
+          }
+        take_single_substeps(law.constants(), lanes);
+        for (unsigned int j = 0; j < n; ++j)
+          {
+            const Model::Vector before = y[j].stress;
+            SubloadingReport    report;
+            if (lanes.is_done[j])
+              {
+                report.substeps       = 1;
+                report.plastic_strain = lanes.plastic_strain[j];
+                lanes.take(j, y[j]);
+              }
+            else
+              report = law.integrate(y[j], strain[j]);
+            counts.substeps += report.substeps;
+            counts.forced += report.forced;
+            counts.limited += report.limited;
+            counts.most = std::max(counts.most, report.substeps);
+
+            const unsigned int i      = first + j;
+            const auto         stress = y[j].stress;
+            block.work[i]             = 0.5 * strain[j].dot(before + stress);
+            block.plastic_strain[i] += report.plastic_strain;
+            block.wave_modulus[i] =
+              law.wave_modulus((stress[0] + stress[1] + stress[2]) / 3.);
+            block.set_stress(i, motion_of(stress, -1.));
+            store(y[j], [&](const unsigned int k) -> double & {
+              return block.history[k][i];
+            });
+          }
+      }
+  }
+
+  double
+  Subloading::wave_modulus(const Stress &stress, const double *) const
+  {
+    return model<n_spatial>().wave_modulus(
+      -(stress[0] + stress[1] + stress[2]) / 3.);
+  }
+
+  SubloadingState<n_spatial>
+  Subloading::state(const Components &stress, const double *history) const
+  {
+    return state_of(stress, [&](const unsigned int k) { return history[k]; });
+  }
+
+  std::vector<ConstitutiveLaw::Shown>
+  Subloading::shown() const
+  {
+    std::vector<Shown> all;
+    if (dim == 2)
+      all.push_back({"stress_zz", "stress zz (Pa)"});
+    for (const Shown &shown :
+         std::vector<Shown>{{"mean_pressure", "p (Pa)"},
+                            {"deviatoric_stress", "q (Pa)"},
+                            {"subloading_ratio", "R (-)"},
+                            {"structure_ratio", "Rb (-)"},
+                            {"yield_surface_size", "pcb (Pa)"},
+                            {"anisotropy", "anisotropy (-)"}})
+      all.push_back(shown);
+    if (show_tensors)
+      for (const bool is_centre : {false, true})
+        for (int k = 0; k < n_spatial; ++k)
+          all.push_back(
+            {std::string(is_centre ? "centre_" : "inclination_") + component[k],
+             std::string(is_centre ? "a " : "beta ") + component[k] +
+               (is_centre ? " (Pa)" : " (-)")});
+    return all;
+  }
+
+  void
+  Subloading::show(const Components &stress,
+                   const double     *history,
+                   double           *values) const
+  {
+    const SubloadingState<n_spatial> y = state(stress, history);
+    const double p = (y.stress[0] + y.stress[1] + y.stress[2]) / 3.;
+    if (dim == 2)
+      *values++ = -y.stress[2];
+    *values++ = p;
+    // sqrt(3/2) ||s|| and the same of beta, a stress ratio q/p.
+    *values++ =
+      std::sqrt(1.5 * std::max(0., y.stress.squaredNorm() - 3. * p * p));
+    *values++ = model<n_spatial>().ratio(y);
+    *values++ = y.Rb;
+    *values++ = y.pcb;
+    *values++ = std::sqrt(1.5) * y.beta.norm();
+    if (show_tensors)
+      for (const int first : {inclination, centre})
+        for (int k = 0; k < n_spatial; ++k)
+          *values++ = history[first + k];
+  }
+
+  std::vector<YieldCurve>
+  Subloading::yield_curves(const Components   &stress,
+                           const double       *history,
+                           const SectionPlane &plane) const
+  {
+    return subloading_curves(model<n_spatial>(), state(stress, history), plane);
+  }
+} // namespace geocone
