@@ -231,40 +231,42 @@ namespace geocone
     P own[2], other[2]; ///< of the inverse of F' D G
   };
 
-  /** The stress of the points p, ... of a block, turned by the spin, and the strain with
-   *  shears gamma_ij = 2 e_ij. @param nu for s_zz in the plane, see Material */
+  /** The stress of several points, turned by the spin, and the strain with shears
+   *  gamma_ij = 2 e_ij. */
   template <typename P>
-  void
-  load_turned(const PointBlock         &block,
-              const unsigned int        p,
-              const P                  &nu,
-              std::array<P, n_spatial> &s,
-              std::array<P, n_spatial> &strain)
+  struct TurnedTensors
   {
-    std::array<P, dim * dim> l;
-    for (unsigned int i = 0; i < dim * dim; ++i)
-      l[i] = P::load(block.l[i] + p);
-    std::array<P, n_mandel> moved;
-    for (int i = 0; i < n_mandel; ++i)
-      moved[i] = P::load(block.s[i] + p);
-    if constexpr (dim == 2)
-      {
-        s[3]      = nu * (moved[0] + moved[1]) + P::load(block.history[0] + p);
-        strain[3] = block.l_zz != nullptr ? P::load(block.l_zz + p) : P(0.);
-        PlaneSpin<P>(l).turn(moved);
-      }
-    else
-      SpatialSpin<P>(l).turn(moved);
-    for (int i = 0; i < n_mandel; ++i)
-      s[i] = moved[i];
-    for (unsigned int d = 0; d < dim; ++d)
-      strain[place_of_normal[d]] = l[(dim + 1) * d];
-    for (int i = 0; i < n_shears; ++i)
-      {
-        const auto [place, a, b] = shears[i];
-        strain[place]            = l[dim * a + b] + l[dim * b + a];
-      }
-  }
+    std::array<P, n_spatial> s, strain;
+
+    /** Those of the points p, ... of a block. @param nu for s_zz in the plane, see
+     *  Material */
+    TurnedTensors(const PointBlock &block, const unsigned int p, const P &nu)
+    {
+      std::array<P, dim * dim> l;
+      for (unsigned int i = 0; i < dim * dim; ++i)
+        l[i] = P::load(block.l[i] + p);
+      std::array<P, n_mandel> moved;
+      for (int i = 0; i < n_mandel; ++i)
+        moved[i] = P::load(block.s[i] + p);
+      if constexpr (dim == 2)
+        {
+          s[3] = nu * (moved[0] + moved[1]) + P::load(block.history[0] + p);
+          strain[3] = block.l_zz != nullptr ? P::load(block.l_zz + p) : P(0.);
+          PlaneSpin<P>(l).turn(moved);
+        }
+      else
+        SpatialSpin<P>(l).turn(moved);
+      for (int i = 0; i < n_mandel; ++i)
+        s[i] = moved[i];
+      for (unsigned int d = 0; d < dim; ++d)
+        strain[place_of_normal[d]] = l[(dim + 1) * d];
+      for (int i = 0; i < n_shears; ++i)
+        {
+          const auto [place, a, b] = shears[i];
+          strain[place]            = l[dim * a + b] + l[dim * b + a];
+        }
+    }
+  };
 
   /** advance_pyramid() for one architecture; see there. */
   template <typename Arch>
@@ -273,21 +275,23 @@ namespace geocone
   {
     using P = Pack<Arch>;
     using T = std::array<P, n_spatial>;
-    const P zero(0.), half(0.5), third(1. / 3.), large(1e300);
+    const P zero(0.), half(0.5), third(1. / 3.);
     const P more(1. + pyramid.sine), less(pyramid.sine - 1.);
     const P twice_sine(2. * pyramid.sine);
     const P round(2. * (1. + pyramid.sine * pyramid.sine / 3.));
     const P lambda(pyramid.lambda), two_G(pyramid.two_G),
       nu(pyramid.lambda / (2. * pyramid.lambda + pyramid.two_G));
-    const P      per_G2(1. / pyramid.two_G);
-    const P      bulk(pyramid.lambda /
+    const P per_G2(1. / pyramid.two_G);
+    const P bulk(pyramid.lambda /
                  (pyramid.two_G * (3. * pyramid.lambda + pyramid.two_G)));
-    const P      wave_modulus(pyramid.lambda + pyramid.two_G);
-    const P      twice_lagging(2. * pyramid.lagging);
-    const double exact_sine = pyramid.sine + pyramid.lagging;
-    const auto   apex       = [&](const double sine, const P &size) {
-      return sine > 0. ? P(0.5 / sine) * size : large;
+    const P wave_modulus(pyramid.lambda + pyramid.two_G);
+    const P twice_lagging(2. * pyramid.lagging);
+    // Of its size, the stress at the apex of a pyramid.
+    const auto apex_of_size = [](const double sine) {
+      return sine > 0. ? P(0.5 / sine) : P(1e100);
     };
+    const P apex(apex_of_size(pyramid.sine)),
+      exact_apex(apex_of_size(pyramid.sine + pyramid.lagging));
     const PyramidReturn<P> returns(pyramid);
     const auto             history = [&](const unsigned int place) {
       return place == PyramidNumbers::no_place ? nullptr : block.history[place];
@@ -297,9 +301,8 @@ namespace geocone
 
     for (unsigned int p = 0; p < block.n_points; p += PointBlock::lanes)
       {
-        T s, strain;
-        load_turned(block, p, nu, s, strain);
-        const P pressed = lambda * (strain[0] + strain[1] + strain[3]);
+        const auto [s, strain] = TurnedTensors<P>(block, p, nu);
+        const P pressed        = lambda * (strain[0] + strain[1] + strain[3]);
         T       trial;
         for (int i = 0; i < n_spatial; ++i)
           trial[i] = s[i] + (is_shear(i) ? half * (two_G * strain[i])
@@ -310,8 +313,8 @@ namespace geocone
         if (growth != nullptr)
           size += P(pyramid.size_per_cohesion) * P::load(growth + p);
         if (memory != nullptr)
-          size = size - twice_lagging * min(zero - P::load(memory + p),
-                                            apex(exact_sine, size));
+          size = size - twice_lagging *
+                          min(zero - P::load(memory + p), exact_apex * size);
 
         // Within the round cone nothing is looked for.
         const P mean = third * (trial[0] + trial[1] + trial[3]);
@@ -329,7 +332,7 @@ namespace geocone
             const PrincipalAxes<P> axes(trial);
             const P f = more * axes.value[0] + less * axes.value[2] - size;
             P       values[3];
-            returns(axes.value, f, size, apex(pyramid.sine, size), values);
+            returns(axes.value, f, size, apex * size, values);
             const T back = axes.tensor(values);
             for (int i = 0; i < n_spatial; ++i)
               end[i] = where_greater(f, zero, back[i], trial[i]);
