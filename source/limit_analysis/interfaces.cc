@@ -18,12 +18,13 @@ namespace geocone
     std::vector<Interface::Face>
     faces_of(const Obstacle &obstacle)
     {
-      const double mu = obstacle.law.friction, c = obstacle.law.adhesion;
+      const double mu = obstacle.law.friction, c = obstacle.law.adhesion,
+                   t = obstacle.law.tension;
       std::vector<Interface::Face> faces;
       if (mu > 0. || c > 0.)
         faces.push_back({mu, c, mu > 0., true});
-      if (mu == 0. || c > 0.)
-        faces.push_back({1., 0., true, false});
+      if (mu == 0. || mu * t < c) // else the cone's apex says as much
+        faces.push_back({1., t, true, false});
       return faces;
     }
 

@@ -331,7 +331,6 @@ namespace geocone
         for (const PlacedFace &face : first)
           integrate(face, points_ahead(face, others, reach), sums);
         add_whole_faces(first, sums);
-        const InterfaceLaw    &law = scene.contacts.list[k]->law;
         std::set<unsigned int> own;
         for (const auto &[node, sum] : sums)
           {
@@ -342,9 +341,6 @@ namespace geocone
             at.node.node     = node;
             at.node.obstacle = n_obstacles + k;
             at.node.normal   = -sum.normal / sum.normal.norm();
-            at.node.friction = law.friction;
-            at.node.adhesion = law.adhesion * sum.D;
-            at.node.rebounds = law.restitution > 0.;
             at.node.length   = sum.D;
             Point<dim> other;
             for (const auto &[partner, M] : sum.M)

@@ -29,7 +29,7 @@ namespace geocone
         const unsigned int i = node.first, m = node.n_tangents;
         const double       p     = r[i] - K(i, i) * (u[i] - node.least);
         State             &state = all.emplace_back();
-        if (!(p >= 0.))
+        if (!(p >= -node.tension))
           continue;
         state.contact = Contact::stick;
         if (m == 0)
@@ -60,7 +60,10 @@ namespace geocone
         const Node        &node = nodes[k];
         const unsigned int i = node.first, m = node.n_tangents;
         if (state[k].contact == Contact::open)
-          continue;
+          {
+            b[i] -= node.tension;
+            continue;
+          }
         if (state[k].contact == Contact::slip)
           {
             const VectorXd &d       = state[k].direction;
@@ -91,19 +94,22 @@ namespace geocone
   CondensedContact::solve_node(const Node &node, const OfNode &b) const
   {
     const unsigned int i = node.first, m = node.n_tangents;
-    const MatrixXd     own = K.block(i, i, m + 1, m + 1);
-    const double       l   = node.least;
-    OfNode             at  = own.partialPivLu().solve(-b);
+    const MatrixXd     own  = K.block(i, i, m + 1, m + 1);
+    const double       l    = node.least;
+    OfNode             pull = -b;
+    pull[0] -= node.tension;
+    OfNode at = own.partialPivLu().solve(pull);
     if (at[0] > l)
       return at;
     at.setZero();
-    at[0]               = l;
-    const OfNode r      = b + own.col(0) * l;
-    const double bound  = node.friction * std::max(r[0], 0.) + node.adhesion;
-    double       square = 0.; // of r_T
+    at[0]          = l;
+    const OfNode r = b + own.col(0) * l;
+    const double bound =
+      node.friction * std::max(r[0], -node.tension) + node.adhesion;
+    double square = 0.; // of r_T
     for (unsigned int t = 1; t <= m; ++t)
       square += r[t] * r[t];
-    if (m == 0 || (r[0] >= 0. && square <= bound * bound))
+    if (m == 0 || (r[0] >= -node.tension && square <= bound * bound))
       return at;
     double least = std::numeric_limits<double>::infinity();
     OfNode best  = at;
@@ -140,7 +146,8 @@ namespace geocone
                      r_n = r[0] + own(0, 1) * u_t;
         // What such a state lacks.
         const double lack =
-          std::max({sign * u_t * own(1, 1), -r_n, 0.}) + (slope > 0. ? 0. : 1.);
+          std::max({sign * u_t * own(1, 1), -node.tension - r_n, 0.}) +
+          (slope > 0. ? 0. : 1.);
         if (std::isfinite(u_t) && lack < least)
           {
             least = lack;
@@ -176,13 +183,13 @@ namespace geocone
       {
         const unsigned int i = node.first, m = node.n_tangents;
         const double       rho = K(i, i), w = u[i] - node.least,
-                     q = std::max(r[i] - rho * w, 0.);
+                     q = std::max(r[i] - rho * w, -node.tension);
         double lack    = std::abs(r[i] - q);
         largest        = std::max({largest, std::abs(r[i])});
         if (m > 0)
           {
             const double bound =
-              q > 0. ? node.friction * q + node.adhesion : 0.;
+              q > -node.tension ? node.friction * q + node.adhesion : 0.;
             VectorXd pull =
               r.segment(i + 1, m) - tangential_rho(node) * u.segment(i + 1, m);
             if (const double size = pull.norm(); size > bound)

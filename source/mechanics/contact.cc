@@ -236,6 +236,7 @@ namespace geocone
         node->is_corner = true;
         node->friction  = 0.;
         node->adhesion  = 0.;
+        node->tension   = 0.;
       }
   }
 
@@ -248,13 +249,15 @@ namespace geocone
     const Force &n   = node.normal;
     const Force  u   = at.v - velocity;
     const double rho = at.rho, w = u * n - node.least, p = at.r * n - rho * w;
-    result.F = at.r;
+    result.q = -node.tension * n;
+    result.F = at.r - result.q;
     // What rests without a force is held: it may have no other support.
-    if (!(p >= 0.) && !(holds && node.is_closed))
+    if (!(p >= -node.tension) && !(holds && node.is_closed))
       return result;
-    const double mu    = rubs ? node.friction : 0.;
-    const double bound = rubs ? mu * std::max(p, 0.) + node.adhesion : 0.;
-    const Force  u_T = u - (u * n) * n, r_T = at.r - (at.r * n) * n,
+    const double mu = rubs ? node.friction : 0.;
+    const double bound =
+      rubs ? mu * std::max(p, -node.tension) + node.adhesion : 0.;
+    const Force u_T = u - (u * n) * n, r_T = at.r - (at.r * n) * n,
                 pull  = r_T - rho * u_T;
     const double size = pull.norm();
     const Matrix I    = dealii::unit_symmetric_tensor<dim>();

@@ -28,6 +28,17 @@ namespace geocone
                                  "boundary condition, or leave the "
                                  "corner out of the body";
 
+    /** What the interface bears at a node, of which length and whether it is closed
+     *  are known. */
+    void
+    bear(const InterfaceLaw &law, ContactNode &node)
+    {
+      node.friction = law.friction;
+      node.adhesion = law.adhesion * node.length;
+      node.tension  = node.is_closed ? law.tension * node.length : 0.;
+      node.rebounds = law.restitution > 0.;
+    }
+
     /** A node that comes nearer faster than u_N = least hits in this step. */
     void
     rebound(const double u_n, const InterfaceLaw &law, ContactNode &node)
@@ -243,15 +254,15 @@ namespace geocone
         Tensor<1, dim>       u       = v;
         for (const ContactNode::Partner &other : contact.partners)
           u -= other.part * value_at(velocity_n, other.node);
-        contact.least     = -at.gap / h;
-        contact.is_closed = at.gap <= closed_gap * size;
-        contact.velocity  = v - u;
-        const double u_n  = u * contact.normal;
-        rebound(
-          u_n,
+        contact.least           = -at.gap / h;
+        contact.is_closed       = at.gap <= closed_gap * size;
+        contact.velocity        = v - u;
+        const double        u_n = u * contact.normal;
+        const InterfaceLaw &law =
           scene.contacts.list[contact.obstacle - scene.obstacles.list.size()]
-            ->law,
-          contact);
+            ->law;
+        bear(law, contact);
+        rebound(u_n, law, contact);
         near[contact.node] = {contact, at.gap, reach(h, u_n)};
       }
     return near;
@@ -346,11 +357,9 @@ namespace geocone
             contact.velocity  = V;
             contact.least     = -gap / h;
             contact.is_closed = gap <= closed_gap * size;
-            contact.friction  = list[o]->law.friction;
             contact.length =
               mesh_is_body ? length.local_element(dim * node) : 0.;
-            contact.adhesion = list[o]->law.adhesion * contact.length;
-            contact.rebounds = list[o]->law.restitution > 0.;
+            bear(list[o]->law, contact);
             const double u_n = (v - V) * at.normal;
             rebound(u_n, list[o]->law, contact);
             near.push_back({contact, gap, reach(h, u_n)});
@@ -450,10 +459,10 @@ namespace geocone
         if (!nodes[i].rebounds)
           most[1] = std::max(
             most[1], -h * (relative * nodes[i].normal - nodes[i].least));
-        if (touch.state == Contact::State::open)
+        if (!contact.bears(i))
           continue;
         const Tensor<1, dim> r = force(contact, i);
-        if (mesh_is_body)
+        if (mesh_is_body && touch.state != Contact::State::open)
           {
             const double l = nodes[i].length;
             sums[5] += l;
@@ -500,8 +509,7 @@ namespace geocone
     const auto           &nodes = contact.nodes();
     for (unsigned int i = 0; i < nodes.size(); ++i)
       {
-        if (nodes[i].node >= space.n_owned_nodes() ||
-            contact.touches()[i].state == Contact::State::open)
+        if (nodes[i].node >= space.n_owned_nodes() || !contact.bears(i))
           continue;
         const Tensor<1, dim> r     = force(contact, i);
         const unsigned int   o     = nodes[i].obstacle;

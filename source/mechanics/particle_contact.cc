@@ -385,7 +385,6 @@ namespace geocone
             n /= n.norm();
         const std::vector<double> gap = gaps(pair, shares, normal);
 
-        const InterfaceLaw &law = scene.contacts.list[pair.contact]->law;
         for (unsigned int place = 0; place < nodes.size(); ++place)
           {
             if (!(gap[place] < 1e200) || normal[place].norm_square() == 0.)
@@ -404,8 +403,6 @@ namespace geocone
               std::max(0.,
                        std::min(-(value_at(outward, node) * n),
                                 value_at(outward, other) * n));
-            facing.node.friction    = law.friction;
-            facing.node.rebounds    = law.restitution > 0.;
             const auto [at, is_new] = of_place.emplace(place, found.size());
             if (is_new)
               {

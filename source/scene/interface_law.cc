@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
 #include <geocone/scene/interface_law.h>
 
 #include <cmath>
@@ -18,6 +19,11 @@ namespace geocone
       adhesion,
       "Shear stress (Pa) that the interface bears besides friction "
       "while it is closed.");
+    section.add_parameter(
+      "Tensile strength",
+      tension,
+      "Pull (Pa) that the interface bears where it is closed; what has parted "
+      "bears none until it touches again. Suction that never ends: 1e12.");
     section.add_parameter(
       "Restitution",
       restitution,
@@ -37,10 +43,44 @@ namespace geocone
     if (!(adhesion >= 0. && std::isfinite(adhesion)))
       throw InputError(
         name + "Adhesion", adhesion, ">= 0 Pa, finite", "0: friction only");
+    if (!(tension >= 0. && std::isfinite(tension)))
+      throw InputError(name + "Tensile strength",
+                       tension,
+                       ">= 0 Pa, finite",
+                       "0: what is pulled parts; 1e12: it never does");
+    // Both are numbers of an input file: equal to its last digits.
+    if (friction * tension > adhesion * (1. + 1e-5))
+      throw InputError(
+        name + "Tensile strength",
+        tension,
+        format("0 to %.6g Pa, 'Adhesion' over 'Friction coefficient'",
+               adhesion / friction),
+        "there the cone has its apex; without friction all "
+        "pulls are possible");
     if (!(restitution >= 0. && restitution <= 1.))
       throw InputError(name + "Restitution",
                        restitution,
                        "0 to 1",
                        "0: no rebound; 1: elastic impact");
+    if (restitution > 0. && tension > 0.)
+      throw InputError(name + "Restitution",
+                       restitution,
+                       "0 beside 'Tensile strength' > 0",
+                       "what sticks does not rebound: leave one of both out");
+  }
+
+  void
+  InterfaceLaw::check_without_area(const std::string &section) const
+  {
+    const auto check = [&](const char *const entry, const double value) {
+      if (value > 0.)
+        throw InputError(section + entry,
+                         value,
+                         "0 with MPM",
+                         "the surface of particles has no exact area; take "
+                         "FEM");
+    };
+    check("Adhesion", adhesion);
+    check("Tensile strength", tension);
   }
 } // namespace geocone

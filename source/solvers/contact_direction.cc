@@ -167,7 +167,7 @@ namespace geocone
   {
     // Of all ranks, by component: where it is, the stiffness in the Jacobian, the laws
     // and how free obstacles move it.
-    constexpr unsigned int n_data = 6;
+    constexpr unsigned int n_data = 7;
     const unsigned int     n_free = contact.motions().n_free();
     MatrixXd               data = MatrixXd::Zero(n_components, n_data + n_free);
     for (const Component &component : own)
@@ -181,6 +181,7 @@ namespace geocone
         row[3]                     = node.least;
         row[4]                     = node.friction;
         row[5]                     = node.adhesion;
+        row[6]                     = node.tension;
         contact.for_motions_of(
           node, [&](const unsigned int number, const Tensor<1, dim> &G) {
             row[n_data + number] = G * component.axis;
@@ -197,7 +198,7 @@ namespace geocone
                  data(k + n_tangents + 1, 2) == 0.)
             ++n_tangents;
           problem.nodes.push_back(
-            {k, n_tangents, data(k, 3), data(k, 4), data(k, 5)});
+            {k, n_tangents, data(k, 3), data(k, 4), data(k, 5), data(k, 6)});
         }
     // r = K dv + c, dv that of the body; then the motions dy of obstacles are
     // eliminated, du = dv - G dy.

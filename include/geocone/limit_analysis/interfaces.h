@@ -25,8 +25,8 @@ namespace geocone
     int                    obstacle = -1; ///< its number, or none
 
     /**
-     * The sets in which r is, all of them: Coulomb's cone, Signorini's r_N >= 0
-     * where adhesion would bear tension, too, or only r_T = 0 where r_N is free.
+     * The sets in which r is, all of them: Coulomb's cone, r_N >= -t with the tensile
+     * strength t where the cone goes farther, or only r_T = 0 where r_N is free.
      */
     struct Face
     {

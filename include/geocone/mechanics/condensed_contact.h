@@ -13,8 +13,9 @@ namespace geocone
   /**
    * The laws of contact with friction of n nodes on what is left of a linear body when
    * all other unknowns are eliminated: find u, r = K u + c with
-   *   0 <= r_N _|_ u_N - least >= 0,   |r_T| <= mu r_N + adhesion, u_T against r_T where
-   * it slides, in the axes n and t of each node, or in n alone. K (kg/(m s)) is dense
+   *   0 <= r_N + tension _|_ u_N - least >= 0,
+   *   |r_T| <= mu r_N + adhesion, u_T against r_T where it slides,
+   * in the axes n and t of each node, or in n alone. K (kg/(m s)) is dense
    * and small.
    *
    * An active set, by linear systems, ends at the solution in a few steps where it does
@@ -32,6 +33,7 @@ namespace geocone
       double least    = 0.; ///< (m/s)
       double friction = 0.; ///< mu
       double adhesion = 0.; ///< borne besides while closed (N/m)
+      double tension  = 0.; ///< the largest pull, at most adhesion/mu (N/m)
     };
 
     Eigen::MatrixXd   K;

@@ -90,6 +90,7 @@ namespace geocone
 
     double friction = 0.; ///< mu
     double adhesion = 0.; ///< borne besides friction, while closed (N/m)
+    double tension  = 0.; ///< largest pull, of what is closed at first (N/m)
   };
 
   /** A node of a first body that may touch the other one, without what depends on the
@@ -116,11 +117,12 @@ namespace geocone
    * without an unknown of its own. In the rows of a node that may touch, the residual R(v) of
    * the momentum balance is the force r that the obstacle exerts. Signorini's and
    * Coulomb's laws for it and the relative velocity u,
-   *   0 <= r_N  _|_  w_N = u_N - least >= 0,
+   *   0 <= r_N + t  _|_  w_N = u_N - least >= 0,
    *   |r_T| <= mu r_N + c,  and u_T against r_T where it slides,
+   * with a pull t that is borne where the node is closed at the beginning, mu t <= c,
    * are the roots of (Alart and Curnier 1991, for any rho > 0)
-   *   F_N = r_N - q,                     q = max(r_N - rho w_N, 0),
-   *   F_T = r_T - [r_T - rho u_T] in +-b,  b = mu q + c (c = 0 where q = 0),
+   *   F_N = r_N - q,                     q = max(r_N - rho w_N, -t),
+   *   F_T = r_T - [r_T - rho u_T] in +-b,  b = mu q + c (0 where q = -t),
    * which takes the place of R in these rows, so that one Newton iteration solves
    * for plasticity and contact. dF = A dr + B dv: rows of the Jacobian are
    * combined by the 2 x 2 matrices A, and B comes to the diagonal; both are the
@@ -281,6 +283,13 @@ namespace geocone
     touches() const
     {
       return touch;
+    }
+
+    /** Whether there is a force: also where what is closed at first is pulled open. */
+    bool
+    bears(const unsigned int i) const
+    {
+      return touch[i].state != State::open || list[i].tension > 0.;
     }
 
     /** Whether bodies may touch each other, on any rank. */

@@ -14,15 +14,22 @@ namespace geocone
   {
     double friction    = 0.; ///< mu of Coulomb's law
     double adhesion    = 0.; ///< shear stress borne besides (Pa)
+    double tension     = 0.; ///< largest pull that it bears (Pa)
     double restitution = 0.; ///< e of Newton's law of impact
 
-    /** Declares 'Friction coefficient', 'Adhesion' and 'Restitution'. */
+    /** Declares 'Friction coefficient', 'Adhesion', 'Tensile strength' and
+     *  'Restitution'. */
     void
     declare(dealii::ParameterAcceptor &section);
 
     /** @throws InputError for what no interface has */
     void
     check(const dealii::ParameterAcceptor &section) const;
+
+    /** For particles. @param section with a slash @throws InputError for what is borne
+     *  per area */
+    void
+    check_without_area(const std::string &section) const;
   };
 } // namespace geocone
 
