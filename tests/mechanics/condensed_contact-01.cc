@@ -3,8 +3,8 @@
 
 // If this failed, directions of Newton's method would not end where the laws of contact
 // hold. Random bodies, condensed to 1 to 60 nodes: K is that of a chain of nodes on springs,
-// turned at random, c pulls and presses, some nodes have no friction or adhesion. Nodes have
-// one tangent, as in the plane, or two. The solution must fulfil the laws, one by one: not
+// turned at random, c pulls and presses, some nodes have no friction or adhesion, and
+// in a second run some bear a pull. Nodes have one tangent, as in the plane, or two. The solution must fulfil the laws, one by one: not
 // the root functions that solve() looks at.
 
 #include <geocone/mechanics/condensed_contact.h>
@@ -28,13 +28,13 @@ lack(const CondensedContact &problem, const VectorXd &u)
   for (const CondensedContact::Node &node : problem.nodes)
     {
       const unsigned int i = node.first, n_t = node.n_tangents;
-      const double       w = u[i] - node.least;
+      const double       w = u[i] - node.least, borne = r[i] + node.tension;
       worst =
-        std::max({worst, -r[i], -w, std::min(std::abs(r[i]), std::abs(w))});
+        std::max({worst, -borne, -w, std::min(std::abs(borne), std::abs(w))});
       if (n_t == 0)
         continue;
       const double bound =
-        node.friction * r[i] + (std::abs(w) < 1e-9 * size ? node.adhesion : 0.);
+        std::abs(w) < 1e-9 * size ? node.friction * r[i] + node.adhesion : 0.;
       const VectorXd r_T = r.segment(i + 1, n_t), u_T = u.segment(i + 1, n_t);
       worst = std::max(worst, r_T.norm() - bound);
       // Where it slides, at the bound and against the motion.
@@ -46,9 +46,10 @@ lack(const CondensedContact &problem, const VectorXd &u)
   return worst / size;
 }
 
-/** @param n_t tangents of the nodes that rub */
+/** @param n_t tangents of the nodes that rub
+ *  @param pulled whether some bear a pull */
 void
-run(const unsigned int n_t)
+run(const unsigned int n_t, const bool pulled)
 {
   std::mt19937                           random(20);
   std::uniform_real_distribution<double> uniform(0., 1.);
@@ -72,6 +73,14 @@ run(const unsigned int n_t)
              rubs && uniform(random) > 0.1 ? in(0., 1.) : 0.,
              rubs && uniform(random) > 0.98 ? in(0., 0.3) : 0.});
           m += rubs ? n_t + 1 : 1;
+          if (pulled && uniform(random) > 0.7)
+            {
+              CondensedContact::Node &node = problem.nodes.back();
+              node.tension                 = in(0., 0.3);
+              // At the apex of the cone, or before it.
+              node.adhesion =
+                rubs ? in(1., 2.) * node.friction * node.tension : 0.;
+            }
         }
       // Springs between neighbours, and weak ones to the ground; normal and tangential
       // components are coupled.
@@ -106,7 +115,8 @@ run(const unsigned int n_t)
   const unsigned int enough  = n_t == 1 ? 290 : 280,
                      of_each = n_t == 1 ? 500 : 200;
   const unsigned int least   = std::min({n_open, n_stick, n_slip});
-  std::cout << n_t << " tangents\nsolved, of 300: "
+  std::cout << n_t << " tangents" << (pulled ? ", some bear a pull" : "")
+            << "\nsolved, of 300: "
             << (n_solved >= enough ? "at least " + std::to_string(enough)
                                    : std::to_string(n_solved))
             << std::endl;
@@ -125,5 +135,6 @@ int
 main()
 {
   for (const unsigned int n_t : {1, 2})
-    run(n_t);
+    for (const bool pulled : {false, true})
+      run(n_t, pulled);
 }
