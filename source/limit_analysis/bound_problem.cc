@@ -244,16 +244,21 @@ namespace geocone
       Point<dim> place;
     };
 
+    /** The motions of obstacles, then how far interfaces open, at three points each. */
     unsigned int
-    n_dofs_of_obstacles(const BoundScene &bound)
+    n_dofs_of_interfaces(const BoundScene &bound)
     {
-      return RigidMotion::n_components * bound.scene.obstacles.list.size();
+      unsigned int n =
+        RigidMotion::n_components * bound.scene.obstacles.list.size();
+      for (const Interface &interface : bound.interfaces)
+        n += interface.opens() ? 3 : 0;
+      return n;
     }
 
     /** Adds the interfaces as cells, and prescribes the obstacles' velocities, or loads
      *  those that are free.
      *  @param points_of (edge) -> its three points
-     *  @param first_dof of the obstacles */
+     *  @param first_dof of n_dofs_of_interfaces() */
     template <typename PointsOfEdge>
     void
     add_interfaces(const BoundScene   &bound,
@@ -289,6 +294,7 @@ namespace geocone
                   weight[k] / unit;
             }
         }
+      unsigned int opening = first_dof + n_motions * obstacles.list.size();
       for (const Interface &interface : bound.interfaces)
         {
           const auto &ends =
@@ -333,6 +339,23 @@ namespace geocone
                                                   L));
                           }
                     }
+                  if (interface.opens())
+                    {
+                      const bool is_first = &face == &interface.faces.front();
+                      if (!is_first)
+                        {
+                          dofs.clear();
+                          G.clear();
+                        }
+                      if (acts)
+                        {
+                          dofs.push_back(opening + i);
+                          G.push_back(is_first ? -1. * N : N);
+                        }
+                      else
+                        problem.is_prescribed[opening + i] =
+                          problem.has_no_force[opening + i] = true;
+                    }
                   Strains B = Strains::Zero(3, dofs.size());
                   for (unsigned int j = 0; j < dofs.size(); ++j)
                     {
@@ -345,6 +368,7 @@ namespace geocone
                 }
               problem.owner.push_back(interface.held.cell);
             }
+          opening += interface.opens() ? 3 : 0;
         }
     }
 
@@ -452,7 +476,7 @@ namespace geocone
     const unsigned int n_vertices = triangles.vertices.size();
     const unsigned int n_nodes    = n_vertices + triangles.edges.size();
     BoundProblem       problem =
-      begin_problem(bound, 10, dim * n_nodes + n_dofs_of_obstacles(bound));
+      begin_problem(bound, 10, dim * n_nodes + n_dofs_of_interfaces(bound));
     bound_dissipation_from_above(problem);
     std::vector<bool> is_used(n_vertices, false);
     for (unsigned int c = 0; c < triangles.cells.size(); ++c)
@@ -523,7 +547,7 @@ namespace geocone
     const unsigned int n_cells   = triangles.cells.size();
     const unsigned int n_nodes   = n_cells + 2 * triangles.edges.size();
     BoundProblem       problem =
-      begin_problem(bound, 6, dim * n_nodes + n_dofs_of_obstacles(bound));
+      begin_problem(bound, 6, dim * n_nodes + n_dofs_of_interfaces(bound));
     const auto end_dof = [&](const unsigned int edge,
                              const unsigned int vertex,
                              const unsigned int component) {

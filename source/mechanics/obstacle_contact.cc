@@ -4,7 +4,6 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/base/over_ranks.h>
-#include <geocone/mechanics/face_points.h>
 #include <geocone/mechanics/obstacle_contact.h>
 
 #include <deal.II/base/mpi.h>
@@ -105,24 +104,20 @@ namespace geocone
               !is_there[cell->neighbor(f)->active_cell_index()]);
     };
     candidates = space.nodes_on_faces(is_bare);
-    length.reinit(space.partitioner());
+    sides.emplace(space);
     Vector                               of_body(space.partitioner());
     std::vector<types::global_dof_index> nodes;
     for (const Cell &cell : cells)
       {
         for (const unsigned int f : cell->face_indices())
           if (is_bare(cell, f))
-            for (const FacePoint &point : points_on_face(mesh, space, cell, f))
-              for (unsigned int i = 0; i < point.nodes.size(); ++i)
-                length.local_element(dim * point.nodes[i]) +=
-                  point.weight * point.values[i];
+            sides->add(points_on_face(mesh, space, cell, f));
         space.cell_nodes(cell, nodes);
         for (const types::global_dof_index node : nodes)
           for (unsigned int d = 0; d < dim; ++d)
             of_body.local_element(dim * space.local_node(node) + d) += 1.;
       }
-    length.compress(VectorOperation::add);
-    length.update_ghost_values();
+    sides->exchange();
     of_body.compress(VectorOperation::add);
     of_body.update_ghost_values();
     std::vector<unsigned int> come;
@@ -357,8 +352,7 @@ namespace geocone
             contact.velocity  = V;
             contact.least     = -gap / h;
             contact.is_closed = gap <= closed_gap * size;
-            contact.length =
-              mesh_is_body ? length.local_element(dim * node) : 0.;
+            contact.length = mesh_is_body ? sides->facing(node, at.normal) : 0.;
             bear(list[o]->law, contact);
             const double u_n = (v - V) * at.normal;
             rebound(u_n, list[o]->law, contact);
@@ -462,9 +456,10 @@ namespace geocone
         if (!contact.bears(i))
           continue;
         const Tensor<1, dim> r = force(contact, i);
-        if (mesh_is_body && touch.state != Contact::State::open)
+        // Vertices of quadratic tetrahedra stand for no area.
+        if (const double l = nodes[i].length;
+            mesh_is_body && l > 0. && touch.state != Contact::State::open)
           {
-            const double l = nodes[i].length;
             sums[5] += l;
             if (touch.state == Contact::State::stick)
               sums[7] += l;

@@ -60,7 +60,8 @@ namespace geocone
    *
    * After the triangles come the faces of the interfaces, as cells of the same form:
    * V is a part of an edge's length, B q the velocity of the body relative to the
-   * obstacle, whose own velocity has the last dofs.
+   * obstacle, whose own velocity has the last dofs, before how far interfaces open
+   * (Interface::opens()).
    */
   struct BoundProblem
   {

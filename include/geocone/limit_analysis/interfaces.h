@@ -34,6 +34,14 @@ namespace geocone
       bool   has_normal, has_tangential;
     };
     std::vector<Face> faces;
+
+    /** Whether both of them bound r_N: then the body opens by w against the second one
+     *  alone, and (u_N - w, u_T) is the first one's. */
+    bool
+    opens() const
+    {
+      return faces.size() == 2 && faces[0].has_normal && faces[1].has_normal;
+    }
   };
 
   /** @throws InputError if an obstacle touches no edge, or a part of one, or is in

@@ -9,6 +9,7 @@
 #include <geocone/mechanics/body_contact.h>
 #include <geocone/mechanics/constraints.h>
 #include <geocone/mechanics/contact.h>
+#include <geocone/mechanics/node_sides.h>
 #include <geocone/scene/scene.h>
 
 #include <map>
@@ -273,9 +274,9 @@ namespace geocone
     force(const Contact &contact, const unsigned int i);
 
     std::vector<unsigned int> candidates; ///< local nodes, with ghosts
-    std::vector<bool> had_cells; ///< nodes of the body, before take_body()
-    Vector            length;    ///< int N_i dA (m)
-    double            size = 0.; ///< of a cell (m)
+    std::vector<bool> had_cells;    ///< nodes of the body, before take_body()
+    std::optional<NodeSides> sides; ///< of a mesh that is the body
+    double                   size = 0.; ///< of a cell (m)
     std::vector<RigidMotion> displacement, velocity;
     Vector                   path; ///< of the nodes of the body (m)
 
