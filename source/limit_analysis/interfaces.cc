@@ -20,6 +20,8 @@ namespace geocone
     {
       const double mu = obstacle.law.friction, c = obstacle.law.adhesion,
                    t = obstacle.law.tension;
+      if (mu == 0. && obstacle.law.never_parts())
+        return {{0., c > 0. ? c : 1., true, c > 0.}};
       std::vector<Interface::Face> faces;
       if (mu > 0. || c > 0.)
         faces.push_back({mu, c, mu > 0., true});

@@ -23,7 +23,7 @@ namespace geocone
       "Tensile strength",
       tension,
       "Pull (Pa) that the interface bears where it is closed; what has parted "
-      "bears none until it touches again. Suction that never ends: 1e12.");
+      "bears none until it touches again. From 1e9 on it never parts.");
     section.add_parameter(
       "Restitution",
       restitution,
@@ -47,7 +47,7 @@ namespace geocone
       throw InputError(name + "Tensile strength",
                        tension,
                        ">= 0 Pa, finite",
-                       "0: what is pulled parts; 1e12: it never does");
+                       "0: what is pulled parts; 1e9: it never does");
     // Both are numbers of an input file: equal to its last digits.
     if (friction * tension > adhesion * (1. + 1e-5))
       throw InputError(

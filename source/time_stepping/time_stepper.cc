@@ -177,7 +177,9 @@ namespace geocone
     {
       double kinetic = 0., elastic = 0., plastic = 0.;
 
-      double kinetic_energy = 0., elastic_energy = 0.; ///< at its end
+      double kinetic_energy = 0.; ///< at its end
+      double elastic_energy =
+        0.; ///< the larger one of its beginning and its end
     };
 
     /** Of the last step that a problem solved. Collective. */
@@ -203,20 +205,22 @@ namespace geocone
           parts.kinetic = v * momentum;
         }
       const InternalForces &internal = problem.internal_forces();
-      std::array<double, 3> sums     = {};
+      std::array<double, 4> sums     = {};
       for (unsigned int p = 0; p < points.n_points(); ++p)
         {
           const Mandel              &s    = internal.trial_stress()[p];
           const InternalForces::Work work = internal.work(p);
           sums[0] += points.weight[p] * work.elastic;
           sums[1] += points.weight[p] * work.plastic;
-          sums[2] += points.weight[p] / 2. *
-                     s.dot(elasticity_at_start(materials, points, p).strain(s));
+          const auto  elasticity = elasticity_at_start(materials, points, p);
+          const auto &s_n        = points.stress[p];
+          sums[2] += points.weight[p] / 2. * s.dot(elasticity.strain(s));
+          sums[3] += points.weight[p] / 2. * s_n.dot(elasticity.strain(s_n));
         }
       sum_over_ranks(sums, v.get_mpi_communicator());
       parts.elastic        = sums[0];
       parts.plastic        = sums[1];
-      parts.elastic_energy = sums[2];
+      parts.elastic_energy = std::max(sums[2], sums[3]);
       return parts;
     }
   } // namespace

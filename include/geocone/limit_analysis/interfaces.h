@@ -26,7 +26,7 @@ namespace geocone
 
     /**
      * The sets in which r is, all of them: Coulomb's cone, r_N >= -t with the tensile
-     * strength t where the cone goes farther, or only r_T = 0 where r_N is free.
+     * strength t where the cone goes farther; or only |r_T| <= k where r_N is free.
      */
     struct Face
     {

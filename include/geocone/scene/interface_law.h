@@ -17,6 +17,13 @@ namespace geocone
     double tension     = 0.; ///< largest pull that it bears (Pa)
     double restitution = 0.; ///< e of Newton's law of impact
 
+    /** No soil pulls that hard. */
+    bool
+    never_parts() const
+    {
+      return tension >= 1e9;
+    }
+
     /** Declares 'Friction coefficient', 'Adhesion', 'Tensile strength' and
      *  'Restitution'. */
     void
