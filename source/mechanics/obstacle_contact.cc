@@ -27,17 +27,6 @@ namespace geocone
                                  "boundary condition, or leave the "
                                  "corner out of the body";
 
-    /** What the interface bears at a node, of which length and whether it is closed
-     *  are known. */
-    void
-    bear(const InterfaceLaw &law, ContactNode &node)
-    {
-      node.friction = law.friction;
-      node.adhesion = law.adhesion * node.length;
-      node.tension  = node.is_closed ? law.tension * node.length : 0.;
-      node.rebounds = law.restitution > 0.;
-    }
-
     /** A node that comes nearer faster than u_N = least hits in this step. */
     void
     rebound(const double u_n, const InterfaceLaw &law, ContactNode &node)
@@ -85,6 +74,11 @@ namespace geocone
 
     path.reinit(space.partitioner());
     path.update_ghost_values(); // zeros, which are read
+    if (has_bonds())
+      {
+        bonds.reinit(space.partitioner());
+        bonds.update_ghost_values();
+      }
     if (!scene.contacts.list.empty())
       bodies.emplace(scene, mesh, space).check_start([this](const auto node) {
         return place(node);
@@ -127,11 +121,15 @@ namespace geocone
     had_cells.resize(space.n_local_nodes());
     for (unsigned int node = 0; node < had_cells.size(); ++node)
       had_cells[node] = of_body.local_element(dim * node) > 0.;
-    path.zero_out_ghost_values();
-    for (unsigned int i = 0; i < of_body.locally_owned_size(); ++i)
-      if (of_body.local_element(i) == 0.)
-        path.local_element(i) = 0.;
-    path.update_ghost_values();
+    for (Vector *const of_nodes : {&path, &bonds})
+      if (of_nodes->size() > 0)
+        {
+          of_nodes->zero_out_ghost_values();
+          for (unsigned int i = 0; i < of_body.locally_owned_size(); ++i)
+            if (of_body.local_element(i) == 0.)
+              of_nodes->local_element(i) = 0.;
+          of_nodes->update_ghost_values();
+        }
     check_overlap(come);
   }
 
@@ -234,6 +232,28 @@ namespace geocone
   {
     return (mesh_is_body ? closed_gap : nearly_closed) * size +
            2. * h * std::abs(u_n);
+  }
+
+  bool
+  ObstacleContact::has_bonds() const
+  {
+    const auto  bears = [](const auto &one) { return one->law.tension > 0.; };
+    const auto &obstacles = scene.obstacles.list;
+    const auto &contacts  = scene.contacts.list;
+    return std::any_of(obstacles.begin(), obstacles.end(), bears) ||
+           std::any_of(contacts.begin(), contacts.end(), bears);
+  }
+
+  void
+  ObstacleContact::bear(const InterfaceLaw &law, ContactNode &node) const
+  {
+    node.friction = law.friction;
+    node.adhesion = law.adhesion * node.length;
+    node.rebounds = law.restitution > 0.;
+    if (law.tension > 0. &&
+        (node.is_closed ||
+         bonds.local_element(dim * node.node) == node.obstacle + 1.))
+      node.tension = law.tension * node.length;
   }
 
   ObstacleContact::NearBodies
@@ -653,6 +673,17 @@ namespace geocone
         path.add(h, v);
         path.update_ghost_values();
         check_held(contact, v, h);
+      }
+    if (mesh_is_body && has_bonds())
+      {
+        bonds.zero_out_ghost_values();
+        bonds = 0.;
+        for (unsigned int i = 0; i < contact.nodes().size(); ++i)
+          if (const ContactNode &at = contact.nodes()[i];
+              contact.is_owned(at) &&
+              contact.touches()[i].state != Contact::State::open)
+            bonds.local_element(dim * at.node) = at.obstacle + 1.;
+        bonds.update_ghost_values();
       }
   }
 } // namespace geocone

@@ -479,6 +479,9 @@ namespace geocone
         archive.write_row("obstacles", moved);
         save_nodes(
           archive, "path", *mesh, *space, obstacles->displacement_of_nodes());
+        if (obstacles->has_bonds())
+          save_nodes(
+            archive, "bonds", *mesh, *space, obstacles->bonds_of_nodes());
       }
   }
 
@@ -495,6 +498,12 @@ namespace geocone
         load_nodes(
           archive, "path", *mesh, *space, obstacles->displacement_of_nodes());
         obstacles->displacement_of_nodes().update_ghost_values();
+        if (obstacles->has_bonds())
+          {
+            load_nodes(
+              archive, "bonds", *mesh, *space, obstacles->bonds_of_nodes());
+            obstacles->bonds_of_nodes().update_ghost_values();
+          }
       }
   }
 

@@ -183,6 +183,19 @@ namespace geocone
     {
       return path;
     }
+
+    /** Whether what touches may bear a pull. */
+    bool
+    has_bonds() const;
+
+    /** By the first dof of each node one more than the number of what it touched at the
+     *  end of the last step, or 0. What it bears by that must not depend on a gap that
+     *  is an error of the second order, of an obstacle that turns. */
+    Vector &
+    bonds_of_nodes()
+    {
+      return bonds;
+    }
     /** @} */
 
   private:
@@ -269,6 +282,10 @@ namespace geocone
                 const double                   h,
                 const std::vector<FacingNode> &facing) const;
 
+    /** Sets what the interface bears at a node, of which the rest is known. */
+    void
+    bear(const InterfaceLaw &law, ContactNode &node) const;
+
     /** The force on a node: what supports hold of it is theirs. */
     static dealii::Tensor<1, dim>
     force(const Contact &contact, const unsigned int i);
@@ -278,7 +295,8 @@ namespace geocone
     std::optional<NodeSides> sides; ///< of a mesh that is the body
     double                   size = 0.; ///< of a cell (m)
     std::vector<RigidMotion> displacement, velocity;
-    Vector                   path; ///< of the nodes of the body (m)
+    Vector                   path;  ///< of the nodes of the body (m)
+    Vector                   bonds; ///< see bonds_of_nodes(), with ghosts
 
     std::optional<BodyContact> bodies; ///< where there are contacts
   };
