@@ -68,6 +68,8 @@ METHODS = {
     # Obstacles: a free body on soil, and particles that slide.
     "free": ("contact/free_footing-01.prm", {"Loading/push/Output every": "3"}),
     "slide": ("contact/incline-MPM-01.prm", {"Loading/slide/Output every": "20"}),
+    # A bond that breaks.
+    "bond": ("contact/bond-01.prm", {"Mesh/Cell size": "0.02", "Loading/lift/Output every": "2"}),
     # A body that slides over another one.
     "bodies": ("contact/incline_bodies-01.prm", {"Loading/slide/Output every": "20"}),
     "bodies_mpm": ("contact/blocks-MPM-01.prm", {"Loading/slide/Output every": "12"}),
