@@ -202,10 +202,19 @@ namespace geocone
     return worst / largest;
   }
 
+  double
+  CondensedContact::rounding(const VectorXd &u) const
+  {
+    const VectorXd summed = K.cwiseAbs() * u.cwiseAbs() + c.cwiseAbs();
+    return std::numeric_limits<double>::epsilon() * summed.maxCoeff() /
+           std::max((K * u + c).cwiseAbs().maxCoeff(),
+                    std::numeric_limits<double>::min());
+  }
+
   bool
   CondensedContact::solve(VectorXd &u) const
   {
-    constexpr double tolerance  = 1e-11;
+    constexpr double tolerance = 1e-11, of_rounding = 10.;
     constexpr int    most_steps = 25, rounds = 7;
     VectorXd         best       = u;
     double           best_error = error(u);
@@ -216,32 +225,43 @@ namespace geocone
           best       = at;
           best_error = lack;
         }
-      return best_error <= tolerance;
+      return best_error <= tolerance || (lack <= best_error && lack < 1e-7 &&
+                                         lack <= of_rounding * rounding(at));
     };
-    const auto active_set = [&](std::vector<State> state) {
+    // A set that was there before leads to where it led then. With two tangents none
+    // comes again, but for the last one.
+    std::vector<std::vector<State>> seen;
+    const auto                      active_set = [&](std::vector<State> state) {
       for (int step = 0; step < most_steps; ++step)
         {
+          if (std::find(seen.begin(), seen.end(), state) != seen.end())
+            return false;
+          seen.push_back(state);
           const VectorXd at = solve_for(state);
           if (keep(at))
             return true;
-          std::vector<State> next = at.allFinite() ? states(at) : state;
-          if (next == state) // with two tangents only where it ends
-            return false;
-          state = std::move(next);
+          if (at.allFinite())
+            state = states(at);
         }
       return false;
     };
     State all_stick;
     all_stick.contact = Contact::stick;
-    // From the start, from where all of them stick, and from where sweeps lead.
+    // From the start, from where all of them stick, and from where sweeps lead, as long
+    // as they lead anywhere.
     VectorXd swept = u;
     bool     done  = best_error <= tolerance || active_set(states(u)) ||
                 active_set(std::vector<State>(nodes.size(), all_stick));
+    double last = std::numeric_limits<double>::infinity();
     for (int round = 0; !done && round < rounds; ++round)
       {
-        for (int k = 0; k < (25 << round) && sweep(swept) > tolerance; ++k)
-          {}
+        double change = last;
+        for (int k = 0; k < (25 << round) && change > tolerance; ++k)
+          change = sweep(swept);
         done = keep(swept) || active_set(states(swept));
+        if (!(change < last / 2.))
+          break;
+        last = change;
       }
     u = best;
     return done;

@@ -52,6 +52,10 @@ namespace geocone
     double
     error(const Eigen::VectorXd &u) const;
 
+    /** What of error() may be rounding of K u. */
+    double
+    rounding(const Eigen::VectorXd &u) const;
+
   private:
     enum class Contact
     {
