@@ -225,8 +225,9 @@ namespace geocone
           best       = at;
           best_error = lack;
         }
-      return best_error <= tolerance || (lack <= best_error && lack < 1e-7 &&
-                                         lack <= of_rounding * rounding(at));
+      // What is far off is not rounding, which takes a product with K to find.
+      return best_error <= tolerance ||
+             (best_error < 1e-7 && best_error <= of_rounding * rounding(best));
     };
     // A set that was there before leads to where it led then. With two tangents none
     // comes again, but for the last one.

@@ -10,7 +10,6 @@
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_control.h>
 
-
 namespace geocone
 {
   using namespace dealii;

@@ -178,8 +178,7 @@ namespace geocone
       double kinetic = 0., elastic = 0., plastic = 0.;
 
       double kinetic_energy = 0.; ///< at its end
-      double elastic_energy =
-        0.; ///< the larger one of its beginning and its end
+      double elastic_energy = 0.; ///< the larger one, of beginning and end
     };
 
     /** Of the last step that a problem solved. Collective. */

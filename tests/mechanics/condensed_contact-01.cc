@@ -4,8 +4,8 @@
 // If this failed, directions of Newton's method would not end where the laws of contact
 // hold. Random bodies, condensed to 1 to 60 nodes: K is that of a chain of nodes on springs,
 // turned at random, c pulls and presses, some nodes have no friction or adhesion, and
-// in a second run some bear a pull. Nodes have one tangent, as in the plane, or two. The solution must fulfil the laws, one by one: not
-// the root functions that solve() looks at.
+// in a second run some bear a pull. Nodes have one tangent, as in the plane, or two. The
+// solution must fulfil the laws, one by one: not the root functions that solve() looks at.
 
 #include <geocone/mechanics/condensed_contact.h>
 

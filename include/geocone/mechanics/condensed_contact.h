@@ -52,11 +52,11 @@ namespace geocone
     double
     error(const Eigen::VectorXd &u) const;
 
+  private:
     /** What of error() may be rounding of K u. */
     double
     rounding(const Eigen::VectorXd &u) const;
 
-  private:
     enum class Contact
     {
       open,
