@@ -42,8 +42,10 @@ namespace geocone
       "Element",
       dim == 2
         ? ". P1 to P3 on triangles, Q1 to Q3 on quadrilaterals, B-splines on "
-          "uniform and graded grids of them. Automatic: P3 or Q3 for FEM; for "
-          "MPM "
+          "uniform and graded grids of them. Automatic: P3 or Q3 for FEM, but "
+          "P2 on triangles where a soil has (a - b)/a > 0.51, a = sin(phi), b "
+          "= "
+          "sin(theta), and its friction no memory; for MPM "
           "B-spline 3 on grids, P3 on triangles, Q1 on other meshes; for "
           "explicit "
           "MPM B-spline 2, P1 or Q1."
@@ -66,10 +68,13 @@ namespace geocone
   std::string
   Space::automatic_element(const bool    simplicial,
                            const bool    has_grid,
-                           const Method &method)
+                           const Method &method,
+                           const bool    hard_flow)
   {
     if (simplicial)
-      return dim == 3 ? "P2" : method.is_explicit() ? "P1" : "P3";
+      return dim == 3 || (hard_flow && !method.is_mpm()) ? "P2"
+             : method.is_explicit()                      ? "P1"
+                                                         : "P3";
     if (!method.is_mpm())
       return dim == 3 ? "Q2" : "Q3";
     if (!has_grid)
@@ -80,10 +85,11 @@ namespace geocone
   void
   Space::choose_element(const bool    simplicial,
                         const bool    has_grid,
-                        const Method &method)
+                        const Method &method,
+                        const bool    hard_flow)
   {
     if (kind == Element::automatic)
-      kind.set(automatic_element(simplicial, has_grid, method));
+      kind.set(automatic_element(simplicial, has_grid, method, hard_flow));
     const bool on_simplices = kind <= Element::p3;
     if (on_simplices != simplicial || (dim == 3 && kind == Element::p3) ||
         (kind >= Element::spline_2 && !has_grid))
@@ -115,11 +121,13 @@ namespace geocone
   }
 
   void
-  Space::prepare(const BackgroundMesh &background, const Method &method)
+  Space::prepare(const BackgroundMesh &background,
+                 const Method         &method,
+                 const bool            hard_flow)
   {
     mesh                  = &background;
     const bool simplicial = mesh->is_simplicial();
-    choose_element(simplicial, !mesh->grid()[0].empty(), method);
+    choose_element(simplicial, !mesh->grid()[0].empty(), method, hard_flow);
 
     n_nodes_per_cell = simplicial ? (p + 1) * (p + 2) / 2 : (p + 1) * (p + 1);
     if (dim == 3)

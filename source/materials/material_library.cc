@@ -325,6 +325,19 @@ namespace geocone
     return text;
   }
 
+  bool
+  Materials::have_hard_flow() const
+  {
+    return std::any_of(in_closed_form.begin(),
+                       in_closed_form.end(),
+                       [](const Material *material) {
+                         return material != nullptr &&
+                                material->non_associativity() >
+                                  Material::hard_flow &&
+                                !(material->friction_memory() > 0.);
+                       });
+  }
+
   double
   Materials::non_associativity() const
   {

@@ -221,6 +221,12 @@ namespace geocone
     SpatialMandel projected;
     project(solved, stress + two_G * y.whole, projected, nullptr);
     here.natural_map = (stress - projected).norm();
+    project(exact_here,
+            stress +
+              two_G * normal_of(plastic_strain, exact_here, nullptr).whole,
+            projected,
+            nullptr);
+    here.exact_map = (stress - projected).norm();
     return here;
   }
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace geocone
 {
@@ -29,13 +30,14 @@ namespace geocone
   }
 
   double
-  InternalForces::memory_work() const
+  InternalForces::excess_work() const
   {
     double sum = 0.;
     for (const Run &run : runs)
       {
         const Material &material = materials[run.material];
-        if (!(material.friction_memory() > 0.))
+        if (!(material.friction_memory() > 0.) &&
+            !(friction_lag > 0. && material.non_associativity() > 0.))
           continue;
         for (unsigned int p = run.begin; p < run.end; ++p)
           {
@@ -54,10 +56,26 @@ namespace geocone
             const double slip = FlowCone::tangential_norm(z);
             const auto   exact =
               material.exact_end_cone(points.history_of(p), slip);
+            if (!exact)
+              break; // nor has any other point of the law
             sum += points.weight[p] * slip * std::abs(exact->yield_function(s));
           }
       }
     return Utilities::MPI::sum(sum, comm);
+  }
+
+  double
+  InternalForces::excess_share() const
+  {
+    const double excess = excess_work();
+    if (excess == 0.)
+      return 0.;
+    double plastic = 0.;
+    for (unsigned int p = 0; p < points.n_points(); ++p)
+      plastic += points.weight[p] * work(p).plastic;
+    plastic = Utilities::MPI::sum(plastic, comm);
+    return plastic > 0. ? excess / plastic
+                        : std::numeric_limits<double>::infinity();
   }
 
   Quality
@@ -98,6 +116,8 @@ namespace geocone
             largest.violation / stress_scale,
             largest.dual / strain_scale,
             largest.complementary / (strain_scale * stress_scale),
-            largest.excess};
+            largest.excess,
+            largest.exact_map / stress_scale,
+            excess_share()};
   }
 } // namespace geocone

@@ -99,9 +99,12 @@ namespace geocone
     table.add("friction lag (-)",
               [](const Record &r) { return r.last.newton.friction_lag; });
     add_quality("cone excess (Pa)", &Quality::cone_excess);
+    add_quality("excess work (-)", &Quality::excess_share);
     if (scene->materials.have_flow_check())
       {
         add_quality("natural-map error (-)", &Quality::natural_map);
+        add_quality("natural-map error of the exact law (-)",
+                    &Quality::exact_natural_map);
         add_quality("cone violation (-)", &Quality::cone_violation);
         add_quality("dual-cone violation (-)", &Quality::dual_violation);
         add_quality("complementarity (-)", &Quality::complementarity);
@@ -152,7 +155,7 @@ namespace geocone
     table.add(unit("numerical loss (J/m)"),
               [this](const Record &) { return balance.loss(); });
     if (remembers())
-      add_work("work of friction memory (J/m)", &Works::of_memory);
+      add_work("work of friction memory (J/m)", &Works::of_excess);
     if (points_move)
       add_work("work of ghost stiffness (J/m)", &Works::of_ghosts);
   }

@@ -105,7 +105,7 @@ namespace geocone
     Json         delay;
     const auto   n           = records.size();
     const double tau         = scene->materials.least_friction_memory();
-    const double work        = balance.works().of_memory;
+    const double work        = balance.works().of_excess;
     const double dissipation = balance.works().dissipation;
     if (n > 1 && scene->observation.has_load())
       {
@@ -164,21 +164,24 @@ namespace geocone
     const double delay     = memory["load_delay_relative"].is_null()
                                ? 0.
                                : memory["load_delay_relative"].get<double>();
-    std::string  felt;
-    if (work_part > 0.02)
-      felt = format("its strength was off the exact one by %.2g %% of the "
-                    "plastic work",
-                    100. * work_part);
+    if (!(work_part > 0.))
+      return;
+    std::string felt =
+      format("strength differs from the exact law's by %.2g %% "
+             "of the plastic work",
+             100. * work_part);
     if (std::abs(delay) > 0.005)
-      felt += (felt.empty() ? "" : ", and ") +
-              format("the last load still moves by %.2g %% in this time",
-                     100. * std::abs(delay));
-    if (!felt.empty())
-      log.warn(format("friction with memory (%.3g s) is felt by the result: ",
-                      memory["tau_s"].get<double>()) +
-               felt +
-               "; compare with half of it ('Materials/NAME/Friction memory') "
-               "or a longer run");
+      felt +=
+        format(", and the last load still changes by %.2g %% in this time",
+               100. * std::abs(delay));
+    log.warn(
+      format("friction has a memory of %.3g s: ",
+             memory["tau_s"].get<double>()) +
+      felt +
+      (work_part > 0.005 || std::abs(delay) > 0.005
+         ? "; compare with half of it ('Materials/NAME/Friction memory') "
+           "or a longer run"
+         : ""));
   }
 
   Json
@@ -277,14 +280,20 @@ namespace geocone
       json["contact"] = contact();
     if (points_move)
       json["motion"] = motion();
-    Json &of_state                 = json["quality"];
-    of_state["cone_excess_max_Pa"] = quality.cone_excess;
+    Json        &of_state    = json["quality"];
+    const double dissipation = balance.works().dissipation;
+    of_state                 = {
+                      {"cone_excess_max_Pa", quality.cone_excess},
+                      {"excess_work_step_max", quality.excess_share},
+                      {"excess_work_relative",
+       dissipation > 0. ? balance.works().of_excess / dissipation : 0.}};
     if (scene->materials.have_flow_check())
       of_state.update(
         Json{{"natural_map_error_max", quality.natural_map},
              {"complementarity_max", quality.complementarity},
              {"cone_violation_max", quality.cone_violation},
-             {"dual_cone_violation_max", quality.dual_violation}});
+             {"dual_cone_violation_max", quality.dual_violation},
+             {"exact_natural_map_error_max", quality.exact_natural_map}});
     if (!records.empty())
       {
         json["state"]  = {{"largest_plastic_strain",
@@ -383,12 +392,19 @@ namespace geocone
                        records.size(),
                        newton_part["residual_max"].get<double>()));
     if (const auto n = newton_part["steps_with_friction_lag"].get<unsigned>())
-      log.print(format("friction lags in %u of %zu steps (by at most %.2g of a "
-                       "step), the exact cone is exceeded by up to %.3g Pa",
-                       n,
-                       records.size(),
-                       newton_part["friction_lag_max"].get<double>(),
-                       summary["quality"]["cone_excess_max_Pa"].get<double>()));
+      log.warn(format(
+        "friction lags in %u of %zu steps (by at most %.2g of a "
+        "step): the exact strength is exceeded by up to %.3g Pa, "
+        "and strength differs from it by %.2g %% of the plastic "
+        "work (of a step by up to %.2g %%); compare with smaller "
+        "steps, with 'Materials/NAME/Friction memory', or with "
+        "another 'Discretisation/Element'",
+        n,
+        records.size(),
+        newton_part["friction_lag_max"].get<double>(),
+        summary["quality"]["cone_excess_max_Pa"].get<double>(),
+        100. * summary["quality"]["excess_work_relative"].get<double>(),
+        100. * summary["quality"]["excess_work_step_max"].get<double>()));
     if (remembers())
       warn_of_memory();
     if (summary.contains("safety"))

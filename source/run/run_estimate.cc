@@ -98,8 +98,10 @@ namespace geocone
 
     std::string element = ParameterFile::value("Discretisation/Element");
     if (element == "automatic")
-      element = Space::automatic_element(
-        expected.is_simplicial, expected.is_grid, method);
+      element = Space::automatic_element(expected.is_simplicial,
+                                         expected.is_grid,
+                                         method,
+                                         scene.materials.have_hard_flow());
     const bool         spline = element[0] == 'B';
     const unsigned int p      = element.back() - '0';
     // Of a triangle and a tetrahedron, by Euler's formula and what is usual.

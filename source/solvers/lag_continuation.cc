@@ -5,6 +5,7 @@
 #include <geocone/solvers/lag_continuation.h>
 
 #include <algorithm>
+#include <vector>
 
 namespace geocone
 {
@@ -57,36 +58,39 @@ namespace geocone
     if (!report.converged)
       return;
 
-    // The last solution that was reached, and its lag.
-    const Vector first       = work.v;
-    Vector       reached     = work.v;
-    double       reached_lag = first_lag, fall = 0.55 * first_lag;
-    bool         shortened = false;
-    LineSearch   search;
-    const auto   go_to = [&](const double next, const double accuracy) {
-      NewtonLoop newton = loop(next, accuracy, 15);
-      newton.moves      = true;
-      newton.run(search, work);
+    struct Reached
+    {
+      double lag;
+      Vector v;
     };
-    while (reached_lag > 0. && report.iterations - before < allowed_on_path)
+    std::vector<Reached> path      = {{first_lag, work.v}};
+    double               fall      = 0.55 * first_lag;
+    bool                 shortened = false;
+    LineSearch           search;
+    const auto           go_to =
+      [&](const double lag, const double accuracy, const unsigned int most) {
+        NewtonLoop newton = loop(lag, accuracy, most);
+        newton.moves      = true;
+        newton.run(search, work);
+      };
+    while (path.back().lag > 0. && report.iterations - before < allowed_on_path)
       {
-        double next = reached_lag - fall;
+        double next = path.back().lag - fall;
         if (next < 0.5 * fall)
           next = 0.;
         const unsigned int spent = report.iterations;
-        go_to(next, next > 0. ? NewtonLoop::near : tolerance);
+        go_to(next, next > 0. ? NewtonLoop::near : tolerance, 15);
         if (!report.converged)
           {
             // A second shorter stage rarely helped: the path turns.
             if (shortened)
               break;
             shortened = true;
-            work.v    = reached;
-            fall      = 0.4 * (reached_lag - next);
+            work.v    = path.back().v;
+            fall      = 0.4 * (path.back().lag - next);
             continue;
           }
-        reached     = work.v;
-        reached_lag = next;
+        path.push_back({next, work.v});
         // At most 55 % of it at a time: near 0 the path turns most.
         const unsigned int n = report.iterations - spent;
         fall                 = std::min((n <= 2   ? 3.
@@ -94,9 +98,9 @@ namespace geocone
                                          : n <= 6 ? 1.2
                                                   : 0.8) *
                           fall,
-                        std::max(0.55 * reached_lag, 0.05));
+                        std::max(0.55 * next, 0.05));
       }
-    if (reached_lag == 0.)
+    if (path.back().lag == 0.)
       return;
     if (!keeps_lag)
       {
@@ -104,18 +108,18 @@ namespace geocone
         report.reason    = format("the exact law was not reached in %u "
                                   "iterations: a friction lag of %.2g is left",
                                report.iterations,
-                               reached_lag);
+                               path.back().lag);
         return;
       }
 
-    // Near a turn of the path what has been reached may be no solution.
-    work.v = reached;
-    go_to(reached_lag, tolerance);
-    if (report.converged)
-      return;
-    work.v            = first;
-    NewtonLoop newton = loop(first_lag, tolerance, 40);
-    newton.moves      = true;
-    newton.run(search, work);
+    // Near a turn of the path what has been reached may be no solution: the least lag
+    // is taken that is one.
+    for (; !path.empty(); path.pop_back())
+      {
+        work.v = path.back().v;
+        go_to(path.back().lag, tolerance, path.size() > 1 ? 15 : 40);
+        if (report.converged)
+          return;
+      }
   }
 } // namespace geocone

@@ -96,11 +96,10 @@ namespace geocone
         std::optional<ContactDirection> contact;
         if (exact_contact)
           contact.emplace(work);
-        const auto blend =
-          factorise(!first          ? globalisation.blend(report.residual)
-                    : elastic_first ? 1.
-                                    : 0.,
-                    work);
+        auto blend = factorise(!first ? globalisation.blend(report.residual)
+                               : elastic_first ? 1.
+                                               : 0.,
+                               work);
         if (!blend)
           {
             report.reason = "the Jacobian is singular";
@@ -117,6 +116,18 @@ namespace geocone
           contact->solve(prescribed, jump.defect, line.direction);
         else
           work.solve(prescribed, jump.defect, line.direction);
+        // Where the direction does not lead downhill, the tangent of flow that is not
+        // associated is indefinite along it, and the search would go astray.
+        if (globalisation.needs_descent() && prescribed == nullptr &&
+            line.contact == nullptr && !work.problem.has_contact() &&
+            work.problem.non_associativity() > 0.)
+          for (const double more : {0.01, 0.05, 0.25})
+            {
+              if (line.slope() < 0. || !work.factorise(more))
+                break;
+              work.solve(prescribed, jump.defect, line.direction);
+              blend = more;
+            }
         line.begin();
         const double length = first && jumps ? Globalisation().move(line)
                                              : globalisation.move(line);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
 #include <geocone/mechanics/reduction.h>
 #include <geocone/solvers/first_iterate.h>
 #include <geocone/solvers/gauss_seidel.h>
@@ -402,6 +403,19 @@ namespace geocone
       {
         v = start;
         continuation.solve_on_path(work);
+        report.excess_share =
+          report.converged ? problem.internal_forces().excess_share() : 0.;
+        report.exceeds = report.excess_share > hints.accepted_excess;
+        if (report.exceeds)
+          {
+            report.converged = false;
+            report.reason =
+              format("the exact law was not reached: a friction lag of %.2g is "
+                     "left, by which the strength is off by %.2g %% of the "
+                     "plastic work",
+                     report.friction_lag,
+                     100. * report.excess_share);
+          }
       }
     return report;
   }

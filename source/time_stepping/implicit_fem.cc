@@ -399,7 +399,8 @@ namespace geocone
                        Freezer               &freezer,
                        TimerOutput           &timer,
                        const double           t,
-                       const double           h)
+                       const double           h,
+                       const double           accepted_excess)
   {
     if (!begun)
       begin(points, timer);
@@ -409,7 +410,8 @@ namespace geocone
     StepReport report;
     Vector     residual = problem->make_vector();
     Vector     v        = velocity_n;
-    report.newton    = newton.solve(*problem, *system, timer, v, residual, {});
+    report.newton       = newton.solve(
+      *problem, *system, timer, v, residual, {false, accepted_excess});
     report.converged = report.newton.converged;
     freezer.take(*problem, velocity_n, false, report.converged);
     if (const Stage &stage = scene->loading.stage_at(t + h / 2.);
@@ -442,7 +444,7 @@ namespace geocone
                             velocity_n,
                             v,
                             (step.solved_h / h) * works.external);
-    works.of_memory   = (h / step.solved_h) * forces.memory_work();
+    works.of_excess   = (h / step.solved_h) * forces.excess_work();
     works.dissipation = update_points(step, points);
 
     constraints->turn_back(v);

@@ -358,6 +358,7 @@ namespace geocone
   ImplicitMPM::solve(const TimeStep        &step,
                      const Kinematics      &kinematics,
                      const NonsmoothNewton &newton,
+                     NonsmoothNewton::Hints hints,
                      Freezer               &freezer,
                      TimerOutput           &timer,
                      Vector                &v,
@@ -375,12 +376,13 @@ namespace geocone
                                      : 0.;
         constraints->set_values(v, step.solved_at);
         const Vector v_start = v;
-        SolverReport tried   = newton.solve(
-          *problem, *system, timer, v, residual, {start == Start::particles});
+        hints.elastic_first  = start == Start::particles;
+        SolverReport tried =
+          newton.solve(*problem, *system, timer, v, residual, hints);
         tried.add_earlier(report);
         report = std::move(tried);
         freezer.take(*problem, v_start, true, report.converged);
-        if (report.converged)
+        if (report.converged || report.exceeds)
           break;
       }
     return report;
@@ -435,7 +437,8 @@ namespace geocone
                        Freezer               &freezer,
                        TimerOutput           &timer,
                        const double           t,
-                       const double           h)
+                       const double           h,
+                       const double           accepted_excess)
   {
     if (!begun)
       begin(points, timer);
@@ -446,8 +449,14 @@ namespace geocone
     report.multipliers         = constraints->multipliers.n_rows();
     report.rows                = constraints->multipliers.n_given();
     Vector v = problem->make_vector(), residual = problem->make_vector();
-    report.newton =
-      solve(step, kinematics, newton, freezer, timer, v, residual);
+    report.newton = solve(step,
+                          kinematics,
+                          newton,
+                          {false, accepted_excess},
+                          freezer,
+                          timer,
+                          v,
+                          residual);
     if (!report.newton.converged)
       return report;
 

@@ -268,8 +268,8 @@ namespace geocone
                                : work_on_fixed_points(step, points, moved)) +
                             work_of_changing_gravity(step, points) +
                             report.contact.dissipation;
-    report.works.of_memory =
-      (step.h / step.solved_h) * problem->internal_forces().memory_work();
+    report.works.of_excess =
+      (step.h / step.solved_h) * problem->internal_forces().excess_work();
     report.works.contact_dissipation =
       report.contact.dissipation - report.contact.of_rebound;
     report.works.of_ghosts = (step.h / step.solved_h) * ghost_work;

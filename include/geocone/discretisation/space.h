@@ -63,20 +63,30 @@ namespace geocone
   public:
     Space();
 
+    /** @param hard_flow see automatic_element() */
     void
-    prepare(const BackgroundMesh &mesh, const Method &method);
+    prepare(const BackgroundMesh &mesh,
+            const Method         &method,
+            const bool            hard_flow = false);
 
     /** Chooses and checks the element only. @throws InputError */
     void
     choose_element(const bool    simplicial,
                    const bool    has_grid,
-                   const Method &method);
+                   const Method &method,
+                   const bool    hard_flow = false);
 
-    /** The name of what 'automatic' stands for. */
+    /**
+     * The element that 'automatic' stands for.
+     * @param hard_flow Materials::have_hard_flow(): of FEM's triangles the quadratic ones
+     * then follow the exact law, of whose localised solutions cubic ones find one that
+     * is too soft (doc/small_dilatancy.md)
+     */
     static std::string
     automatic_element(const bool    simplicial,
                       const bool    has_grid,
-                      const Method &method);
+                      const Method &method,
+                      const bool    hard_flow);
 
     /** After BackgroundMesh::move_grid(): functions and nodes go with the lines. */
     void

@@ -27,6 +27,7 @@ namespace geocone
     double dual          = 0.; ///< by which y is beyond all normals (-)
     double complementary = 0.; ///< |<y, s - apex>| (J/m^3)
     double excess        = 0.; ///< beyond the exact strength, without lag (Pa)
+    double exact_map     = 0.; ///< natural_map of the exact law (Pa)
 
     double stress = 0.; ///< |s| (Pa)
     double size   = 0.; ///< k, the strength where the normal stress is 0 (Pa)
@@ -34,7 +35,7 @@ namespace geocone
     double compliance = 0.; ///< 1/2G (1/Pa)
 
     /** All of them: what is found of many points or ranks is the largest of each. */
-    static constexpr std::size_t n_numbers = 9;
+    static constexpr std::size_t n_numbers = 10;
     static constexpr std::array<double FlowCheck::*, n_numbers>
     numbers()
     {
@@ -43,6 +44,7 @@ namespace geocone
                &FlowCheck::dual,
                &FlowCheck::complementary,
                &FlowCheck::excess,
+               &FlowCheck::exact_map,
                &FlowCheck::stress,
                &FlowCheck::size,
                &FlowCheck::flow,
@@ -80,7 +82,9 @@ namespace geocone
       here.excess     = exact.yield_function(s);
       if (s[0] > -solved.tension + 1e-12 * (here.stress + here.size))
         {
-          here.natural_map   = geocone::natural_map(solved, s, y, two_G).norm();
+          here.natural_map = geocone::natural_map(solved, s, y, two_G).norm();
+          here.exact_map =
+            geocone::natural_map(exact, s, exact.psi(z), two_G).norm();
           here.dual          = solved.dual_violation(y);
           here.complementary = std::abs(solved.complementarity_product(y, s));
         }

@@ -113,6 +113,11 @@ namespace geocone
     double
     non_associativity() const;
 
+    /** Whether the exact law of one of them is hard (Material::hard_flow) and its friction
+     *  has no memory. */
+    bool
+    have_hard_flow() const;
+
     /** Whether some of them yield, and all of those by cylinders (a = 0). */
     bool
     yield_without_friction() const;

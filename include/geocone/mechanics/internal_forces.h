@@ -37,6 +37,14 @@ namespace geocone
      *  solved. */
     double cone_excess = 0.;
 
+    /** |s - P_C(s - 2G y)| / stress scale of the exact law: natural_map where that is
+     *  what was solved. */
+    double exact_natural_map = 0.;
+
+    /** Plastic work by which the strength that was solved for differs from the exact one,
+     *  over the plastic work, of a step; see InternalForces::excess_work(). */
+    double excess_share = 0.;
+
     void
     state(StateRow &row)
     {
@@ -44,17 +52,21 @@ namespace geocone
           cone_violation,
           dual_violation,
           complementarity,
-          cone_excess);
+          cone_excess,
+          exact_natural_map,
+          excess_share);
     }
 
     void
     take_worse(const Quality &other)
     {
-      natural_map     = std::max(natural_map, other.natural_map);
-      cone_violation  = std::max(cone_violation, other.cone_violation);
-      dual_violation  = std::max(dual_violation, other.dual_violation);
-      complementarity = std::max(complementarity, other.complementarity);
-      cone_excess     = std::max(cone_excess, other.cone_excess);
+      natural_map       = std::max(natural_map, other.natural_map);
+      cone_violation    = std::max(cone_violation, other.cone_violation);
+      dual_violation    = std::max(dual_violation, other.dual_violation);
+      complementarity   = std::max(complementarity, other.complementarity);
+      cone_excess       = std::max(cone_excess, other.cone_excess);
+      exact_natural_map = std::max(exact_natural_map, other.exact_natural_map);
+      excess_share      = std::max(excess_share, other.excess_share);
     }
   };
 
@@ -137,10 +149,14 @@ namespace geocone
     std::string
     not_a_number() const;
 
-    /** sum V |z_t| ||s_t| - a s_n - k| over the plastic points of materials whose
-     *  friction has a memory (J/m): 0 for the exact law. Collective. */
+    /** sum V |z_t| ||s_t| - a s_n - k| over the plastic points where friction lags or has
+     *  a memory (J/m): 0 for the exact law. Collective. */
     double
-    memory_work() const;
+    excess_work() const;
+
+    /** excess_work() over the plastic work of the step, 0 for the exact law. Collective. */
+    double
+    excess_share() const;
 
     /** @name Trial states, by point */
     /** @{ */

@@ -30,6 +30,7 @@ namespace geocone
 
     unsigned int max_halvings    = 9;
     unsigned int easy_iterations = 12;
+    double       accepted_excess = 0.01; ///< see NonsmoothNewton::Hints
   };
 
   /** The points of another run as a start, beside InitialStress. */
@@ -99,6 +100,10 @@ namespace geocone
     double
     largest_substep(const double h) const;
 
+    /** Below it a step h has failed. */
+    double
+    smallest_substep(const double h) const;
+
     /** From t to t + h, in substeps. @throws StepFailure */
     void
     solve_step(const unsigned int step, const double t, const double h);
@@ -120,6 +125,10 @@ namespace geocone
     size() const;
     Json
     cost() const;
+
+    /** How many of them are: where the exact law has no solution nearby, smaller steps
+     *  find none either. */
+    static constexpr unsigned int most_halved_for_excess = 3;
 
     const SizesOfScene sizes_of_scene;
 
@@ -143,9 +152,11 @@ namespace geocone
     double         last_size  = 0.;    ///< of the present or last step (s)
     double         done       = 0.;    ///< of the present step (s)
     bool           is_in_step = false; ///< whether the step has begun
-    StepRecord     present;            ///< of the present step, or the last one
-    double         reached = 0.;       ///< time of the last substep solved (s)
-    double         raised  = 0.; ///< way of raised loads since a reset (m)
+    /** Substeps that were halved in a row for SolverReport::exceeds. */
+    unsigned int halved_for_excess = 0;
+    StepRecord   present;      ///< of the present step, or the last one
+    double       reached = 0.; ///< time of the last substep solved (s)
+    double       raised  = 0.; ///< way of raised loads since a reset (m)
     /** @} */
 
     dealii::TimerOutput timer;

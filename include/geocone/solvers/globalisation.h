@@ -74,6 +74,13 @@ namespace geocone
     /** Moves the iterate. @return the length x of the step */
     virtual double
     move(NewtonLine &line);
+
+    /** Whether directions have to lead downhill, NewtonLine::slope() < 0. */
+    virtual bool
+    needs_descent() const
+    {
+      return false;
+    }
   };
 
   /** The line search of line_search.h. */
@@ -82,6 +89,12 @@ namespace geocone
   public:
     double
     move(NewtonLine &line) override;
+
+    bool
+    needs_descent() const override
+    {
+      return true;
+    }
   };
 
   /** Full steps with w = min(1/2, c |R_free| / |B'V s|), which vanishes with the

@@ -12,6 +12,7 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <limits>
 #include <string>
 
 namespace geocone
@@ -55,6 +56,9 @@ namespace geocone
     struct Hints
     {
       bool elastic_first = false; ///< take the elastic tangent once
+
+      /** Largest SolverReport::excess_share of a step that counts as solved. */
+      double accepted_excess = std::numeric_limits<double>::infinity();
     };
 
     /**

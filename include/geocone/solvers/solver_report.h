@@ -33,6 +33,12 @@ namespace geocone
     double       residual       = 0.; ///< relative, at the end
     double       friction_lag   = 0.; ///< of the law that was solved; 0: exact
 
+    /** InternalForces::excess_share() of what was solved, where friction lags. */
+    double excess_share = 0.;
+
+    /** Whether it was solved, but by a law that differs too much from the exact one. */
+    bool exceeds = false;
+
     /** Solved up to rounding, which is above the tolerance. */
     bool at_rounding_floor = false;
 
@@ -50,6 +56,8 @@ namespace geocone
           regularised,
           residual,
           friction_lag,
+          excess_share,
+          exceeds,
           at_rounding_floor);
     }
 

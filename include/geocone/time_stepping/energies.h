@@ -45,9 +45,9 @@ namespace geocone
   {
     double external    = 0.; ///< of loads and supports
     double dissipation = 0.; ///< sum V s'(-z) >= 0, without that of contact
-    /** sum V |z_t| ||s_t| - a s_n - k|, the plastic work by which friction with
-     *  memory is off the exact strength. */
-    double of_memory = 0.;
+    /** sum V |z_t| ||s_t| - a s_n - k|, the plastic work by which friction that lags or
+     *  has a memory differs from the exact strength. */
+    double of_excess = 0.;
     /** -sum h r.u of what touches obstacles, friction and impact. */
     double contact_dissipation = 0.;
     double of_ghosts           = 0.; ///< of GhostStiffness; a part of the loss
@@ -57,7 +57,7 @@ namespace geocone
     {
       external += other.external;
       dissipation += other.dissipation;
-      of_memory += other.of_memory;
+      of_excess += other.of_excess;
       contact_dissipation += other.contact_dissipation;
       of_ghosts += other.of_ghosts;
       return *this;
@@ -73,7 +73,7 @@ namespace geocone
     void
     state(StateRow &row)
     {
-      row(external, dissipation, of_memory, contact_dissipation, of_ghosts);
+      row(external, dissipation, of_excess, contact_dissipation, of_ghosts);
     }
   };
 } // namespace geocone

@@ -51,7 +51,8 @@ namespace geocone
             Freezer               &freezer,
             dealii::TimerOutput   &timer,
             const double           t,
-            const double           h) override;
+            const double           h,
+            const double           accepted_excess) override;
 
     BodyChange
     change_body(const Stage         &stage,

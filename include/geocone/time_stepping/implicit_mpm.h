@@ -67,7 +67,8 @@ namespace geocone
             Freezer               &freezer,
             dealii::TimerOutput   &timer,
             const double           t,
-            const double           h) override;
+            const double           h,
+            const double           accepted_excess) override;
 
     BodyChange
     change_body(const Stage         &stage,
@@ -260,6 +261,7 @@ namespace geocone
     solve(const TimeStep        &step,
           const Kinematics      &kinematics,
           const NonsmoothNewton &newton,
+          NonsmoothNewton::Hints hints,
           Freezer               &freezer,
           dealii::TimerOutput   &timer,
           Vector                &v,

@@ -221,7 +221,8 @@ namespace geocone
                    const MaterialPoints &points,
                    const double          t) const = 0;
 
-    /** Tries the step from t to t + h; commits it if it converges. */
+    /** Tries the step from t to t + h; commits it if it converges.
+     *  @param accepted_excess see NonsmoothNewton::Hints */
     virtual StepReport
     advance(Kinematics            &kinematics,
             MaterialPoints        &points,
@@ -229,7 +230,8 @@ namespace geocone
             Freezer               &freezer,
             dealii::TimerOutput   &timer,
             const double           t,
-            const double           h) = 0;
+            const double           h,
+            const double           accepted_excess) = 0;
 
     /** Takes away and adds what a stage says, at its beginning at time t.
      *  @throws StepFailure if that is nothing, or all */
