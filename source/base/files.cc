@@ -34,6 +34,38 @@ namespace geocone
       static ListOfFiles list;
       return list;
     }
+
+    void
+    refuse_link(const fs::path &path)
+    {
+      std::error_code ignored;
+      if (fs::is_symlink(fs::symlink_status(path, ignored)))
+        throw RunError("the file '" + path.string() +
+                       "' is a symbolic link: nothing is written through it" +
+                       "\n  remedy:  take it away");
+    }
+
+    /** Makes a file that is not there yet. @param is_ours what may be there is left
+     *  over from this run. @return its descriptor, or -1 */
+    int
+    make_file(const std::string &name, const bool is_ours)
+    {
+      constexpr int flags =
+        O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
+      const int file = ::open(name.c_str(), flags, 0666);
+      if (file >= 0 || errno != EEXIST || !is_ours ||
+          ::unlink(name.c_str()) != 0)
+        return file;
+      return ::open(name.c_str(), flags, 0666);
+    }
+
+    /** @return errno, or 0 */
+    int
+    sync_descriptor(const int file)
+    {
+      // What cannot be synchronised, e.g. a pipe, is not meant to last.
+      return ::fsync(file) == 0 || errno == EINVAL ? 0 : errno;
+    }
   } // namespace
 
   void
@@ -47,25 +79,56 @@ namespace geocone
       list().names.insert(name);
   }
 
-  void
+  bool
+  is_in_list(const std::string &name)
+  {
+    return list().names.count(name) > 0;
+  }
+
+  bool
   enter_in_list(const std::string &file_name)
   {
     const fs::path path = fs::path(file_name).lexically_normal();
     if (list().folder.empty() ||
-        path.parent_path() != (list().folder / "x").parent_path() ||
-        !list().names.insert(path.filename().string()).second)
-      return;
+        path.parent_path() != (list().folder / "x").parent_path())
+      return false;
+    refuse_link(path);
+    if (is_in_list(path.filename().string()))
+      return true;
+    if (std::error_code ignored; fs::exists(path, ignored))
+      throw RunError("the file '" + file_name +
+                     "' is there and none of this "
+                     "run (" +
+                     list_of_files +
+                     "): it is kept\n"
+                     "  remedy:  move it away, and go on with --resume or "
+                     "run it anew");
+    list().names.insert(path.filename().string());
     // Appended in one piece, for all ranks write into it.
     const std::string line = path.filename().string() + "\n";
     const std::string name = (list().folder / list_of_files).string();
-    const int  file = ::open(name.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0666);
-    const bool ok   = file >= 0 && ::write(file, line.data(), line.size()) ==
+    const int         file =
+      ::open(name.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW, 0666);
+    const bool ok = file >= 0 && ::write(file, line.data(), line.size()) ==
                                    ssize_t(line.size());
     const int cause = errno;
     if (file >= 0)
       ::close(file);
     if (!ok)
       throw RunError("the file '" + name + "' cannot be written" +
+                     cause_and_remedy(cause));
+    return false;
+  }
+
+  void
+  sync_to_disk(const std::string &path)
+  {
+    const int file  = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    const int cause = file < 0 ? errno : sync_descriptor(file);
+    if (file >= 0)
+      ::close(file);
+    if (cause != 0)
+      throw RunError("'" + path + "' cannot be brought to the disk" +
                      cause_and_remedy(cause));
   }
 
@@ -78,6 +141,8 @@ namespace geocone
                           "the run has ended"
       : error == EACCES || error == EROFS || error == EPERM
         ? "name a folder that you may write into"
+      : error == EEXIST
+        ? "take the file of that name with the ending .part away"
       : error == ENOSPC || error == EDQUOT || error == 0
         ? "free some space, write fields less often "
           "('Loading/.../Output every'), or name a folder on "
@@ -92,11 +157,16 @@ namespace geocone
 
   void
   write_file(const std::string                         &file_name,
-             const std::function<void(std::ostream &)> &write)
+             const std::function<void(std::ostream &)> &write,
+             const bool                                 is_durable)
   {
-    enter_in_list(file_name);
+    const bool        is_ours   = enter_in_list(file_name);
     const std::string temporary = file_name + ".part";
-    errno                       = 0;
+    const int         file      = make_file(temporary, is_ours);
+    if (file < 0)
+      throw RunError("the file '" + file_name + "' cannot be written" +
+                     cause_and_remedy(errno));
+    errno = 0;
     std::ofstream out(temporary);
     try
       {
@@ -111,26 +181,36 @@ namespace geocone
     catch (...)
       {
         // Perhaps for want of memory: nothing here may need any.
+        ::close(file);
         ::unlink(temporary.c_str());
         throw;
       }
     const int cause_of_writing = out ? 0 : errno;
     errno                      = 0;
     out.close();
-    int             cause = cause_of_writing != 0 ? cause_of_writing : errno;
-    std::error_code error;
-    if (out)
+    int  cause = cause_of_writing != 0 ? cause_of_writing : errno;
+    bool ok    = static_cast<bool>(out);
+    if (ok && is_durable)
+      {
+        cause = sync_descriptor(file);
+        ok    = cause == 0;
+      }
+    ::close(file);
+    if (std::error_code error; ok)
       {
         fs::rename(temporary, file_name, error);
         if (error)
           cause = error.value();
+        ok = !error;
       }
-    if (!out || error)
+    if (!ok)
       {
         ::unlink(temporary.c_str());
         throw RunError("the file '" + file_name + "' cannot be written" +
                        cause_and_remedy(cause));
       }
+    if (const fs::path folder = fs::path(file_name).parent_path(); is_durable)
+      sync_to_disk(folder.empty() ? "." : folder.string());
   }
 
   void
@@ -166,13 +246,18 @@ namespace geocone
   CsvFile::state(StateRow &row)
   {
     row(size);
-    if (!row.is_read() || name.empty())
+    if (name.empty())
       return;
+    if (!row.is_read())
+      return sync_to_disk(name);
+    refuse_link(name);
+    file.close(); // where an earlier checkpoint is tried
     std::error_code      error;
     const std::uintmax_t present = fs::file_size(name, error);
     if (error || present < size)
       throw RunError("the table '" + name +
-                     "' is shorter than when the checkpoint was written");
+                     "' is shorter than when the checkpoint was written: "
+                     "lines of it are missing");
     fs::resize_file(name, size, error);
     errno = error.value();
     if (!error)

@@ -176,6 +176,7 @@ namespace geocone
           summary["status"] =
             "failed: '" + what + "' of the summary" + not_finite_remedy;
       }
+    check_folder();
     write_file(path + "/summary.json", [&](std::ostream &out) {
       out << summary.dump(2, ' ', false, Json::error_handler_t::replace)
           << "\n";

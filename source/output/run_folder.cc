@@ -13,9 +13,10 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <regex>
+#include <set>
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 namespace geocone
@@ -24,64 +25,124 @@ namespace geocone
   {
     namespace fs = std::filesystem;
 
+    /** Whether there is anything but a lock. */
     bool
     is_used(const fs::path &folder)
     {
       std::error_code error;
-      return fs::exists(folder, error) &&
-             (!fs::is_directory(folder, error) || !fs::is_empty(folder, error));
+      if (!fs::exists(folder, error))
+        return false;
+      for (const auto &entry : fs::directory_iterator(folder, error))
+        if (entry.path().filename().string().find(lock_file) != 0)
+          return true;
+      return static_cast<bool>(error);
     }
 
-    /** Deletes the files that the list of the run before names, and the list.
-     *  @return why not, or nothing */
+    /** Why nobody may overwrite a folder, or nothing. */
     std::string
-    remove_old_run(const fs::path &folder)
+    why_no_old_run(const fs::path &folder)
     {
       std::error_code ignored;
       if (!fs::is_directory(folder, ignored))
         return "it is no folder";
-      if (const std::string why = running_in(folder.string()); !why.empty())
-        return why;
-      std::ifstream list(folder / list_of_files);
-      if (!list)
+      if (!fs::is_regular_file(
+            fs::symlink_status(folder / list_of_files, ignored)))
         return std::string("it has no ") + list_of_files +
                " of a run before, which would say what may be deleted: empty "
                "it yourself";
+      return "";
+    }
+
+    /** Whether runs write files of such a name. */
+    bool
+    is_name_of_runs(const std::string &name)
+    {
+      static const std::regex names(
+        "(parameters\\.prm|summary\\.json|log\\.txt|report\\.html|"
+        "paraview_state\\.py|(statistics|newton|path|surfaces|bounds)\\.csv|"
+        "(cells|points|obstacles|bounds)(-[0-9]{4,}.*)?\\."
+        "(vtu|pvtu|pvd|h5|vtkhdf|xdmf)|checkpoint-[0-9]{6,}\\.h5)(\\.part)?");
+      return std::regex_match(name, names);
+    }
+
+    /** Deletes the files that the list of the run before names, and the list.
+     *  @return why not, or nothing; then all is left as it was */
+    std::string
+    remove_old_run(const fs::path &folder)
+    {
+      std::ifstream         list(folder / list_of_files);
+      std::error_code       ignored;
+      std::set<std::string> names;
       for (std::string name; std::getline(list, name);)
-        {
-          // The list is a file like others: only plain names in this folder.
-          const fs::path file = folder / name;
-          if (name.empty() || fs::path(name).filename() != name ||
-              name == list_of_files ||
-              fs::is_directory(fs::symlink_status(file, ignored)))
-            continue;
-          fs::remove(file, ignored);
-          fs::remove(file.string() + ".part", ignored);
-        }
-      for (const char *name : {"parameters.prm",
-                               "summary.json",
-                               "statistics.csv",
-                               "newton.csv",
-                               "path.csv",
-                               "log.txt"})
-        if (fs::exists(fs::symlink_status(folder / name, ignored)))
-          return std::string("its file '") + name + "' is not in the " +
-                 list_of_files + " of the run before: empty it yourself";
+        // The list is a file like others: only plain names in this folder.
+        if (!name.empty() && fs::path(name).filename() == name &&
+            name != list_of_files &&
+            !fs::is_directory(fs::symlink_status(folder / name, ignored)))
+          {
+            names.insert(name);
+            names.insert(name + ".part");
+          }
+      for (const auto &entry : fs::directory_iterator(folder, ignored))
+        if (const std::string name = entry.path().filename().string();
+            names.count(name) == 0 && is_name_of_runs(name))
+          return "its file '" + printable(name) + "' is not in the " +
+                 list_of_files + " of the run before: move it away yourself";
+      for (const std::string &name : names)
+        fs::remove(folder / name, ignored);
       fs::remove(folder / list_of_files, ignored);
       return "";
     }
 
-    /** Whether this run, and no other one, has got the folder. */
-    bool
-    claim(const fs::path &folder)
+    /** Begins the list of files. @return errno, or 0 */
+    int
+    begin_list(const fs::path &folder)
     {
       const int list = ::open((folder / list_of_files).c_str(),
                               O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW,
                               0666);
-      if (list < 0)
-        return false;
-      ::close(list);
-      return true;
+      return list < 0 || ::close(list) != 0 ? errno : 0;
+    }
+
+    /** Takes a folder and empties it as far as that may be. @param exists is set if
+     *  it is there and may not be. @return why not, or nothing */
+    std::string
+    take_for_new_run(const std::string &path,
+                     const IfExists     if_exists,
+                     bool              &exists)
+    {
+      const auto why_not_used = [&]() -> std::string {
+        exists = is_used(path) && if_exists != IfExists::overwrite;
+        if (exists)
+          return "it exists and is not empty: set 'Output/If folder "
+                 "exists' to overwrite or number";
+        return is_used(path) ? why_no_old_run(path) : "";
+      };
+      std::error_code error;
+      std::string     why_not = why_not_used();
+      if (!why_not.empty())
+        return why_not;
+      fs::create_directories(path, error);
+      if (std::error_code ignored; !fs::is_directory(path, ignored))
+        return "it cannot be made" +
+               (error ? " (" + error.message() + ")" : "");
+      why_not = take_folder(path);
+      if (!why_not.empty())
+        {
+          std::error_code ignored;
+          exists =
+            fs::exists(fs::symlink_status(fs::path(path) / lock_file, ignored));
+          return why_not;
+        }
+      why_not = why_not_used(); // before it was ours it may have changed
+      if (why_not.empty() && is_used(path))
+        why_not = remove_old_run(path);
+      if (why_not.empty())
+        if (const int cause = begin_list(path))
+          why_not =
+            std::string("it cannot be written (") + std::strerror(cause) + ")";
+      if (!why_not.empty())
+        release_folder();
+      return why_not;
     }
 
     /** Why the folder cannot be used; empty if it has been made. */
@@ -91,34 +152,12 @@ namespace geocone
       const std::string wanted = path;
       for (unsigned int i = 2;; ++i)
         {
-          std::error_code error;
-          if (is_used(path))
-            {
-              if (if_exists == IfExists::refuse)
-                return "it exists and is not empty: set 'Output/If folder "
-                       "exists' to overwrite or number";
-              if (if_exists == IfExists::overwrite)
-                {
-                  const std::string why = remove_old_run(path);
-                  if (!why.empty())
-                    return why;
-                }
-            }
-          if (!is_used(path) || if_exists == IfExists::overwrite)
-            {
-              fs::create_directories(path, error);
-              if (std::error_code ignored; !fs::is_directory(path, ignored))
-                return "it cannot be made" +
-                       (error ? " (" + error.message() + ")" : "");
-              if (claim(path))
-                break;
-              const int cause = errno;
-              if (cause != EEXIST)
-                return std::string("it cannot be written (") +
-                       std::strerror(cause) + ")";
-              if (if_exists != IfExists::number)
-                return "another run has just taken it";
-            }
+          bool              exists  = false;
+          const std::string why_not = take_for_new_run(path, if_exists, exists);
+          if (why_not.empty())
+            break;
+          if (if_exists != IfExists::number || !exists)
+            return why_not;
           path = wanted + "-" + std::to_string(i);
         }
       keep_list_of_files(path);
@@ -204,15 +243,7 @@ namespace geocone
       for (const char *name : {list_of_files, "summary.json"})
         if (!fs::is_regular_file(fs::path(path) / name, error))
           return std::string("it has no ") + name;
-      if (const std::string why = running_in(path); !why.empty())
-        return why;
-      // Held until the process ends, however it does.
-      const int list =
-        ::open((fs::path(path) / list_of_files).c_str(), O_RDWR | O_CLOEXEC);
-      if (list < 0 || ::flock(list, LOCK_EX | LOCK_NB) != 0)
-        return std::string("it cannot be locked (") + std::strerror(errno) +
-               "): another process may be going on with it";
-      return "";
+      return take_folder(path);
     }
   } // namespace
 

@@ -1,17 +1,25 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/exceptions.h>
 #include <geocone/base/files.h>
+#include <geocone/base/log.h>
 #include <geocone/output/run_status.h>
 
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
+#include <cstring>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 #include <fcntl.h>
+#include <poll.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -74,7 +82,7 @@ namespace geocone
     {
       std::error_code      error;
       const std::uintmax_t size = std::filesystem::file_size(file_name, error);
-      const int            file = ::open(file_name.c_str(), O_WRONLY);
+      const int file = ::open(file_name.c_str(), O_WRONLY | O_NOFOLLOW);
       if (file < 0)
         return false;
       std::string padded = text;
@@ -84,6 +92,11 @@ namespace geocone
                       static_cast<ssize_t>(padded.size());
       return ::close(file) == 0 && ok;
     }
+
+    // Seconds between the signs of life of a run, and without one when its lock counts
+    // as left over.
+    constexpr int    between_signs   = 10;
+    constexpr double longest_silence = 120.;
 
     /** What the watching process does until the program has gone. */
     [[noreturn]] void
@@ -100,6 +113,16 @@ namespace geocone
       char        buffer[4096];
       for (;;)
         {
+          pollfd said = {from_program, POLLIN, 0};
+          if (::poll(&said, 1, 1000 * between_signs) == 0)
+            {
+              if (!folder.empty()) // the time of the file is that of its disk
+                utimensat(AT_FDCWD,
+                          (folder + "/" + lock_file).c_str(),
+                          nullptr,
+                          AT_SYMLINK_NOFOLLOW);
+              continue;
+            }
           const ssize_t n = ::read(from_program, buffer, sizeof(buffer));
           if (n < 0 && errno == EINTR)
             continue;
@@ -116,7 +139,8 @@ namespace geocone
         end_status(folder,
                    "killed: the process " + std::to_string(program) + " on " +
                      host_name() + " ended without a word, by " + time_now() +
-                     " (killed by a signal, out of memory, or a crash)");
+                     " (killed by a signal, out of memory, or a crash)",
+                   program);
       _exit(0);
     }
   } // namespace
@@ -193,7 +217,9 @@ namespace geocone
   }
 
   void
-  end_status(const std::string &folder, const std::string &status) noexcept
+  end_status(const std::string &folder,
+             const std::string &status,
+             const pid_t        pid) noexcept
   {
     try
       {
@@ -201,7 +227,10 @@ namespace geocone
         std::string       text;
         {
           Json summary = read_summary(file_name);
-          if (!is_running(summary))
+          if (!is_running(summary) || !summary.contains("run") ||
+              !summary["run"].is_object() ||
+              summary["run"].value("pid", Json()) != Json(pid) ||
+              summary["run"].value("host", Json()) != Json(host_name()))
             return;
           summary["status"]                   = status;
           summary["run"]["last_sign_of_life"] = time_now();
@@ -226,21 +255,225 @@ namespace geocone
       {}
   }
 
-  std::string
-  running_in(const std::string &folder)
+  namespace
   {
-    const Json summary = read_summary(folder + "/summary.json");
-    if (!is_running(summary) || !summary.contains("run") ||
-        !summary["run"].is_object() ||
-        summary["run"].value("host", Json()) != Json(host_name()))
-      return "";
-    const Json pid = summary["run"].value("pid", Json());
-    if (!pid.is_number_integer() || pid.get<long>() <= 0 ||
-        kill(pid.get<pid_t>(), 0) != 0 ||
-        summary["run"].value("pid_start", Json()) !=
-          Json(start_of(pid.get<long>())))
-      return "";
-    return "the run of process " + std::to_string(pid.get<long>()) +
-           " goes on in it";
+    /** Which start of this machine's kernel goes on; containers have it alike. */
+    std::string
+    start_of_machine()
+    {
+      std::ifstream file("/proc/sys/kernel/random/boot_id");
+      std::string   id;
+      std::getline(file, id);
+      return id;
+    }
+
+    /** The lock of this process. */
+    struct FolderLock
+    {
+      ~FolderLock()
+      {
+        release_folder();
+      }
+
+      std::string name;
+      int         file = -1;
+    };
+
+    FolderLock &
+    own_lock()
+    {
+      static FolderLock lock;
+      return lock;
+    }
+
+    /** Whether a name is that of an open file; nothing if it is that of no file. */
+    std::optional<bool>
+    is_name_of(const std::string &name, const int file)
+    {
+      struct stat named, opened;
+      if (::lstat(name.c_str(), &named) != 0 || ::fstat(file, &opened) != 0)
+        return {};
+      return named.st_dev == opened.st_dev && named.st_ino == opened.st_ino;
+    }
+
+    /** What is in a lock that may be anybody's; empty if it says nothing. */
+    Json
+    content_of(const int file)
+    {
+      char          text[4096];
+      const ssize_t n = ::pread(file, text, sizeof(text), 0);
+      const Json    content =
+        Json::parse(text, text + std::max<ssize_t>(n, 0), nullptr, false);
+      return content.is_object() ? content : Json::object();
+    }
+
+    std::string
+    who_holds(const Json &lock)
+    {
+      const auto word = [&](const char *name) {
+        const Json value = lock.value(name, Json());
+        return value.is_string()           ? printable(value.get<std::string>())
+               : value.is_number_integer() ? std::to_string(value.get<long>())
+                                           : std::string("?");
+      };
+      return "the run of process " + word("pid") + " on " + word("host") +
+             " goes on in it";
+    }
+
+    enum class TakenOver
+    {
+      yes,
+      no,
+      look_again
+    };
+
+    /**
+     * Puts a lock of one's own, held and complete, in the place of one that is left
+     * over.
+     * @param own_name the name that it has so far
+     * @param has_locks whether files can be locked there
+     */
+    TakenOver
+    take_over(const std::string &name,
+              const std::string &own_name,
+              const int          own_file,
+              const bool         has_locks,
+              std::string       &why_not)
+    {
+      const int other =
+        ::open(name.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+      if (other < 0)
+        {
+          const int cause = errno;
+          why_not = std::string("its ") + lock_file + " cannot be opened (" +
+                    std::strerror(cause) + ")";
+          return cause == ENOENT ? TakenOver::look_again : TakenOver::no;
+        }
+      struct Closed
+      {
+        ~Closed()
+        {
+          ::close(file);
+        }
+        const int file;
+      } closed{other};
+      const bool is_held =
+        ::flock(other, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+      const Json lock = content_of(other);
+      if (is_name_of(name, other) != true)
+        return TakenOver::look_again;
+      why_not = who_holds(lock);
+      if (is_held)
+        return TakenOver::no;
+      // The kernel knows the locks of its own processes; of others tells the time.
+      const bool is_known =
+        has_locks && lock.value("machine", Json()) == Json(start_of_machine());
+      struct stat now, last;
+      if (::fstat(own_file, &now) != 0 || ::fstat(other, &last) != 0)
+        return TakenOver::no;
+      const double silence = std::difftime(now.st_mtime, last.st_mtime);
+      if (!is_known && silence < longest_silence)
+        {
+          why_not += format(", seen %.0f s ago; its folder can be taken if it "
+                            "is silent for %.0f s, or, if you know that it has "
+                            "ended, delete %s",
+                            silence,
+                            longest_silence,
+                            lock_file);
+          return TakenOver::no;
+        }
+      if (::rename(own_name.c_str(), name.c_str()) != 0)
+        {
+          why_not =
+            std::string("it cannot be written (") + std::strerror(errno) + ")";
+          return TakenOver::no;
+        }
+      if (!is_known)
+        ::sleep(2);
+      why_not = "another run has just taken it";
+      return is_known || is_name_of(name, own_file) == true ? TakenOver::yes
+                                                            : TakenOver::no;
+    }
+  } // namespace
+
+  std::string
+  take_folder(const std::string &folder)
+  {
+    release_folder();
+    std::error_code   error;
+    const std::string name =
+      (std::filesystem::absolute(folder, error) / lock_file).string();
+    // It gets its name when it is complete and held.
+    std::string own_name = name + ".XXXXXX";
+    const int   file     = ::mkostemp(own_name.data(), O_CLOEXEC);
+    if (file < 0)
+      return std::string("it cannot be written (") + std::strerror(errno) + ")";
+    ::fchmod(file, 0644);
+    const Json        content = {{"host", host_name()},
+                                 {"machine", start_of_machine()},
+                                 {"pid", getpid()},
+                                 {"pid_start", start_of(getpid())},
+                                 {"taken", time_now()}};
+    const std::string text =
+      content.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    const bool  has_locks = ::flock(file, LOCK_EX | LOCK_NB) == 0;
+    std::string why_not;
+    TakenOver   taken = TakenOver::look_again;
+    if (::write(file, text.data(), text.size()) != ssize_t(text.size()))
+      {
+        why_not =
+          std::string("it cannot be written (") + std::strerror(errno) + ")";
+        taken = TakenOver::no;
+      }
+    for (int i = 0; i < 1000 && taken == TakenOver::look_again; ++i)
+      {
+        // Some disks have no links.
+        if (::link(own_name.c_str(), name.c_str()) == 0 ||
+            ((errno == EPERM || errno == EOPNOTSUPP || errno == ENOSYS) &&
+             ::renameat2(AT_FDCWD,
+                         own_name.c_str(),
+                         AT_FDCWD,
+                         name.c_str(),
+                         RENAME_NOREPLACE) == 0))
+          taken = TakenOver::yes;
+        else if (errno == EEXIST)
+          taken = take_over(name, own_name, file, has_locks, why_not);
+        else
+          {
+            why_not =
+              std::string("it cannot be locked (") + std::strerror(errno) + ")";
+            taken = TakenOver::no;
+          }
+      }
+    ::unlink(own_name.c_str());
+    if (taken == TakenOver::yes)
+      {
+        own_lock().name = name;
+        own_lock().file = file;
+        return "";
+      }
+    ::close(file);
+    return why_not;
+  }
+
+  void
+  release_folder()
+  {
+    FolderLock &lock = own_lock();
+    if (lock.file < 0)
+      return;
+    if (is_name_of(lock.name, lock.file) == true)
+      ::unlink(lock.name.c_str());
+    ::close(lock.file);
+    lock.file = -1;
+  }
+
+  void
+  check_folder()
+  {
+    const FolderLock &lock = own_lock();
+    if (lock.file >= 0 && is_name_of(lock.name, lock.file) == false)
+      throw RunError("another run has taken the folder over (" + lock.name +
+                     ")\n  remedy:  name another folder for one of them");
   }
 } // namespace geocone

@@ -27,18 +27,35 @@ namespace geocone
   void
   keep_list_of_files(const std::string &folder);
 
-  /** Enters a file in the list of its folder, if that is the run's. */
-  void
+  /**
+   * Enters a file in the list of its folder, if that is the run's.
+   * @return whether it stood there before
+   * @throws RunError if it is a symbolic link, or there already and not in the list
+   */
+  bool
   enter_in_list(const std::string &file_name);
+
+  /** Whether a file of the run's folder is in the list. */
+  bool
+  is_in_list(const std::string &name);
+
+  /** Waits until a file, or the names in a folder, are on the disk (fsync).
+   *  @throws RunError */
+  void
+  sync_to_disk(const std::string &path);
 
   /**
    * Writes a file whole: into a temporary name first, renamed when it is
-   * complete, so that a reader never sees a part of it.
+   * complete, so that a reader never sees a part of it. Nothing is written through
+   * a symbolic link.
+   * @param is_durable whether it must outlast a power cut: it is on the disk
+   * before it gets its name, and so is that when this returns
    * @throws RunError naming the file and the cause if it cannot be written
    */
   void
   write_file(const std::string                         &file_name,
-             const std::function<void(std::ostream &)> &write);
+             const std::function<void(std::ostream &)> &write,
+             const bool                                 is_durable = false);
 
   /** The text of the cause @p error (errno; 0: unknown) of a failed writing,
    *  with the remedy. */
@@ -61,8 +78,9 @@ namespace geocone
          const std::vector<std::string> &columns,
          const bool                      goes_on = false);
 
-    /** Where the table ends, for a checkpoint; what stands behind that is cut off
-     *  when it is read. @throws RunError if the table is shorter */
+    /** Where the table ends, for a checkpoint, before which it is on the disk; what
+     *  stands behind that is cut off when it is read.
+     *  @throws RunError if the table is shorter */
     void
     state(StateRow &row);
 

@@ -29,7 +29,7 @@ namespace geocone
   /**
    * Makes the folder of a run, its list of files (files.h) and parameters.prm,
    * the parameters as used. Two runs that want the same folder at the same time
-   * never both get it: the one that creates the list has it.
+   * never both get it: the one that takes it (run_status.h) has it.
    * @param wanted its name
    * @param was_named whether the user has given it
    * @return the name of the folder, the same on all ranks
@@ -51,7 +51,7 @@ namespace geocone
 
   /**
    * Enters the folder of a run that goes on; as long as this process lives, no
-   * other one can.
+   * other one can (run_status.h).
    * @throws InputError if it is not one, or its run has not ended
    */
   void

@@ -9,9 +9,11 @@
 #include <string>
 
 #include <sys/types.h>
+#include <unistd.h>
 
 // How a run ended is told by the "status" of its summary.json in every case:
-// running | finished | failed: WHY | stopped: BY WHAT | killed: WHEN.
+// running | finished | failed: WHY | stopped: BY WHAT | killed: WHEN. That it goes on,
+// and nobody else may write into its folder, is told by the folder's lock.
 
 namespace geocone
 {
@@ -21,7 +23,8 @@ namespace geocone
    * process was ended by force (kill -9, lack of memory, a crash, an abort) and
    * could not say so itself. If the watcher is killed, too, the topic "run" of
    * the summary (run_topic()) still tells which process it was and when it was
-   * seen last.
+   * seen last. As long as the program lives it renews the sign of life of the
+   * folder's lock.
    *
    * To be made before MPI starts, which does not like its processes to be copied.
    */
@@ -58,17 +61,41 @@ namespace geocone
   cpu_time_of_rank();
 
   /**
-   * Sets the status of the summary in @p folder to @p status if it is "running";
-   * where the disk is full or memory has run out, by writing over it in place.
-   * Never throws.
+   * Sets the status of the summary in @p folder to @p status if it is "running" and
+   * of the run of process @p pid on this host; where the disk is full or memory has
+   * run out, by writing over it in place. Never throws.
    */
   void
-  end_status(const std::string &folder, const std::string &status) noexcept;
+  end_status(const std::string &folder,
+             const std::string &status,
+             const pid_t        pid = getpid()) noexcept;
 
-  /** Why nobody else may write into this folder: a run that goes on; or
-   *  nothing. */
+  /** Name of the file by which a run holds its folder. */
+  constexpr const char *lock_file = "run.lock";
+
+  /**
+   * Takes a folder for this process until it ends or release_folder(), by the file
+   * run.lock in it. That tells the host, its start, and the process; it is locked
+   * (flock), which the kernel, and a server of files that knows locks, ends with the
+   * process, however that ends; and its time is the sign of life, which the watcher
+   * renews. A lock that nobody holds is taken over at once if the process was of this
+   * machine since its last start, else if its sign of life is older than
+   * two minutes. Of several processes that want a folder at once one has it.
+   *
+   * Where hosts share a folder without sharing locks, the one that takes over last has
+   * it: both look again after a moment, and check_folder() later.
+   *
+   * @return why not, or nothing
+   */
   std::string
-  running_in(const std::string &folder);
+  take_folder(const std::string &folder);
+
+  void
+  release_folder();
+
+  /** @throws RunError if another run has taken the folder of this one over */
+  void
+  check_folder();
 } // namespace geocone
 
 #endif
