@@ -101,7 +101,7 @@ namespace geocone
         {
           file->write("names", names);
           file->write("checksum", std::to_string(checksum));
-          file->close();
+          file->close(true);
         }
       catch (const RunError &error)
         {

@@ -112,7 +112,7 @@ namespace geocone
   }
 
   void
-  Hdf5File::close()
+  Hdf5File::close(const bool is_durable)
   {
     if (H5Fflush(id, H5F_SCOPE_GLOBAL) < 0)
       fail("cannot be completed in memory");
@@ -122,9 +122,10 @@ namespace geocone
       fail("cannot be completed in memory");
     H5Fclose(id);
     id = -1;
-    write_file(file_name, [&](std::ostream &out) {
-      out.write(image.data(), image.size());
-    });
+    write_file(
+      file_name,
+      [&](std::ostream &out) { out.write(image.data(), image.size()); },
+      is_durable);
   }
 
   void

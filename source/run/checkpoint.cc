@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/files.h>
 #include <geocone/run/checkpoint.h>
 
 #include <deal.II/base/mpi.h>
@@ -111,32 +112,44 @@ namespace geocone
       folder + "/" + prefix + format("%06u", step) + ending;
     Archive archive(comm, name, digest(folder));
     save(archive);
+    const bool first = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
+    if (first)
+      for (const char *of_the_run : {"parameters.prm", list_of_files})
+        sync_to_disk(folder + "/" + of_the_run);
     archive.close();
     last = std::chrono::steady_clock::now();
-    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+    if (first)
       {
-        const std::vector<std::string> names = checkpoints_in(folder);
-        std::error_code                ignored;
-        for (std::size_t i = keep; i < names.size(); ++i)
-          fs::remove(folder + "/" + names[i], ignored);
+        const std::string this_one = fs::path(name).filename().string();
+        unsigned int      n_kept   = 0;
+        bool              is_later = true; // those of steps to be done again
+        for (const std::string &present : checkpoints_in(folder))
+          {
+            is_later = is_later && present != this_one;
+            if (std::error_code ignored;
+                is_in_list(present) && (is_later || ++n_kept > keep))
+              fs::remove(folder + "/" + present, ignored);
+          }
       }
   }
 
   void
-  Checkpoint::read(const std::string                          &folder,
-                   Log                                        &log,
-                   const std::function<void(const Archive &)> &load,
-                   const std::string                          &parameter)
+  Checkpoint::read(const std::string                                 &folder,
+                   Log                                               &log,
+                   const std::function<std::string(const Archive &)> &load,
+                   const std::string                                 &parameter)
   {
     const std::vector<std::string> names =
       dealii::Utilities::MPI::broadcast(comm, checkpoints_in(folder));
+    std::string why_not;
     for (const std::string &name : names)
       {
-        std::string why_not;
-        const auto  archive =
+        const auto archive =
           Archive::open(comm, folder + "/" + name, digest(folder), why_not);
         if (archive)
-          return load(*archive);
+          why_not = load(*archive);
+        if (why_not.empty())
+          return;
         log.warn("the checkpoint '" + name +
                  "' is left out: " + why_not.substr(0, why_not.find('\n')));
       }
@@ -146,6 +159,7 @@ namespace geocone
       "the folder of a run with a checkpoint-NNNNNN.h5",
       names.empty() ? "there is none: set 'Checkpoint/Every steps' or 'Every "
                       "minutes' in the parameter file, and run it anew"
-                    : "none of those that are there can be read: run it anew");
+                    : "none of those that are there can be used: bring back a "
+                      "copy of the folder, or run it anew");
   }
 } // namespace geocone

@@ -214,6 +214,7 @@ namespace geocone
         log,
         [&](const Archive &archive) {
           stepper->begin_from(archive, kinematics, points);
+          return std::string();
         },
         "Initial stress/Run");
     warnings.push_back(scene.warn_of_records());

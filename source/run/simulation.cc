@@ -5,6 +5,8 @@
 #include <geocone/base/stop_request.h>
 #include <geocone/run/simulation.h>
 
+#include <deal.II/base/mpi.h>
+
 namespace geocone
 {
   Simulation::Simulation(const MPI_Comm comm, Log &log)
@@ -50,7 +52,9 @@ namespace geocone
               try
                 {
                   save_checkpoint();
-                  log.print("to go on: geocone --resume " + output().folder());
+                  log.print(
+                    "to go on: geocone --resume " + output().folder() +
+                    (options.may_run_scripts ? " --run-gmsh-script" : ""));
                 }
               catch (const RunError &failure)
                 {
@@ -149,8 +153,20 @@ namespace geocone
     checkpoint.read(output().folder(), log, [&](const Archive &archive) {
       StateRow row = archive.read_row("run");
       row(place);
-      output().state_of_run(row);
-      load(archive);
+      // Tables are those of the first rank.
+      std::string why_not;
+      try
+        {
+          output().state_of_run(row);
+        }
+      catch (const RunError &error)
+        {
+          why_not = error.what();
+        }
+      why_not = dealii::Utilities::MPI::broadcast(comm, why_not);
+      if (why_not.empty())
+        load(archive);
+      return why_not;
     });
     first_step = place.step;
     log.print(format("resumed at t = %.6g s, after step %u of %u",

@@ -50,6 +50,24 @@ done
 "$program" --resume one --quiet >out.txt 2>&1
 grep -q "is left out" out.txt
 
+# A table without its last lines: the run goes back to the checkpoint before, and ends with
+# the same table; without a line of any it is refused.
+cp one/$(basename "$last") good.h5
+for table in statistics newton; do
+  cp "one/$table.csv" whole.csv
+  lines=$(wc -l <whole.csv)
+  lines=$((lines - 1))
+  head -n $lines whole.csv >"one/$table.csv"
+  "$program" --resume one --quiet >out.txt 2>&1 || { cat out.txt && exit 1; }
+  grep -q "is left out: the table 'one/$table.csv' is shorter" out.txt
+  cmp all.csv one/statistics.csv
+done
+head -n 1 one/statistics.csv >cut.csv
+cp one/statistics.csv whole.csv
+cp cut.csv one/statistics.csv
+refused "bring back a copy" --resume one
+cp whole.csv one/statistics.csv
+
 # Of another run, by its parameters.
 cp "other/$(basename "$last")" "$last"
 "$program" --resume one --quiet >out.txt 2>&1

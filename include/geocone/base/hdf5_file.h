@@ -103,7 +103,7 @@ namespace geocone
 
     /** Writes a file that was created. */
     void
-    close();
+    close(const bool is_durable = false);
 
     /** Whether there is anything of this name. */
     bool

@@ -19,7 +19,8 @@ namespace geocone
    * Files checkpoint-NNNNNN.h5 in the folder of a run, NNNNNN the steps of the
    * programme that are done: all state, from which `geocone --resume FOLDER` goes
    * on. They are written at a cadence, and when a signal stops the run; each is
-   * complete before an older one is deleted.
+   * complete and on the disk, with the tables that it refers to, before an older one
+   * is deleted.
    */
   class Checkpoint : public dealii::ParameterAcceptor
   {
@@ -33,7 +34,8 @@ namespace geocone
     bool
     is_due(const unsigned int step);
 
-    /** Writes one, and deletes those that are too many. Collective.
+    /** Writes one, and deletes those of this run that are too many or, since it
+     *  went back to an earlier one, not true any more. Collective.
      *  @throws StepFailure */
     void
     write(const std::string                    &folder,
@@ -42,14 +44,15 @@ namespace geocone
 
     /**
      * Reads the last one of a folder that is good; of others it warns. Collective.
+     * @param load tells, on all ranks, why the run cannot go on from it, or nothing
      * @param parameter what names the folder
      * @throws InputError if there is none
      */
     void
-    read(const std::string                          &folder,
-         Log                                        &log,
-         const std::function<void(const Archive &)> &load,
-         const std::string                          &parameter = "--resume");
+    read(const std::string                                 &folder,
+         Log                                               &log,
+         const std::function<std::string(const Archive &)> &load,
+         const std::string &parameter = "--resume");
 
   private:
     unsigned int every_steps   = 0;
