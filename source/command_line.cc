@@ -50,6 +50,19 @@ namespace geocone
       return true;
     }
 
+    /** Keeps hwloc, which MPI starts, from asking X servers for graphics cards, unless
+     *  the user has asked for that. */
+    void
+    leave_displays_alone()
+    {
+      const char *const present = std::getenv("HWLOC_COMPONENTS");
+      const std::string asked   = present == nullptr ? "" : present;
+      if (("," + asked + ",").find(",gl,") == std::string::npos)
+        setenv("HWLOC_COMPONENTS",
+               (asked + (asked.empty() ? "" : ",") + "-gl").c_str(),
+               1);
+    }
+
     /** Starts the program that draws with the folder as its one argument, without
      *  a shell, and waits for it. */
     void
@@ -115,6 +128,8 @@ namespace geocone
           call.dry_run = true;
         else if (argument == "--force")
           call.force = true;
+        else if (argument == "--run-gmsh-script")
+          call.may_run_scripts = true;
         else if (argument == "--help" || argument == "-h")
           call.help = true;
         else if (argument == "--version")
@@ -139,11 +154,12 @@ namespace geocone
   run_options(const CommandLine &call, const ParameterFile &file)
   {
     RunOptions options;
-    options.name           = file.name();
-    options.parameter_file = file.path();
-    options.folder         = call.folder;
-    options.dry_run        = call.dry_run;
-    options.force          = call.force;
+    options.name            = file.name();
+    options.parameter_file  = file.path();
+    options.folder          = call.folder;
+    options.dry_run         = call.dry_run;
+    options.force           = call.force;
+    options.may_run_scripts = call.may_run_scripts;
     return options;
   }
 
@@ -200,11 +216,21 @@ namespace geocone
   int
   run_program(char **argv, const std::function<int(Drawing &)> &run)
   {
+    // MPI would end without a word of its own.
+    if (std::error_code error; std::filesystem::current_path(error).empty())
+      {
+        say_error("the folder in which the program is called cannot be read (" +
+                  error.message() +
+                  ")\n  remedy:  it was deleted or closed: change into another "
+                  "one");
+        return 1;
+      }
     // PETSc and Kokkos, which deal.II may start, would take our options for theirs.
     int     n_arguments_for_libraries = 1;
     Watcher watcher;
     Drawing drawing;
     int     status = 1;
+    leave_displays_alone();
     if (is_started_alone())
       {
         // Open MPI would start a daemon, which it needs only to start further

@@ -15,6 +15,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
 #include <sstream>
 
@@ -25,9 +26,9 @@ namespace geocone
     const char *usage =
       "geocone FILE.prm [--output FOLDER] [--set 'Section/Parameter = "
       "value']...\n"
-      "        [--dry-run] [--force] [--quiet]\n"
+      "        [--dry-run] [--force] [--run-gmsh-script] [--quiet]\n"
       "mpirun -np RANKS geocone FILE.prm ...\n"
-      "geocone --resume FOLDER [--force] [--quiet]\n"
+      "geocone --resume FOLDER [--force] [--run-gmsh-script] [--quiet]\n"
       "geocone --replay FILE.h5|FILE.dat [--output FOLDER] [--set ...]...\n"
       "\n"
       "  --output FOLDER      folder of the results (default: results/NAME)\n"
@@ -49,9 +50,15 @@ namespace geocone
       "                       nothing is computed or written\n"
       "  --force              runs also what is too large for this machine's "
       "memory\n"
+      "  --run-gmsh-script    'Geometry/File' may be a geo script, which gmsh "
+      "runs: "
+      "a program\n"
+      "                       that can run commands and write files with your "
+      "rights\n"
       "  --quiet              nothing on the screen but errors and warnings\n"
       "  --defaults NEW.prm   writes all parameters with their defaults, "
-      "commented;\n"
+      "commented,\n"
+      "                       into a new file;\n"
       "                       --set 'Materials/soil/Type = LAW' tells those of "
       "other laws\n"
       "  --help               this text and all parameters\n"
@@ -59,7 +66,7 @@ namespace geocone
       "\n"
       "The exit code is 0 if the run has finished and its expectations hold, "
       "and\n"
-      "1 otherwise; 130 and 143 after Ctrl-C and SIGTERM.\n";
+      "1 otherwise; 130, 143 and 129 after Ctrl-C, SIGTERM and SIGHUP.\n";
 
     /** All parameters with an example of each kind of named section.
    *  @param overrides e.g. another law of the material 'soil' */
@@ -89,6 +96,22 @@ namespace geocone
           "  remedy:  'geocone --resume FOLDER' goes on with the "
           "parameters that the run has; start another one with "
           "'geocone FILE.prm'");
+    }
+
+    /** @throws InputError if there is a file of that name: it may be someone's work */
+    void
+    write_defaults(const CommandLine &call)
+    {
+      std::error_code ignored;
+      if (std::filesystem::exists(
+            std::filesystem::symlink_status(call.defaults_file, ignored)))
+        throw InputError("--defaults",
+                         call.defaults_file,
+                         "a file that is not there yet",
+                         "name another one, or delete it yourself");
+      write_file(call.defaults_file, [&](std::ostream &out) {
+        print_defaults(out, call.overrides);
+      });
     }
 
     bool
@@ -210,9 +233,7 @@ namespace geocone
           else if (first && call.help)
             print_help(call.overrides);
           else if (first)
-            write_file(call.defaults_file, [&](std::ostream &out) {
-              print_defaults(out, call.overrides);
-            });
+            write_defaults(call);
           return 0;
         }
       if (const auto frozen = call.own.find("--replay");

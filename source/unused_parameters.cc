@@ -65,7 +65,6 @@ namespace geocone
       {"Geometry/Centres", "Geometry/Shape", {"discs"}},
       {"Geometry/Radii", "Geometry/Shape", {"discs"}},
       {"Geometry/File", "Geometry/Shape", {"file"}},
-      {"Geometry/Run gmsh script", "Geometry/Shape", {"file"}},
       {"Initial stress/Stress xx",
        "Initial stress/Type",
        {"given"},

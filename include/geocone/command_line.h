@@ -22,16 +22,17 @@ namespace geocone
     std::vector<std::string>           overrides;
     std::string                        defaults_file;
     std::map<std::string, std::string> own; ///< options of this program only
-    bool                               quiet   = false;
-    bool                               dry_run = false;
-    bool                               force   = false;
-    bool                               help    = false;
-    bool                               version = false;
+    bool                               quiet           = false;
+    bool                               dry_run         = false;
+    bool                               force           = false;
+    bool                               may_run_scripts = false;
+    bool                               help            = false;
+    bool                               version         = false;
   };
 
   /**
-   * Reads FILE.prm, --output, --set, --quiet, --dry-run, --force, --defaults,
-   * --help, --version, and the options @p own of the program, e.g. "--replay",
+   * Reads FILE.prm, --output, --set, --quiet, --dry-run, --force,
+   * --run-gmsh-script, --defaults, --help, --version, and the options @p own of the program, e.g. "--replay",
    * which take a value.
    * @throws InputError on anything else
    */

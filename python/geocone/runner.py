@@ -29,7 +29,7 @@ class RunFailed(Exception):
 
 
 def run(file, parameters=(), *, ranks=1, output=None, program="geocone",
-        time_limit=None, force=False):
+        time_limit=None, force=False, run_gmsh_script=False):
     """Runs a parameter file and reads what it has left.
 
     @param file a path
@@ -42,21 +42,28 @@ def run(file, parameters=(), *, ranks=1, output=None, program="geocone",
       or installed, or else in the PATH; or the path of a program
     @param time_limit in s; a run that takes longer fails
     @param force runs also what is too large for the machine's memory
+    @param run_gmsh_script runs the geo script of 'Geometry/File': a program, which can
+      run commands and write files with your rights
     @return a Run
     @throw RunFailed if the run fails, if one of its expectations does not hold, or if
       there is no such program; with the program's words"""
     return result_of(lambda words: finish(start(words), time_limit), file, parameters,
                      ranks, Path(output) if output is not None else free_folder(file),
-                     program, force)
+                     program, options_of(force, run_gmsh_script))
 
 
-def result_of(call, file, parameters, ranks, folder, program, force):
+def options_of(force, run_gmsh_script):
+    """What no parameter file may say, as words of a call."""
+    return ["--force"] * force + ["--run-gmsh-script"] * run_gmsh_script
+
+
+def result_of(call, file, parameters, ranks, folder, program, options):
     """What run() returns or throws, by a function that calls words and tells what came
     of it."""
     settings = [setting(*item) for item in dict(parameters).items()]
     try:
         ended = call(command(find_program(program), file, settings, folder, ranks,
-                             ["--force"] if force else []))
+                             options))
     except OSError as problem:
         raise RunFailed(str(problem), folder)
     if ended.reason:

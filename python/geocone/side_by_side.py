@@ -8,7 +8,8 @@ import signal
 import threading
 from pathlib import Path
 
-from geocone.runner import RunFailed, finish, free_folder, result_of, send, start
+from geocone.runner import (RunFailed, finish, free_folder, options_of, result_of, send,
+                            start)
 
 
 class SideBySide:
@@ -89,7 +90,7 @@ class SideBySide:
 
 
 def run_many(file, variants, *, cores=None, ranks=1, output=None, program="geocone",
-             time_limit=None, force=False, keep_failed=False):
+             time_limit=None, force=False, run_gmsh_script=False, keep_failed=False):
     """Runs variants of a parameter file side by side, as run() does each.
 
     @param variants {"name": {"Section/Name": value}}; runs leave their folders
@@ -100,7 +101,7 @@ def run_many(file, variants, *, cores=None, ranks=1, output=None, program="geoco
       folder, or results/NAME-2 and so on if that is there
     @param keep_failed True: what has failed is a RunFailed in the place of its run.
       False: once all have ended, the first one of them is thrown
-    @param ranks, program, time_limit, force as run() has them
+    @param ranks, program, time_limit, force, run_gmsh_script as run() has them
     @return {"name": Run}, in the order of the variants
     @throw RunFailed as told; its folder tells which one it is
     @throw ValueError if a name is not that of a folder"""
@@ -119,7 +120,8 @@ def run_many(file, variants, *, cores=None, ranks=1, output=None, program="geoco
         try:
             results[name] = result_of(
                 functools.partial(calls.call, time_limit=time_limit), file, parameters,
-                ranks, folder / str(name), program, force)
+                ranks, folder / str(name), program,
+                options_of(force, run_gmsh_script))
         except RunFailed as problem:
             results[name] = problem
 

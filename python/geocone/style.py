@@ -249,6 +249,8 @@ writers = []
 def save(figure, run, *paths, cropped=False):
     """Writes the figure of a run, or of several (None), as a process of its own: most
     of the time goes into this. finish() waits for them."""
+    for path in paths:
+        add_to_list(path)
     if run:
         annotate(figure, run)
         cropped = cropped or bool(figure.texts)
@@ -277,5 +279,4 @@ def finish(most=None):
         if os.waitpid(process, 0)[1] != 0:
             raise PlotError(error or f"'{paths[0]}' cannot be written")
         for path in paths:
-            add_to_list(path)
             print(path)

@@ -486,6 +486,18 @@ namespace geocone
                   path, set.value, "", others->second.at(set.name)};
                 continue;
               }
+            if (path == "Geometry/Run gmsh script")
+              {
+                if (set.value ==
+                    "false") // in parameters.prm of earlier versions
+                  continue;
+                throw InputError(set.line->place() + ": '" + path +
+                                 "' is no parameter any more: no file may "
+                                 "allow that a program "
+                                 "is run\n  remedy:  take it out; if you trust "
+                                 "the script, give "
+                                 "the option --run-gmsh-script");
+              }
             const std::string elsewhere =
               set.sections.size() == 1 ? place_of(set.name, declared) : "";
             throw InputError(set.line->place() + ": unknown parameter '" +

@@ -255,8 +255,8 @@ namespace geocone
                          "can run commands and write files",
                          std::string("mesh it (gmsh -") + char('0' + dim) +
                            " NAME.geo) and give the .msh file; "
-                           "or, if you trust the script, set Geometry/Run gmsh "
-                           "script = true");
+                           "or, if you trust the script, give the option "
+                           "--run-gmsh-script");
       return run_script(geometry.file, what);
     }
   } // namespace

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/stop_request.h>
 #include <geocone/limit_analysis/limit_analysis.h>
 
 #include <deal.II/base/mpi.h>
@@ -126,6 +127,7 @@ namespace geocone
         "strict bound needs: set Discretisation/Method = FEM, or "
         "reduce the strength by stages with 'Strength factor' "
         "and 'Until failure'");
+    scene.geometry.may_run_script = options.may_run_scripts;
     scene.geometry.prepare();
     scene.geometry.refuse_axis("'Analysis/Kind' = " + analysis.word(),
                                "strict bounds are those of plane strain; take "
@@ -337,9 +339,20 @@ namespace geocone
       triangles.emplace(fitted_mesh(mesh_parameters, scene, comm, &*sizes));
     const double  in_mesh = mesh_time.cpu_time();
     dealii::Timer time;
-    BoundLevel    level = reduces_strength() ? bound_factor() : bound_load();
-    level.cpu_seconds   = time.cpu_time();
-    level.mesh_seconds  = in_mesh;
+    BoundLevel    level;
+    // A level that is stopped is done again.
+    const StrengthReduction before = reduction;
+    try
+      {
+        level = reduces_strength() ? bound_factor() : bound_load();
+      }
+    catch (const Stopped &)
+      {
+        reduction = before;
+        throw;
+      }
+    level.cpu_seconds  = time.cpu_time();
+    level.mesh_seconds = in_mesh;
     levels.push_back(level);
     place.time = levels.size();
 

@@ -15,6 +15,7 @@ namespace geocone
   std::vector<std::string>
   SceneSimulation::prepare(const RunOptions &options)
   {
+    scene.geometry.may_run_script = options.may_run_scripts;
     scene.prepare();
     return prepare_method(options);
   }

@@ -320,13 +320,10 @@ namespace geocone
                   "with triangles or quadrilaterals of first order. Sides have "
                   "the numbers or "
                   "names of its physical curves. It is read as data: nothing "
-                  "in it is run. For geo scripts see 'Run gmsh script'.");
-    add_parameter("Run gmsh script",
-                  may_run_script,
-                  "Whether 'File' may be a geo script (NAME.geo), which gmsh "
-                  "then runs and meshes. A script is a program: it can run "
-                  "commands and write files with your rights. Set it only for "
-                  "scripts that you trust. A .msh file is never run.");
+                  "in it is run. Or a geo script (NAME.geo) of gmsh: a "
+                  "program, which can run commands and write files with your "
+                  "rights. It is run only if the command line says so: "
+                  "--run-gmsh-script.");
   }
 
   void

@@ -4,16 +4,16 @@
 program=$1 root=$2 folder=$3
 . "$root/tests/fails.sh"
 rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
-freeze() { # NAME FILE STEP
+freeze() { # NAME FILE STEP DURATION OPTIONS...
   "$program" "$root/$2" --quiet --output "$1" --set "Output/Freeze steps = $3" \
     --set "Loading/push/Duration = $4" --set 'Output/Report for tests = none' \
     --set 'Output/Expectations =' --set 'Output/Fields = true' \
-    --set 'Output/Fields format = hdf5' --set 'Output/Pictures = false'
+    --set 'Output/Fields format = hdf5' --set 'Output/Pictures = false' "${@:5}"
   "$program" --replay "$1/frozen-$3.h5" --output "again_$1" >"$1.log"
 }
 freeze round tests/fem/circular_footing-02.prm 3 0.0035
 freeze pressures tests/mpm/circular_footing-02.prm 3 0.35
-freeze three tests/three/circular_footing-01.prm 5 0.01
+freeze three tests/three/circular_footing-01.prm 5 0.01 --run-gmsh-script
 cat >check.py <<'PYTHON'
 import csv
 import json

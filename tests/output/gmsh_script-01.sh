@@ -1,4 +1,4 @@
-# Mesh files are data: a script of gmsh runs only if the parameters say so, and the
+# Mesh files are data: a script of gmsh runs only if the command line says so, and the
 # options beside a mesh never; what gmsh cannot do ends with exit code 1 and a
 # remedy, not with an abort.
 program=$1 root=$2 folder=$3
@@ -7,7 +7,7 @@ rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
 run() {
   "$program" scene.prm --quiet --set "Geometry/File = $1" --output "$2" "${@:3}"
 }
-trusted=(--set 'Geometry/Run gmsh script = true')
+trusted=(--run-gmsh-script)
 sed "s|include |include $root/tests/fem/|" "$root/tests/fem/plate-msh-01.prm" >scene.prm
 cp "$root/tests/fem/two_squares.msh" squares.msh
 
@@ -45,6 +45,9 @@ cp squares.geo script.msh
 cp squares.geo script.step
 cp squares.geo squares.msh.opt
 refused squares.geo 'a geo script is a program'
+refused squares.geo 'a geo script is a program' --dry-run
+refused squares.geo 'give the option --run-gmsh-script' \
+  --set 'Geometry/Run gmsh script = true'
 refused script.msh 'begins with .MeshFormat'
 refused script.msh 'begins with .MeshFormat' "${trusted[@]}"
 refused script.step 'begins with .MeshFormat' "${trusted[@]}"
@@ -52,6 +55,26 @@ run squares.msh data
 run squares.msh again "${trusted[@]}"
 fails was_run
 run squares.geo script "${trusted[@]}"
+was_run
+
+# The bounds mesh the same way, and a run that goes on meshes again.
+sed "s|include |include $root/prm/limit_load/|" >bounds.prm <<'PRM'
+include footing_rough.prm
+subsection Geometry
+  set Shape = file
+  set File  = squares.geo
+end
+PRM
+rm was_run
+if "$program" bounds.prm --dry-run --quiet 2>error; then exit 1; fi
+grep -q 'a geo script is a program' error
+run squares.geo saved "${trusted[@]}" --set 'Checkpoint/Every steps = 1'
+was_run
+rm was_run
+if "$program" --resume saved --quiet 2>error; then exit 1; fi
+grep -q 'a geo script is a program' error
+fails was_run
+"$program" --resume saved --quiet "${trusted[@]}"
 was_run
 # gmsh throws texts.
 echo 'Plane Surface(3) = {4};' >no_curve.geo

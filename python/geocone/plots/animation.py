@@ -49,6 +49,6 @@ def draw(run, paths):
         frames[0].save(film, format=path.suffix[1:], save_all=True,
                        append_images=frames[1:],
                        duration=round(1e3 * SECONDS / len(frames)), loop=0)
-        write_whole(path, film.getvalue())
         add_to_list(path)
+        write_whole(path, film.getvalue())
         print(path)

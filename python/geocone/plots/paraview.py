@@ -118,7 +118,7 @@ def write_state(run, folder):
     if text.count(PLACE) != 1:
         raise RuntimeError(f"'{TEMPLATE}' has no place for what is shown")
     path = folder / NAME
+    add_to_list(path)
     write_whole(path, text.replace(
         PLACE, f"RUN = {pprint.pformat(shown, width=88, sort_dicts=False)}\n"))
-    add_to_list(path)
     return path

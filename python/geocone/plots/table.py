@@ -55,6 +55,6 @@ def write_table(runs, path):
     rows.insert(1, ["-" * width if name in WORDS else "-" * (width - 1) + ":"
                     for width, name in zip(widths, lines[0])])
     text = "".join(f"| {' | '.join(row)} |\n" for row in rows)
-    write_whole(path, text)
     add_to_list(path)
+    write_whole(path, text)
     print(text + str(path))

@@ -32,11 +32,11 @@ def read_json(path):
     return found if isinstance(found, dict) else {}
 
 
-def command_text(run):
+def command_text(run, options=()):
     """The call that a reader may repeat."""
     file = run.file.relative_to(ROOT) if run.file.is_relative_to(ROOT) else run.file
     ranks = ["-n", str(run.ranks)] if run.ranks > 1 else []
-    return shlex.join(["scripts/geocone", *ranks, str(file), *run.options()])
+    return shlex.join(["scripts/geocone", *ranks, str(file), *options, *run.options()])
 
 
 class Progress:
@@ -64,8 +64,9 @@ class Progress:
 class Computer:
     """Calls the program for runs."""
 
-    def __init__(self, program, folder, cores):
+    def __init__(self, program, folder, cores, options=()):
         self.program, self.folder, self.cores = program, folder, cores
+        self.options = options
         self.digest = hashlib.sha256(program.read_bytes()).hexdigest()
         self.calls = SideBySide(cores)
         folder.mkdir(parents=True, exist_ok=True)
@@ -81,8 +82,11 @@ class Computer:
                           "command"} <= record.keys() else {}
 
     def is_done(self, run):
-        """Whether the result is there and unchanged."""
-        return self.record(run).get("key") == self.key(run)
+        """Whether the result is there and unchanged; what failed may need an option."""
+        record = self.record(run)
+        return record.get("key") == self.key(run) and (
+            record["status"] == "finished" or
+            record.get("options", []) == list(self.options))
 
     def call(self, run):
         """Computes a run and writes its record."""
@@ -92,14 +96,16 @@ class Computer:
         record.unlink(missing_ok=True)
         shutil.rmtree(folder, ignore_errors=True)
         ended = self.calls.call(
-            command(self.program, run.file, run.settings, folder, run.ranks),
+            command(self.program, run.file, run.settings, folder, run.ranks,
+                    self.options),
             run.time_limit)
         if self.calls.stopped:
             return
         write_whole(record, json.dumps(
             {"key": key, "status": "failed" if ended.reason else "finished",
              "reason": ended.reason, "code": ended.code,
-             "seconds": round(ended.seconds, 3), "command": command_text(run),
+             "seconds": round(ended.seconds, 3), "options": list(self.options),
+             "command": command_text(run, self.options),
              "output": ended.output[-4000:]}, indent=1))
 
     def compute(self, runs):

@@ -27,7 +27,7 @@ from pathlib import Path
 from geocone.report.page import check_kinds, write_report
 from geocone.report.runs import Computer, command_text, write_csv
 from geocone.report.study_file import StudyError, read_study
-from geocone.runner import ROOT, find_program
+from geocone.runner import ROOT, find_program, options_of
 
 ALL = ("speed", "paper", "validation")  # what one report tells without being asked
 
@@ -55,6 +55,9 @@ def report(arguments, prog):
                         help="a built program (default: that of scripts/build)")
     parser.add_argument("--cores", type=int, default=len(os.sched_getaffinity(0)),
                         help="how many runs go side by side (default: all cores)")
+    parser.add_argument("--run-gmsh-script", action="store_true",
+                        help="run the geo scripts that the scenes name: programs, which "
+                        "can run commands and write files with your rights")
     parser.add_argument("--only", action="append", metavar="GROUP",
                         help="only this group of runs; repeatable")
     parser.add_argument("--list", action="store_true",
@@ -62,6 +65,7 @@ def report(arguments, prog):
     parser.add_argument("--report-only", action="store_true",
                         help="compute nothing; report what is there")
     call = parser.parse_args(arguments)
+    options = options_of(False, call.run_gmsh_script)
     files = call.files or [ROOT / "studies" / f"{name}.toml"
                            for name in (["quick"] if call.quick else ALL)]
     output = call.output or ROOT / "results" / (
@@ -81,12 +85,12 @@ def report(arguments, prog):
     if call.list:
         for study in studies:
             for run in study.runs:
-                print(command_text(run))
+                print(command_text(run, options))
         return 0
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     results = []
     for study in studies:
-        computer = Computer(program, output / "runs" / study.name, call.cores)
+        computer = Computer(program, output / "runs" / study.name, call.cores, options)
         runs = study.runs
         if call.report_only:
             runs = [run for run in runs if computer.record(run)]
