@@ -4,6 +4,7 @@
 // The former name of 'Discretisation/Method = point': calls geocone, which is beside
 // this program, with that method and all arguments.
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -22,8 +23,12 @@ main(int argc, char **argv)
     "geocone";
   std::vector<std::string> arguments(argv + 1, argv + argc);
   arguments.insert(arguments.begin(), program);
-  arguments.push_back("--set");
-  arguments.push_back("Discretisation/Method = point");
+  // A run that goes on has the method among its own parameters.
+  if (std::count(arguments.begin(), arguments.end(), "--resume") == 0)
+    {
+      arguments.push_back("--set");
+      arguments.push_back("Discretisation/Method = point");
+    }
   // What it shows of the materials are the parameters of the law of soils.
   for (const std::string &argument : arguments)
     if (argument == "--help" || argument == "-h" || argument == "--defaults")

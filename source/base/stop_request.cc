@@ -14,6 +14,14 @@ namespace geocone
   {
     volatile std::sig_atomic_t request = 0;
 
+    /** Whether the end of the terminal is to be ignored; asked before MPI starts, which
+     *  changes that. */
+    const bool is_under_nohup = []() {
+      struct sigaction present;
+      return ::sigaction(SIGHUP, nullptr, &present) == 0 &&
+             present.sa_handler == SIG_IGN;
+    }();
+
     extern "C" // what a handler is called as, of this unit alone
     {
     static void
@@ -33,6 +41,7 @@ namespace geocone
     {
       return signal == SIGINT    ? "SIGINT (Ctrl-C)"
              : signal == SIGTERM ? "SIGTERM"
+             : signal == SIGHUP  ? "SIGHUP"
                                  : "signal " + std::to_string(signal);
     }
   } // namespace
@@ -47,6 +56,7 @@ namespace geocone
   {
     std::signal(SIGINT, &note_request);
     std::signal(SIGTERM, &note_request);
+    std::signal(SIGHUP, is_under_nohup ? SIG_IGN : &note_request);
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
   }

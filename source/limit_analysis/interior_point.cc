@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/log.h>
+#include <geocone/base/stop_request.h>
 #include <geocone/limit_analysis/cone_algebra.h>
 #include <geocone/limit_analysis/interior_point.h>
 #include <geocone/limit_analysis/point_matrix.h>
@@ -648,6 +649,9 @@ namespace geocone
           evaluate();
           if (has_diverged() || has_ended(iteration))
             break;
+          // One process computes the bounds; others wait for it.
+          if (const int signal = stop_request_of_rank())
+            throw Stopped(signal);
           if (!factorise())
             {
               solution.reason =

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/stop_request.h>
 #include <geocone/limit_analysis/bounded_load.h>
 #include <geocone/limit_analysis/certified_bounds.h>
 #include <geocone/limit_analysis/mesh_from_bounds.h>
@@ -59,26 +60,31 @@ namespace geocone
         CellSizes   next;
         double      gap = 0.;
         if (mpi::this_mpi_process(comm) == 0)
-          {
-            const CertifiedBounds bounds =
-              certified_bounds(load.on(scene, triangles), tolerance);
-            const double lower = bounds.lower.bound.load,
-                         upper = bounds.upper.bound.load;
-            if (!std::isfinite(lower + upper) || bounds.upper.solution.grows ||
-                bounds.lower.solution.grows)
-              fault = "the limit load of this scene has no finite bounds";
-            else
-              {
-                next = sizes_by_gap(triangles, bounds.uneven, n_asked);
-                gap  = (upper - lower) / std::abs(lower);
-                bracket.take(proven(bounds.lower.bound, load.value_of_unit()),
-                             proven(bounds.upper.bound, load.value_of_unit()));
-                bracket.cells = triangles.cells.size();
-                if (is_last && load.non_associated())
-                  bracket.davis =
-                    davis_estimate(load, scene, triangles, tolerance);
-              }
-          }
+          try
+            {
+              const CertifiedBounds bounds =
+                certified_bounds(load.on(scene, triangles), tolerance);
+              const double lower = bounds.lower.bound.load,
+                           upper = bounds.upper.bound.load;
+              if (!std::isfinite(lower + upper) ||
+                  bounds.upper.solution.grows || bounds.lower.solution.grows)
+                fault = "the limit load of this scene has no finite bounds";
+              else
+                {
+                  next = sizes_by_gap(triangles, bounds.uneven, n_asked);
+                  gap  = (upper - lower) / std::abs(lower);
+                  bracket.take(
+                    proven(bounds.lower.bound, load.value_of_unit()),
+                    proven(bounds.upper.bound, load.value_of_unit()));
+                  bracket.cells = triangles.cells.size();
+                  if (is_last && load.non_associated())
+                    bracket.davis =
+                      davis_estimate(load, scene, triangles, tolerance);
+                }
+            }
+          catch (const Stopped &)
+            {} // as all ranks are, here:
+        stop_if_asked(comm);
         fault = mpi::broadcast(comm, fault);
         if (!fault.empty())
           throw InputError("Mesh/Type",

@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/stop_request.h>
 #include <geocone/solvers/gauss_seidel.h>
 #include <geocone/solvers/one_cone.h>
 
@@ -29,6 +30,8 @@ namespace geocone
     while (!(report.errors.back() <= tolerance) &&
            report.iterations < max_sweeps)
       {
+        if (const int signal = stop_request_of_rank())
+          throw Stopped(signal); // one process holds the whole problem
         ++report.iterations;
         double error = 0., size = 0.;
         for (unsigned int p = 0; p < n; ++p)

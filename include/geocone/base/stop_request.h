@@ -20,8 +20,8 @@ namespace geocone
   };
 
   /**
-   * From now on SIGINT (Ctrl-C) and SIGTERM ask the run to stop, which it does at
-   * the next place where its state is whole; a second one ends the program at
+   * From now on SIGINT (Ctrl-C), SIGTERM and SIGHUP (the terminal has gone; not under
+   * nohup) ask the run to stop, which it does at the next place where its state is whole; a second one ends the program at
    * once. Writing beyond a limit (SIGXFSZ) or into a closed pipe (SIGPIPE) is an
    * error of that writing and no end.
    */
