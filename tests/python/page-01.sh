@@ -99,6 +99,14 @@ assert answer(bounds={"lower": 1., "upper": 2., "unit": "-"}, safety={
 assert answer(size={"method": "strength reduction"}, safety={
     "factor": 1.38164, "lower": 1.3732, "upper": 1.3868}) == (
         "Factor of safety: 1.3816 (certified: 1.3732 to 1.3868)")
+# Bounds that made the mesh of steps are those of a load, not of the factor.
+def titles(method):
+    other = copy.copy(run)
+    other.summary = {"size": {"method": method}, "safety": {"factor": 1.166},
+                     "bounds": {"lower": 2.352, "upper": 2.577}}
+    return [title for title, _ in page.numbers_of(other)]
+assert "Bounds of the factor of all loads at full strength" in titles("FEM"), titles("FEM")
+assert "Bounds" in titles("strength reduction") and "Bounds" not in titles("FEM")
 assert answer(safety={"factor": None, "lower": None, "upper": None}) == ""
 assert page.text_of("failed: it stopped remedy: smaller steps") == (
     "failed: it stopped Remedy: smaller steps")

@@ -73,8 +73,12 @@ def name_of(key):
     return words.replace("_", " ").strip()
 
 
-def title_of(topic):
-    """What a topic of the summary is called."""
+def title_of(topic, run):
+    """What a topic of the summary is called. Bounds that made the mesh of a strength
+    reduction by steps are those of a load: they say nothing of the factor of safety."""
+    if (topic == "bounds" and "safety" in run.summary and
+            run.method != "strength reduction"):
+        return "Bounds of the factor of all loads at full strength"
     return TOPICS.get(topic, topic.replace("_", " ").capitalize())
 
 
@@ -114,7 +118,7 @@ def numbers_of(run):
     known = {key: run.summary[key] for key in TOPICS if key in run.summary}
     others = {key: value for key, value in run.summary.items()
               if key not in TOPICS and isinstance(value, dict) and key != "run"}
-    return [(title_of(key),
+    return [(title_of(key, run),
              [(name_of(name), text_of(value), len(text_of(value)) > LONG)
               for name, value in topic.items() if not isinstance(value, (dict, list))])
             for key, topic in {**known, **others}.items() if isinstance(topic, dict)]
@@ -227,6 +231,6 @@ def write_page(run, folder, names):
     except jinja2.TemplateError as problem:
         raise ReadError(f"the page of '{run.folder}' cannot be made: {problem}")
     path = folder / "report.html"
-    write_whole(path, page)
     add_to_list(path)
+    write_whole(path, page)
     return path
