@@ -6,10 +6,12 @@ rm -rf "$5"
 mkdir -p "$5"
 cp "$(dirname "$2")"/*.msh "$5"
 cd "$5" || exit 1
+# A line '# Options: ...' of the file goes with the call.
+options=$(sed -n 's/^# Options: //p' "$2")
 if [ "$4" -gt 1 ]; then
-  mpirun -np "$4" "$1" "$2" >stdout 2>stderr
+  mpirun -np "$4" "$1" "$2" $options >stdout 2>stderr
 else
-  "$1" "$2" >stdout 2>stderr
+  "$1" "$2" $options >stdout 2>stderr
 fi
 code=$?
 # What mpirun, hwloc or muParser print around the message is not ours. Which of the rows
