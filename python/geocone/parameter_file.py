@@ -1,27 +1,56 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Parameter files: what they say, and how settings are written. What geocone would
-refuse is left to it."""
+refuse is left to it, but for files that are read without end."""
+
+import itertools
+import os
+from pathlib import Path
 
 
-def lines_of(path, depth=0):
+LARGEST, MOST, DEEPEST = 16 << 20, 1000, 20  # bytes of a file, files, levels: geocone's
+
+
+class IncludeError(ValueError):
+    """A parameter file that geocone would not read, in a line."""
+
+
+def text_in(path):
+    """The text of a parameter file.
+    @throw IncludeError, OSError"""
+    if not os.path.isfile(path):  # a device would be read without end
+        raise IncludeError(f"'{path}' is no file")
+    if os.path.getsize(path) > LARGEST:
+        raise IncludeError(f"'{path}' is larger than {LARGEST >> 20} MB")
+    return Path(path).read_text(encoding="utf-8", errors="replace")
+
+
+def lines_of(path):
     """The lines of a parameter file and of the files that it includes, each with the
-    path of its file. A file that cannot be read is one line that says so."""
-    if depth > 20 or not path.is_file():
-        yield f"# {path} cannot be read", path
-        return
-    for line in path.read_text(errors="replace").splitlines():
-        words = line.split("#")[0].split()
-        if len(words) == 2 and words[0] == "include":
-            yield from lines_of(path.parent / words[1], depth + 1)
-        else:
-            yield line, path
+    path of its file.
+    @throw IncludeError, OSError"""
+    count = itertools.count(1)
+
+    def read(path, depth):
+        if depth > DEEPEST:
+            raise IncludeError(f"'{path}' includes itself")
+        if next(count) > MOST:
+            raise IncludeError(f"more than {MOST} files are included, of which '{path}' is one")
+        for line in text_in(path).splitlines():
+            words = line.split("#")[0].split(maxsplit=1)
+            if len(words) == 2 and words[0] == "include":
+                yield from read(path.parent / words[1].strip(), depth + 1)
+            else:
+                yield line, path
+    return read(path, 0)
 
 
 def parameters_of(path):
-    """The parameters that a file sets, {"Section/Name": text}; later lines win."""
+    """The parameters that the file of a run's folder sets, {"Section/Name": text}; later
+    lines win. Nothing else is read: such a file includes none.
+    @throw IncludeError, OSError"""
     values, sections = {}, []
-    for line, _ in lines_of(path):
+    for line in text_in(path).splitlines():
         word, _, rest = line.split("#")[0].strip().partition(" ")
         if word == "subsection":
             sections.append(rest.strip())

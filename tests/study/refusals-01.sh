@@ -1,52 +1,31 @@
-# Wrong study files are refused before anything is computed, with what is allowed.
+# Wrong study files are refused before anything is computed, in one message: the place, the
+# key and its value, what is allowed, and a remedy.
 program=$1 source=$2 folder=$3
+. "$source/tests/fails.sh"
 rm -rf "$folder"
 mkdir -p "$folder"
 cd "$folder"
 cp "$source/prm/footing.prm" .
-group='[[group]]
-name = "a"
-file = "footing.prm"'
-
-refuse() { # text of the message, study file
-  echo "$2" >study.toml
-  if "$source/scripts/study" study.toml --program "$program" --output results 2>log; then
-    echo "accepted: $2"
-    exit 1
-  fi
-  grep -qF "$1" log || { cat log; exit 1; }
-  [ ! -e results ]
+study() {
+  timeout 60 "$source/scripts/study" "$@" --program "$program" --output results 2>log
 }
-
-refuse "there is no [[group]] of runs" 'title = "none"'
-refuse "unknown key 'titel' in the study" "titel = 'x'
-$group"
-refuse "unknown key 'fiel' in the group 'a'" "$group
-fiel = 'x'"
-refuse "the group 'a' has no file" '[[group]]
-name = "a"'
-refuse "file = 'none.prm'" '[[group]]
+cat >study.toml <<'END'
+[[group]]
 name = "a"
-file = "none.prm"'
-refuse "'PARAMETER = VALUE'" "$group
-set = ['Mesh/Cell size']"
-refuse "the axis 'Mesh/Cell size' is empty" "$group
-vary = {'Mesh/Cell size' = []}"
-refuse "two runs are named 'a'" "$group
-$group"
-refuse "unknown group 'b'" "$group
-[[section]]
-title = 'x'
-[[section.figure]]
-kind = 'speed.work_precision'
-groups = ['b']"
-refuse "ranks = 0" "$group
-ranks = 0"
-refuse "'{psi/2}' in the setting" "$group
-set = ['Materials/soil/Dilatancy angle = {psi/2}']"
-refuse "is no TOML file" "$group
-name ="
-refuse "unknown figure or table 'speed.none'" "$group
-[[section]]
-[[section.figure]]
-kind = 'speed.none'"
+file = "footing.prm"
+repeat = 99999999999999999999
+END
+fails study study.toml
+diff - log <<END
+error: $PWD/study.toml: the group 'a': repeat = 99999999999999999999
+  allowed: a whole number from 1 to 10000
+  remedy:  correct it in the study file; doc/studies.md explains the keys, studies/quick.toml is an example
+END
+sed -i 's/repeat.*/repeat = 2/' study.toml
+mkdir other
+cp study.toml other
+fails study study.toml other/study.toml
+grep -q "has the same name" log
+[ ! -e results ]
+
+PYTHONPATH=$source/python /usr/bin/python3 -B "$source/tests/study/refusals.py"

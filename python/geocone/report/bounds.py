@@ -7,9 +7,11 @@ from matplotlib.ticker import FuncFormatter
 
 from geocone.reader import ReadError, Run
 from geocone.report.figures import COLORS, MARKERS
+from geocone.report.schema import POSITIVE, takes
 from geocone.style import BESIDE, GREY, plain, subplots
 
 
+@takes(tolerance=POSITIVE)
 def gaps(rows, options):
     """The gap of the bounds against the triangles and against the time of all meshes so
     far: a line for each run, a colour for each group. Options: tolerance = a gap that is

@@ -13,6 +13,7 @@ from matplotlib.ticker import FuncFormatter, NullFormatter
 
 from geocone.plots.load import curve_of, draw_lines
 from geocone.reader import ReadError, Run, leaves
+from geocone.report.schema import FLAG, LINE, list_of, takes
 from geocone.style import BESIDE, COLORS as FEW, Skipped, plain, subplots, unit_for
 
 COLORS = [*FEW, "#8B5A2B", "#6A3D9A", "#000000"]
@@ -51,6 +52,7 @@ def plain_ticks(axis, values, n=5):
     axis.set_minor_formatter(NullFormatter())
 
 
+@takes("columns", columns=list_of(list_of(LINE, 2, 2), 1))
 def columns(rows, options):
     """The table of some keys: options 'columns' = [[title, key], ...], where the key
     may end with ' %' for relative numbers. Failed runs tell their reason."""
@@ -69,6 +71,7 @@ def columns(rows, options):
     return ["runs", "", *(title for title, _ in wanted), "failed"], lines
 
 
+@takes(with_group=FLAG)
 def load_displacement(rows, options):
     """Load-displacement curves of all rows, with their references."""
     curves, names = [], []

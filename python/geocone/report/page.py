@@ -4,7 +4,6 @@
 
 import base64
 import datetime
-import importlib
 import io
 import os
 import platform
@@ -19,7 +18,7 @@ from markupsafe import Markup, escape
 from geocone.files import write_whole
 from geocone.reader import ReadError
 from geocone.report.markdown import page_text, table_text
-from geocone.report.study_file import StudyError
+from geocone.report.schema import find
 from geocone.runner import ROOT, duration
 from geocone.style import PlotError, Skipped
 
@@ -58,24 +57,6 @@ def machine(program):
         ("program", said(str(program), "--version") or "unknown"),
         ("source", said("git", "describe", "--always", "--dirty") or "unknown"),
         ("date", datetime.date.today().isoformat())]
-
-
-def find(kind):
-    """The function that draws a figure or makes a table."""
-    module, _, name = kind.rpartition(".")
-    return getattr(importlib.import_module(f"geocone.report.{module}"), name)
-
-
-def check_kinds(study):
-    """Refuses figures and tables that nobody can make, before runs take hours."""
-    for section in study.sections:
-        for shown in (*section.get("figure", []), *section.get("table", [])):
-            try:
-                find(shown["kind"])
-            except (ImportError, AttributeError, ValueError):
-                raise StudyError(f"{study.path}: unknown figure or table "
-                                 f"'{shown['kind']}'\n  allowed: MODULE.FUNCTION of "
-                                 "python/geocone/report, e.g. figures.load_displacement")
 
 
 def rows_of(shown, rows):

@@ -21,10 +21,14 @@ from geocone.plots.newton import draw_attempts
 from geocone.plots.points import values_of
 from geocone.plots.rates import add_rates, cells_of
 from geocone.reader import nearest, read_series, read_states, read_table
+from geocone.report.schema import (LINE, NUMBER, POSITIVE, VALUE, VIEW, any_of, between, list_of,
+                                   table_of, takes, words)
 from geocone.style import (BESIDE, BLUE, COLORS, ORANGE, SHOWN, STRAINS, add_bar, disks,
                            panels, plain, subplots)
 
 STYLES = ["-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2))]
+WHERE = {"where": table_of(any_of(VALUE, list_of(VALUE)))}
+LOOKS = {**WHERE, "color": LINE, "style": LINE}
 FLOOR = 1e-20  # what is drawn of smaller numbers on a logarithmic scale
 
 
@@ -73,6 +77,8 @@ def statistics(row):
     return read_table(row["folder"] / "statistics.csv")
 
 
+@takes(**LOOKS, x=words("time", "displacement"), widths=list_of(POSITIVE, 1),
+       names=list_of(LINE), names_of=table_of(LINE))
 def load_time(rows, options):
     """Load against time or displacement, with Prandtl's loads of given widths.
     Options: x (time | displacement), widths [m], of which the first one is that of
@@ -112,6 +118,8 @@ def bearing(phi, cohesion, width):
                                    np.tan(np.pi / 4. + np.radians(phi) / 2.)**2 - 1.)
 
 
+@takes("angle", "cohesion", "width", **WHERE, angle=LINE, others=list_of(LINE),
+       cohesion=POSITIVE, width=POSITIVE)
 def load_angle(rows, options):
     """Largest loads against the friction angle beside (77), and their difference.
     Options: angle (axis), others (axes of the lines), cohesion (Pa), width (m)."""
@@ -175,6 +183,8 @@ def title_of(row, field):
     return ", ".join([*filter(None, [plain(row["label"])]), f"t = {field.time:.3g} s"])
 
 
+@takes("view", **WHERE, series=words("points", "cells"), view=VIEW,
+       mechanism=between(0, 89), width=POSITIVE, shown=POSITIVE)
 def rates(rows, options):
     """Plastic strain rates at the end. Options: series (points | cells), view [x0,
     y0, x1, y1], mechanism (friction angle of the borders that are drawn), width,
@@ -202,6 +212,8 @@ def rates(rows, options):
     return figure
 
 
+@takes("view", "width", "speed", "box", "cell", **WHERE, view=VIEW, width=POSITIVE,
+       speed=POSITIVE, box=list_of(NUMBER, 2, 2), cell=any_of(POSITIVE, LINE))
 def velocities(rows, options):
     """Vertical velocities of the points near the footing at the end, with the mesh.
     Options: view, width, speed (m/s, of the footing), box (lower left corner of the
@@ -335,6 +347,9 @@ def paths(axes, x, y, every):
     axes.autoscale_view()
 
 
+@takes("phi", "theta", "cohesion", "young", "poisson", "lowest", **WHERE, phi=between(0, 89),
+       theta=between(0, 89), cohesion=POSITIVE, young=POSITIVE, poisson=between(0, 0.5),
+       every=between(1, 1000, True), lowest=NUMBER)
 def law(rows, options):
     """Four panels of one run with frozen problems of all steps: stresses and the cone,
     plastic strains and the cone of flow, complementarity, Newton's method. Options:
@@ -396,6 +411,7 @@ def newton(axes, row):
     axes.figure.colorbar(ax=axes, **bar)
 
 
+@takes("times", "view", **WHERE, times=list_of(NUMBER, 1, 8), view=VIEW, largest=POSITIVE)
 def strains(rows, options):
     """Cumulative plastic strain of points at given times, of one run.
     Options: where, times (s), view, largest (of the colours)."""
@@ -440,6 +456,7 @@ def energy_table(row):
     return np.array([0., *table["time (s)"]]), energies
 
 
+@takes(**WHERE)
 def energies(rows, options):
     """The energies of section 5.2, a panel for each run, one beside the other."""
     good, text = chosen(rows, options)
@@ -472,6 +489,7 @@ def table_of(head, rows, cells):
     return ["run", *head], lines
 
 
+@takes()
 def loads_table(rows, _):
     """Head and lines: what each run of a footing has found."""
     def cells(row):
@@ -491,6 +509,7 @@ def loads_table(rows, _):
                      "failed attempts"], rows, cells)
 
 
+@takes()
 def energies_table(rows, _):
     """Head and lines: what each run of a slope has found."""
     def cells(row):

@@ -8,6 +8,7 @@ from matplotlib.ticker import FixedLocator, NullLocator
 
 from geocone.parameter_file import parameters_of
 from geocone.reader import read_table
+from geocone.report.schema import takes
 from geocone.style import COLORS, plain, subplots
 
 TICKS = (0.5, 1., 1.5, 2., 3., 4., 6., 8., 10., 15., 20., 30.)
@@ -40,6 +41,7 @@ def fit(a, values):
     return np.exp(log_k), n
 
 
+@takes()
 def laws(rows, _):
     """What the first group has found beside the laws of experiments, in logarithms."""
     group = rows[0]["group"]
@@ -67,6 +69,7 @@ def laws(rows, _):
     return figure
 
 
+@takes()
 def fits(rows, _):
     """The power laws of each group."""
     def text(k, n):
@@ -82,6 +85,7 @@ def fits(rows, _):
     return ["runs", "a", *(f"{law}, {name}" for name, law in MEASURED.items())], lines
 
 
+@takes()
 def table(rows, _):
     """A line for each column."""
     lines = []

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.colors import LogNorm
 
 from geocone.reader import nearest, read_series, read_states, read_table
+from geocone.report.schema import NUMBER, VALUE, VIEW, list_of, takes
 from geocone.style import COLORS, STRAINS, disks, plain, subplots
 
 
@@ -30,6 +31,7 @@ def steps_of(row, cut):
     return table, int(np.flatnonzero(table["time (s)"] <= cut + 1e-9)[-1])
 
 
+@takes("crest", "cut", crest=NUMBER, cut=NUMBER)
 def table(rows, options):
     """A line for each run. Options: crest (m, height of the ground behind the slope)."""
     lines = []
@@ -59,6 +61,8 @@ def table(rows, options):
             "numerical loss"], lines
 
 
+@takes("cells", "cut", "times", "view", cells=VALUE, cut=NUMBER,
+       times=list_of(NUMBER, 1, 20), view=VIEW)
 def points(rows, options):
     """The points of all soils at some times. Options: times (s), view [x0, y0, x1, y1]."""
     soils, times = shown(rows, options), options["times"]
@@ -82,6 +86,7 @@ def points(rows, options):
     return figure
 
 
+@takes("cells", "cut", cells=VALUE, cut=NUMBER)
 def energies(rows, options):
     """Kinetic energy, and where the released energy goes."""
     figure, (kinetic, works) = subplots(1, 2, figsize=(10., 4.))

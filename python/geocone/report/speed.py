@@ -16,6 +16,8 @@ from matplotlib.ticker import NullFormatter
 
 from geocone.report.figures import (COLORS, MARKERS, number, percent, plain_ticks,
                                     value_of)
+from geocone.report.schema import (LINE, POSITIVE, VALUE, between, list_of, table_of,
+                                   takes, words)
 from geocone.style import BESIDE, plain, subplots
 
 # A method on a mesh in a case; time (s): median, least and largest of the
@@ -25,6 +27,7 @@ Point = namedtuple("Point", "method case mesh error time fastest slowest repetit
 UNITS = {"time": "time of the whole run (s)",
          "ratio": "time / one factorisation of the same matrix (-)",
          "dofs": "unknowns (-)"}
+AXES = ("error", *UNITS)
 SPLIT = [("factorise_s", "factorisation"), ("solve_s", "solution"),
          ("residual_s", "residual"), ("assembly_s", "assembly"),
          ("analyse_s", "symbolic analysis"), ("transfer_s", "transfer, particles"),
@@ -79,6 +82,7 @@ def style(i, method):
             "markersize": 5., "linewidth": 1.3}
 
 
+@takes(x=words(*AXES), y=words(*AXES), columns=between(1, 20, True))
 def work_precision(rows, options):
     """Cost against error: a curve for each method, a panel for each case. Options:
     x, y (error, time, ratio, dofs)."""
@@ -138,6 +142,7 @@ def time_at(points, error):
     return None
 
 
+@takes(errors=list_of(POSITIVE), time=LINE)
 def winners(rows, options):
     """For each case and error the fastest FEM, the fastest MPM, and the factor. Options:
     errors, time = what of the topic "cost" counts."""
@@ -183,6 +188,7 @@ def order_of(points):
                  math.log(line[1].dofs / line[0].dofs))
 
 
+@takes()
 def orders(rows, options):
     """Errors on the finest mesh and observed orders, of each method in each case."""
     points = points_of(rows)
@@ -200,6 +206,7 @@ def orders(rows, options):
     return ["method", *(case_name(case) for case in cases)], lines
 
 
+@takes(case=table_of(VALUE))
 def measured(rows, options):
     """All points of one case, with the spread of times and where they go. Options:
     case = {axis = value}."""
@@ -218,6 +225,7 @@ def measured(rows, options):
              "memory (MB)"], lines)
 
 
+@takes(case=table_of(VALUE))
 def cost_split(rows, options):
     """Where the time of the finest mesh of each method goes, in one case."""
     wanted, finest = options.get("case", {}), {}
@@ -242,6 +250,7 @@ def cost_split(rows, options):
     return figure
 
 
+@takes(x=LINE, width=POSITIVE, columns=between(1, 20, True))
 def convergence(rows, options):
     """Error against cell size: a panel for each method (group), a curve for each
     friction angle. Options: x = key of the cell size, width = B (m)."""
@@ -281,6 +290,7 @@ def convergence(rows, options):
     return figure
 
 
+@takes()
 def load_ratios(rows, options):
     """Load over that of associated flow on the same mesh. The axis `theta` names the
     dilatancy (its label 'associated' is the reference)."""

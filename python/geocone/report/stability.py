@@ -9,6 +9,7 @@ import numpy as np
 
 from geocone.reader import ReadError, leaves, read_table
 from geocone.parameter_file import parameters_of
+from geocone.report.schema import takes
 
 TOLERANCE = 1e-10  # 'Newton/Tolerance'
 LAW = 1e-8  # natural-map error of an accepted state
@@ -99,11 +100,13 @@ def line_of(row):
             f"{row['seconds']:.0f}", verdict(row)[1]]
 
 
+@takes()
 def table(rows, _):
     """A line for each case."""
     return HEAD, [line_of(row) for row in rows]
 
 
+@takes()
 def counts(rows, _):
     """How many cases have come to which end."""
     kinds = [verdict(row)[0] for row in rows]
@@ -113,6 +116,7 @@ def counts(rows, _):
             [[len(kinds), solved, reported, len(kinds) - solved - reported]])
 
 
+@takes()
 def scenes(rows, _):
     """What each scene is: the comment at the beginning of its parameter file."""
     lines = []

@@ -24,9 +24,11 @@ import signal
 import sys
 from pathlib import Path
 
-from geocone.report.page import check_kinds, write_report
+from geocone.parameter_file import IncludeError
+from geocone.report.page import write_report
 from geocone.report.runs import Computer, command_text, write_csv
-from geocone.report.study_file import StudyError, read_study
+from geocone.report.schema import StudyError, require
+from geocone.report.study_file import read_study
 from geocone.runner import ROOT, find_program, options_of
 
 ALL = ("speed", "paper", "validation")  # what one report tells without being asked
@@ -75,18 +77,27 @@ def report(arguments, prog):
     try:
         studies = [read_study(file) for file in files]
         for study in studies:
-            check_kinds(study)
+            same = [other.path for other in studies if other.name == study.name]
+            require(len(same) == 1, study.path, f"'{same[-1]}' has the same name",
+                    "studies of different names in one call", "rename one, or call twice")
             if call.only:
                 study.only(call.only)
-        program = None if call.list else find_program(call.program or "geocone")
-    except (StudyError, FileNotFoundError) as problem:
+        if not call.list:
+            return compute(studies, output, find_program(call.program or "geocone"),
+                           options, call)
+    except (StudyError, IncludeError, OSError) as problem:
         print(f"error: {problem}", file=sys.stderr)
         return 1
-    if call.list:
-        for study in studies:
-            for run in study.runs:
-                print(command_text(run, options))
-        return 0
+    for study in studies:
+        for run in study.runs:
+            print(command_text(run, options))
+    return 0
+
+
+def compute(studies, output, program, options, call):
+    """Computes studies, if the call does not say otherwise, and writes their report; returns
+    the exit code.
+    @throw StudyError"""
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     results = []
     for study in studies:

@@ -9,6 +9,7 @@ there is no reference. status = "failed" is for runs that must not find an equil
 """
 
 from geocone.report.figures import COLORS, number, percent, value_of
+from geocone.report.schema import takes
 from geocone.style import plain, subplots
 
 
@@ -48,6 +49,7 @@ def band(check):
     return f"{words[0]} to {words[1]}"
 
 
+@takes()
 def table(rows, options):
     """Each check: reference, value, error, band, verdict, source, command."""
     lines = []
@@ -70,6 +72,7 @@ def table(rows, options):
             "command"], lines
 
 
+@takes()
 def errors(rows, options):
     """The relative errors of all checks inside of their bands."""
     shown = [(row, *verdict(row)) for row in rows if "reference" in row["check"]]

@@ -12,6 +12,7 @@ import statistics
 
 from geocone.reader import read_table
 from geocone.report.figures import percent, value_of
+from geocone.report.schema import FLAG, LINE, VALUE, list_of, takes, words
 
 MOVED = 0.00301  # m; loads of a footing that moves on are those beyond
 
@@ -99,6 +100,7 @@ COLUMNS = {  # the cell of a run; all runs of the table are its second argument
     "last": lambda row, _: f"{last_ratio(row):.3f}",
     "conditions": lambda row, _: count(row, "multiplier rows given (-)"),
     "independent": lambda row, _: count(row, "multipliers (-)")}
+SOME = list_of(words(*COLUMNS))
 
 
 def cells(row, rows, columns):
@@ -108,6 +110,7 @@ def cells(row, rows, columns):
     return [COLUMNS[column](row, rows) for column in columns]
 
 
+@takes("columns", columns=SOME, axes=list_of(LINE, 1), titles=list_of(LINE, 1), with_group=FLAG)
 def table(rows, options):
     """A line for each run: its axes or its name, and some columns."""
     axes, columns = options.get("axes"), options["columns"]
@@ -121,6 +124,7 @@ def table(rows, options):
     return [*options.get("titles", axes or ["run"]), *columns], lines
 
 
+@takes("columns", "of", columns=SOME, of=VALUE)
 def angles(rows, options):
     """Errors of last loads, a column for each `phi`, their spread, the order of their
     mean, and the columns of the angle `of`. A line for each group and `dx`."""
@@ -147,6 +151,7 @@ def angles(rows, options):
              *columns], lines)
 
 
+@takes()
 def elastic_orders(rows, _):
     """Relative errors on the finer one of two meshes of each element, and orders."""
     lines = []
