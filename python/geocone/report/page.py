@@ -19,6 +19,7 @@ from geocone.files import write_whole
 from geocone.reader import ReadError
 from geocone.report.markdown import page_text, table_text
 from geocone.report.schema import find
+from geocone.report.runs import own_folder
 from geocone.runner import ROOT, duration
 from geocone.style import PlotError, Skipped
 
@@ -73,7 +74,7 @@ def figure_data(shown, rows, picture):
     figure = find(shown["kind"])(rows_of(shown, rows), shown)
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png", dpi=130)
-    picture.write_bytes(buffer.getvalue())
+    write_whole(picture, buffer.getvalue())
     return {"data": base64.b64encode(buffer.getvalue()).decode(), "file": picture.name,
             "caption": paragraphs(shown.get("caption", "")),
             "source": shown.get("caption", "")}
@@ -122,8 +123,7 @@ def write_report(path, studies, program):
     """Writes the page.
     @param studies pairs of a study and its rows
     @return the problems of figures and tables"""
-    folder = path.parent / "figures"
-    folder.mkdir(parents=True, exist_ok=True)
+    folder = own_folder(path.parent / "figures")
     parts, problems = [], []
     for study, rows in studies:
         sections = [section_data(study, number + 1, section, rows, folder)

@@ -3,10 +3,13 @@
 """Computes the runs of studies, side by side, and gathers what they found.
 
 Each run has a folder, and beside it FOLDER.json: a digest of all that the result
-depends on, and how the run ended. A run whose digest is unchanged is used again.
+depends on, and how the run ended. A run whose digest is unchanged is used again. Only
+what studies and their runs have written is replaced or deleted: never what a link shows,
+or what else somebody has put into a folder.
 """
 
 import csv
+import fcntl
 import functools
 import hashlib
 import io
@@ -17,9 +20,10 @@ import sys
 import threading
 import time
 
-from geocone.files import write_whole
-from geocone.reader import leaves
-from geocone.runner import ROOT, command, duration
+from geocone.files import files_of_run, remove_run, write_whole
+from geocone.reader import ReadError, leaves, read
+from geocone.report.schema import StudyError
+from geocone.runner import ROOT, Ended, command, duration
 from geocone.side_by_side import SideBySide
 
 
@@ -61,6 +65,44 @@ class Progress:
         self.out.flush()
 
 
+MARK = ".study"  # in the output folder of studies; locked while they are computed
+
+
+def own_folder(path):
+    """Makes a folder of a study, if it is not there, and returns its path.
+    @throw StudyError if it is a link, which may lead anywhere"""
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as problem:
+        raise StudyError(f"the folder '{path}' cannot be made: {problem.strerror}\n"
+                         "  remedy:  name another one with --output")
+    if path.is_symlink():
+        raise StudyError(f"'{path}' is a link\n  allowed: a folder\n"
+                         "  remedy:  name another output folder with --output")
+    return path
+
+
+def take_output(path):
+    """Takes the output folder: a new one, an empty one, or that of a study before.
+    @return what must be kept open as long as nobody else may write there
+    @throw StudyError if it is another one, or in use"""
+    mark = path / MARK
+    if path.is_dir() and any(path.iterdir()) and (mark.is_symlink() or not mark.is_file()):
+        raise StudyError(
+            f"the folder '{path}' is not empty, and no study has made it\n"
+            f"  allowed: a new or an empty folder, or one with the file {MARK} of a study\n"
+            "  remedy:  name another one with --output; if a study of an older geocone has "
+            f"made it, make an empty file {MARK} in it")
+    path.mkdir(parents=True, exist_ok=True)
+    lock = open(mark, "a")
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        raise StudyError(f"another study is being computed in '{path}'\n"
+                         "  remedy:  wait for it, or name another folder with --output")
+    return lock
+
+
 class Computer:
     """Calls the program for runs."""
 
@@ -69,7 +111,7 @@ class Computer:
         self.options = options
         self.digest = hashlib.sha256(program.read_bytes()).hexdigest()
         self.calls = SideBySide(cores)
-        folder.mkdir(parents=True, exist_ok=True)
+        own_folder(folder)
 
     def key(self, run):
         """A digest of all that the result depends on."""
@@ -93,12 +135,15 @@ class Computer:
         record = self.folder / (run.name + ".json")
         folder = self.folder / run.name
         key = self.key(run)  # of the files as they are now, not when it has ended
+        remove_run(folder)
         record.unlink(missing_ok=True)
-        shutil.rmtree(folder, ignore_errors=True)
-        ended = self.calls.call(
-            command(self.program, run.file, run.settings, folder, run.ranks,
-                    self.options),
-            run.time_limit)
+        try:
+            ended = self.calls.call(
+                command(self.program, run.file, run.settings, folder, run.ranks,
+                        self.options),
+                run.time_limit)
+        except OSError as problem:  # e.g. there is no mpirun
+            ended = Ended(1, "", 0., f"error: it cannot be called: {problem}")
         if self.calls.stopped:
             return
         write_whole(record, json.dumps(
@@ -108,13 +153,37 @@ class Computer:
              "command": command_text(run, self.options),
              "output": ended.output[-4000:]}, indent=1))
 
+    def check_folder(self, run):
+        """Refuses to replace what is not an earlier run that has ended.
+        @throw StudyError"""
+        folder, record = self.folder / run.name, self.folder / (run.name + ".json")
+        try:
+            files = files_of_run(folder)
+            if record.is_dir():
+                raise FileExistsError(f"'{record}' is a folder")
+        except OSError as problem:
+            raise StudyError(f"the run '{run.name}' cannot be computed again: {problem}\n"
+                             "  remedy:  move that elsewhere, or name another output folder "
+                             "with --output")
+        try:
+            going_on = files and read(folder).status == "running"
+        except ReadError:
+            going_on = False
+        if going_on:
+            raise StudyError(f"the run '{run.name}' goes on in '{folder}'\n"
+                             "  remedy:  wait for it or end it, or name another output "
+                             "folder with --output")
+
     def compute(self, runs):
-        """Computes what is not there yet, the longest first as far as is known."""
+        """Computes what is not there yet, the longest first as far as is known.
+        @throw StudyError, before anything is computed, if a folder is not the runs' own"""
         expected = {run.name: self.record(run).get("seconds") for run in runs}
         known = [seconds for seconds in expected.values() if seconds]
         mean = sum(known) / len(known) if known else 5.
         waiting = [run for run in runs if not self.is_done(run)]
         # Those that need the machine for themselves come last, one by one.
+        for run in waiting:
+            self.check_folder(run)
         waiting.sort(key=lambda run: (run.alone, -(expected[run.name] or mean)))
         progress = Progress(len(runs))
         progress.done = len(runs) - len(waiting)

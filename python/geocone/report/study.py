@@ -14,6 +14,7 @@ Leaves in the output folder:
   NAME.md         what the page shows of it, as Markdown
   figures/        the figures as files, the tables as Markdown
   runs/NAME/      the folders of the runs
+  .study          that a study has made the folder; other folders are not written into
 
 scripts/study calls this when the program is built.
 """
@@ -26,7 +27,7 @@ from pathlib import Path
 
 from geocone.parameter_file import IncludeError
 from geocone.report.page import write_report
-from geocone.report.runs import Computer, command_text, write_csv
+from geocone.report.runs import Computer, command_text, own_folder, take_output, write_csv
 from geocone.report.schema import StudyError, require
 from geocone.report.study_file import read_study
 from geocone.runner import ROOT, find_program, options_of
@@ -99,6 +100,8 @@ def compute(studies, output, program, options, call):
     the exit code.
     @throw StudyError"""
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
+    lock = take_output(output)
+    own_folder(output / "runs")
     results = []
     for study in studies:
         computer = Computer(program, output / "runs" / study.name, call.cores, options)
@@ -112,5 +115,6 @@ def compute(studies, output, program, options, call):
         write_csv(output / f"{study.name}.csv", rows)
         results.append((study, rows))
     problems = write_report(output / "report.html", results, program)
+    lock.close()
     print(output / "report.html")
     return 1 if problems else 0
