@@ -75,8 +75,12 @@ WORDS = ["none", "automatic", "all", "left", "top", "0", "one two", "a/b", "é",
          "n" * 3000, "<b>", "$a_b$", f"$(touch {MARKER})", "%d", "end", "subsection",
          "..", "Names", "parameters.prm"]
 
-Call = namedtuple("Call", "program arguments text nonsense missing",
-                  defaults=[None, ()])  # a parameter with nonsense; missing sections
+# nonsense: a parameter that has it; missing: sections; wrong: what must be refused; like:
+# the scene and the settings of a run with the same loads; kept: what must stay as it is, by
+# its path in the folder of the case; twins: the call is made twice at once, and so many of
+# the two may run.
+Call = namedtuple("Call", "program arguments text nonsense missing wrong like kept twins",
+                  defaults=[None, (), "", None, (), 0])
 # Scenes and their parameters.
 
 def flatten(path):

@@ -8,7 +8,7 @@ import os
 from pathlib import Path
 
 
-LARGEST, MOST, DEEPEST = 16 << 20, 1000, 20  # bytes of a file, files, levels: geocone's
+LARGEST, MOST, DEEPEST = 16_000_000, 1000, 20  # bytes of a file, files, levels: geocone's
 
 
 class IncludeError(ValueError):
@@ -21,7 +21,7 @@ def text_in(path):
     if not os.path.isfile(path):  # a device would be read without end
         raise IncludeError(f"'{path}' is no file")
     if os.path.getsize(path) > LARGEST:
-        raise IncludeError(f"'{path}' is larger than {LARGEST >> 20} MB")
+        raise IncludeError(f"'{path}' is larger than {LARGEST // 10**6} MB")
     return Path(path).read_text(encoding="utf-8", errors="replace")
 
 
