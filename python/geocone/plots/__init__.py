@@ -21,6 +21,7 @@ which opens them in ParaView.
 """
 
 import argparse
+import contextlib
 import sys
 import warnings
 from pathlib import Path
@@ -64,10 +65,8 @@ def draw_run(run, folder, times=None):
     try:
         pictures = pictures_of(run, times)
         for name, draw in pictures.items():
-            try:
+            with contextlib.suppress(Missing, Skipped):  # e.g. nothing flows
                 draw(run, folder / name)
-            except (Missing, Skipped) as reason:
-                print(f"{folder / name} is not drawn: {reason}")
         finish()  # the page holds the pictures
         from geocone.plots import page
         print(page.write_page(run, folder, pictures))
@@ -81,10 +80,8 @@ def draw_run(run, folder, times=None):
 def write_state(run, folder):
     """Writes the script that opens the run's fields in ParaView, where there are any."""
     from geocone.plots import paraview
-    try:
+    with contextlib.suppress(Missing, Skipped):
         print(paraview.write_state(run, folder))
-    except (Missing, Skipped) as reason:
-        print(f"{folder / paraview.NAME} is not written: {reason}")
 
 
 def numbers(text):
