@@ -23,7 +23,7 @@ error: $PWD/study.toml: the group 'a': repeat = 99999999999999999999
 END
 sed -i 's/repeat.*/repeat = 2/' study.toml
 mkdir other
-cp study.toml other
+cp study.toml footing.prm other
 fails study study.toml other/study.toml
 grep -q "has the same name" log
 [ ! -e results ]
