@@ -25,9 +25,7 @@ def files_of_run(folder):
         return []
     if folder.is_symlink() or not folder.is_dir():
         raise FileExistsError(f"'{folder}' is not the folder of a run")
-    record = folder / LIST
-    names = {LIST, LOCK, *(record.read_text(errors="replace").splitlines()
-                     if record.is_file() and not record.is_symlink() else ())}
+    names = {LIST, LOCK, *(names_of(folder) or ())}
     for file in folder.iterdir():
         if file.name.removesuffix(".part") not in names or (
                 file.is_dir() and not file.is_symlink()):
@@ -45,15 +43,33 @@ def remove_run(folder):
         folder.rmdir()
 
 
+def names_of(folder):
+    """The files that the list of a run names; None without a list."""
+    record = folder / LIST
+    return (record.read_text(errors="replace").splitlines()
+            if record.is_file() and not record.is_symlink() else None)
+
+
+def claim(path):
+    """Refuses to replace a file in the folder of a run that its list does not name.
+    @throw FileExistsError"""
+    names = names_of(path.parent)
+    if names is not None and os.path.lexists(path) and path.name not in names:
+        raise FileExistsError(f"'{path}' is there, and is none of the run's files ({LIST}): "
+                              "move it elsewhere, or draw into another folder with --output")
+
+
+def write_listed(path, content):
+    """Writes a file and adds it to the list of those that its run has written, if there is
+    one.
+    @throw FileExistsError if that would replace another one's"""
+    claim(path)
+    write_whole(path, content)
+    add_to_list(path)
+
+
 def add_to_list(path):
-    """Adds a file that will be written to the list of those of its run, if there is one.
-    @throw FileExistsError if it is there and not in the list, or a symbolic link"""
-    record = path.with_name(LIST)
-    if not record.is_file() or path.name == record.name:
-        return
-    names = record.read_text().splitlines()
-    if path.is_symlink() or (os.path.lexists(path) and path.name not in names):
-        raise FileExistsError(f"'{path}' is none of the run's files (files.txt): it is "
-                              "kept; move it away")
-    if path.name not in names:
-        write_whole(record, "".join(name + "\n" for name in [*names, path.name]))
+    """Adds a file to the list of those that its run has written, if there is one."""
+    names = names_of(path.parent)
+    if names is not None and path.name not in names:
+        write_whole(path.with_name(LIST), "".join(name + "\n" for name in [*names, path.name]))

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from geocone.parameter_file import parameters_of
+from geocone.parameter_file import IncludeError, parameters_of
 
 # What meshio calls a cell, by the dimension of the scene and the number of corners.
 CELL_TYPES = {2: {1: "vertex", 2: "line", 3: "triangle", 4: "quad"},
@@ -108,7 +108,10 @@ class Run:
         file = self.folder / "parameters.prm"
         if not file.is_file():
             raise Missing(f"there is no file '{file}'")
-        return parameters_of(file)
+        try:
+            return parameters_of(file)
+        except (IncludeError, OSError) as problem:
+            raise ReadError(f"'{file}' cannot be read: {problem}")
 
     @property
     def method(self):
@@ -168,7 +171,7 @@ def is_silent(run):
             os.kill(pid, 0)
         except ProcessLookupError:
             return True
-        except OSError:  # another user's
+        except (OSError, OverflowError):  # another user's, or none
             pass
     if isinstance(sign, str):
         sign = datetime.datetime.fromisoformat(sign.replace("Z", "+00:00")).timestamp()
@@ -228,6 +231,13 @@ def decode(array):
                                   for end, size in zip(ends, sizes)), dtype)
 
 
+def beside(record, name):
+    """The path of a file that a record names: only those in its own folder are read."""
+    if name in ("", ".", "..") or name != os.path.basename(name):
+        raise ValueError(f"it names '{name}', which is not in its folder")
+    return record.parent / name
+
+
 def read_vtu(path):
     """The pieces of a .vtu file, or of all files of a .pvtu record, as Fields."""
     if not path.is_file():  # a device would be read without end
@@ -235,7 +245,7 @@ def read_vtu(path):
     root = ElementTree.parse(path).getroot()
     if path.suffix == ".pvtu":
         return [field for piece in root.iter("Piece")
-                for field in read_vtu(path.parent / piece.get("Source"))]
+                for field in read_vtu(beside(path, piece.get("Source")))]
     fields = []
     for piece in root.iter("Piece"):
         if int(piece.get("NumberOfPoints")) == 0:  # a rank without cells
@@ -302,8 +312,8 @@ def read_series(path):
             files = [part.file_name for part in file["VTKHDF/Points"].virtual_sources()]
         if len(times) != len(files):
             raise ValueError(f"{len(times)} times of {len(files)} files")
-        return [(time, path.parent / name) for time, name in zip(times, files)]
-    return [(float(entry.get("timestep")), path.parent / entry.get("file"))
+        return [(time, beside(path, name)) for time, name in zip(times, files)]
+    return [(float(entry.get("timestep")), beside(path, entry.get("file")))
             for entry in ElementTree.parse(path).getroot().iterfind(".//DataSet")]
 
 

@@ -4,6 +4,7 @@
 
 pyplot is not used: it takes long to load, and keeps figures that nobody shows."""
 
+import io
 import os
 import textwrap
 
@@ -17,7 +18,7 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.ticker import MaxNLocator
 from matplotlib.tri import Triangulation
 
-from geocone.files import add_to_list
+from geocone.files import add_to_list, claim, write_whole
 from geocone.reader import Missing
 
 # Okabe and Ito's colours and these maps are clear to colour-blind readers too.
@@ -32,6 +33,7 @@ for colors in STRAINS, RATIOS:
 SHOWN = 1e-4  # a rate below this part of the greatest one is drawn as none
 BESIDE = {"loc": "upper left", "bbox_to_anchor": (1., 1.02)}  # a legend's place
 
+matplotlib.rcdefaults()  # not what a file in the folder of the call may say, e.g. to run TeX
 matplotlib.rcParams.update({
     "font.size": 11, "axes.titlesize": 12, "legend.fontsize": 10,
     "axes.grid": True, "grid.color": "#e0e0e0", "axes.axisbelow": True,
@@ -236,8 +238,10 @@ def write_figure(figure, paths, cropped):
     for path in paths:
         try:
             with matplotlib.rc_context({"savefig.bbox": "tight" if cropped else None}):
-                figure.savefig(path, **(
+                stream = io.BytesIO()
+                figure.savefig(stream, format=path.suffix[1:], **(
                     {"pil_kwargs": {"compress_level": 3}} if path.suffix == ".png" else {}))
+                write_whole(path, stream.getvalue())
         except (OSError, ValueError) as problem:
             raise PlotError(f"'{path}' cannot be written: {problem}")
 
@@ -250,7 +254,7 @@ def save(figure, run, *paths, cropped=False):
     """Writes the figure of a run, or of several (None), as a process of its own: most
     of the time goes into this. finish() waits for them."""
     for path in paths:
-        add_to_list(path)
+        claim(path)
     if run:
         annotate(figure, run)
         cropped = cropped or bool(figure.texts)

@@ -9,7 +9,7 @@ import io
 import numpy as np
 from PIL import Image
 
-from geocone.files import add_to_list, write_whole
+from geocone.files import write_listed
 from geocone.plots.points import look_at, strain_or_shear
 from geocone.style import STRAINS, Skipped, draw_obstacles, panels, plain
 
@@ -49,6 +49,5 @@ def draw(run, paths):
         frames[0].save(film, format=path.suffix[1:], save_all=True,
                        append_images=frames[1:],
                        duration=round(1e3 * SECONDS / len(frames)), loop=0)
-        add_to_list(path)
-        write_whole(path, film.getvalue())
+        write_listed(path, film.getvalue())
         print(path)

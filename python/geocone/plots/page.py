@@ -13,7 +13,7 @@ import matplotlib
 import numpy as np
 from PIL import Image
 
-from geocone.files import add_to_list, write_whole
+from geocone.files import write_listed
 from geocone.plots import points, rates
 from geocone.reader import Missing, ReadError
 from geocone.style import STRAINS, PlotError, Skipped, draw_obstacles, draw_water
@@ -231,6 +231,5 @@ def write_page(run, folder, names):
     except jinja2.TemplateError as problem:
         raise ReadError(f"the page of '{run.folder}' cannot be made: {problem}")
     path = folder / "report.html"
-    add_to_list(path)
-    write_whole(path, page)
+    write_listed(path, page)
     return path

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from geocone.files import add_to_list, write_whole
+from geocone.files import write_listed
 from geocone.plots.points import STRAIN
 from geocone.reader import Missing
 from geocone.style import SHOWN, Skipped
@@ -118,7 +118,6 @@ def write_state(run, folder):
     if text.count(PLACE) != 1:
         raise RuntimeError(f"'{TEMPLATE}' has no place for what is shown")
     path = folder / NAME
-    add_to_list(path)
-    write_whole(path, text.replace(
+    write_listed(path, text.replace(
         PLACE, f"RUN = {pprint.pformat(shown, width=88, sort_dicts=False)}\n"))
     return path

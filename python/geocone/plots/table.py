@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A table of runs, in Markdown."""
 
-from geocone.files import add_to_list, write_whole
+from geocone.files import write_listed
 from geocone.reader import ReadError
 
 WORDS = ("run", "method", "element", "reference")  # columns of texts
@@ -55,6 +55,5 @@ def write_table(runs, path):
     rows.insert(1, ["-" * width if name in WORDS else "-" * (width - 1) + ":"
                     for width, name in zip(widths, lines[0])])
     text = "".join(f"| {' | '.join(row)} |\n" for row in rows)
-    add_to_list(path)
-    write_whole(path, text)
+    write_listed(path, text)
     print(text + str(path))
