@@ -56,7 +56,7 @@ PAGES = {
             "packaging/README"],
     "What is known": ["doc/comparison", "doc/validation", "doc/verification",
                       "doc/verification_mpm", "doc/limit_load", "doc/footing_deep",
-                      "doc/friction_memory", "doc/stability", "doc/performance",
+                      "doc/friction_memory", "doc/small_dilatancy", "doc/stability", "doc/performance",
                       "doc/profiles"],
     "How it works": ["doc/theory", "CONTRIBUTING", "CHANGELOG"]}
 
