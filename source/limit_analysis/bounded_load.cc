@@ -5,6 +5,8 @@
 #include <geocone/base/log.h>
 #include <geocone/limit_analysis/bounded_load.h>
 
+#include <deal.II/base/bounding_box.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -25,9 +27,13 @@ namespace geocone
       // Rigid motions in the dofs that are prescribed: translations and a rotation.
       Eigen::Matrix3d  squares   = Eigen::Matrix3d::Zero();
       const Triangles &triangles = bound.triangles;
+      // About the body's centre: far from it a rotation looks like a translation.
+      const Point<dim> centre =
+        dealii::BoundingBox<dim>(triangles.vertices).center();
       const auto hold = [&](const Point<dim> &x, const Tensor<1, dim> &n) {
+        const Tensor<1, dim>  arm = x - centre;
         const Eigen::Vector3d row(
-          n[0], n[1], (x[0] * n[1] - x[1] * n[0]) / bound.units.length);
+          n[0], n[1], (arm[0] * n[1] - arm[1] * n[0]) / bound.units.length);
         squares += row * row.transpose();
       };
       const auto add = [&](const unsigned int node, const Point<dim> &x) {
