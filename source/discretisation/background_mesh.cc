@@ -400,6 +400,26 @@ namespace geocone
     return geocone::side_ids(condition, sides, tria->get_boundary_ids());
   }
 
+  std::vector<std::vector<Point<dim>>>
+  BackgroundMesh::faces_of(const BoundaryCondition &condition) const
+  {
+    const std::set<types::boundary_id>   ids = side_ids(condition);
+    std::vector<std::vector<Point<dim>>> faces;
+    for (const auto &cell : own_cells())
+      for (const unsigned int f : cell->face_indices())
+        if (const auto face = cell->face(f);
+            face->at_boundary() && ids.count(face->boundary_id()) > 0)
+          {
+            faces.emplace_back();
+            for (const unsigned int v : face->vertex_indices())
+              faces.back().push_back(face->vertex(v));
+          }
+    std::vector<std::vector<Point<dim>>> all;
+    for (const auto &of_rank : Utilities::MPI::all_gather(comm, faces))
+      all.insert(all.end(), of_rank.begin(), of_rank.end());
+    return all;
+  }
+
   std::optional<Point<dim>>
   BackgroundMesh::unit_point(const Cell &cell, const Point<dim> &x) const
   {

@@ -167,10 +167,6 @@ namespace geocone
       scene.materials.reduce_strength(1.);
     for (const auto &stage : scene.loading.stages)
       stage->check_implicit();
-    // The exact law is easy for particles, unless volume hardly changes at all.
-    if ((!method.is_mpm() || is_nearly_incompressible(scene.materials)) &&
-        !newton.wants_exact_friction())
-      scene.materials.set_friction_memory(scene.time_of_small_motion());
     newton.prepare();
     step_control.prepare();
     exact_solution.prepare();
@@ -183,8 +179,6 @@ namespace geocone
     };
     if (!scene.geometry.is_script())
       check_size();
-    if (const std::string text = text_of_memory(scene); !text.empty())
-      log.print(options.name + ": " + text);
     mesh.take_sizes(
       [&](const MeshParameters &parameters) {
         scene.materials.refuse_undrained(
@@ -201,6 +195,15 @@ namespace geocone
     mesh.prepare(scene, method);
     if (scene.geometry.is_script())
       check_size();
+    // The exact law is easy for particles, unless volume hardly changes at all.
+    if ((!method.is_mpm() || is_nearly_incompressible(scene.materials)) &&
+        !newton.wants_exact_friction())
+      scene.materials.set_friction_memory(scene.time_of_small_motion(
+        mesh.bounding_box(), [&](const BoundaryCondition &condition) {
+          return mesh.faces_of(condition);
+        }));
+    if (const std::string text = text_of_memory(scene); !text.empty())
+      log.print(options.name + ": " + text);
     space.prepare(mesh, method, scene.materials.have_hard_flow());
     if (method.is_mpm())
       stepper = &implicit_mpm;

@@ -98,10 +98,10 @@ namespace geocone
 
     std::string element = ParameterFile::value("Discretisation/Element");
     if (element == "automatic")
-      element = Space::automatic_element(expected.is_simplicial,
-                                         expected.is_grid,
-                                         method,
-                                         scene.materials.have_hard_flow());
+      // Whether friction has a memory is not known before the mesh: P3 is the more
+      // expensive one.
+      element = Space::automatic_element(
+        expected.is_simplicial, expected.is_grid, method, false);
     const bool         spline = element[0] == 'B';
     const unsigned int p      = element.back() - '0';
     // Of a triangle and a tetrahedron, by Euler's formula and what is usual.

@@ -76,12 +76,11 @@ namespace geocone
                       "three dimensions along each of its edges; 2 "
                       "hold translation and tilt and converge to a uniform "
                       "pressure's limit load.");
-        add_parameter(
-          "Segment shortening",
-          shortening,
-          "For 'segments': the side is taken so many cell sizes "
-          "shorter. A calibration, not a theory: 0.3 makes cubic "
-          "splines exact to 2 % for footings of four cells.");
+        add_parameter("Segment shortening",
+                      shortening,
+                      "For 'segments': the side is taken so many cell sizes "
+                      "shorter. A calibration, not a theory: 0.3 makes cubic "
+                      "splines exact to 2 % for footings of four cells.");
       }
   }
 
@@ -233,6 +232,73 @@ namespace geocone
   BoundaryCondition::formula_holds(const dealii::Point<dim> &x) const
   {
     return !where || where->value(x, 0.) > 0.;
+  }
+
+  std::optional<std::array<dealii::Point<dim>, 2>>
+  BoundaryCondition::reach(
+    const std::vector<std::vector<dealii::Point<dim>>> &faces) const
+  {
+    using dealii::Point;
+    std::optional<std::array<Point<dim>, 2>> all;
+    const auto                               wide = wide_box();
+    const auto add = [&](Point<dim> low, Point<dim> high) {
+      for (unsigned int d = 0; d < dim && wide; ++d)
+        {
+          if (high[d] < (*wide)[0][d] || low[d] > (*wide)[1][d])
+            return;
+          low[d]  = std::min(std::max(low[d], box[0][d]), box[1][d]);
+          high[d] = std::min(std::max(high[d], box[0][d]), box[1][d]);
+        }
+      if (!all)
+        all = {{low, high}};
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          (*all)[0][d] = std::min((*all)[0][d], low[d]);
+          (*all)[1][d] = std::max((*all)[1][d], high[d]);
+        }
+    };
+    for (const auto &face : faces)
+      if (!where)
+        {
+          Point<dim> low = face[0], high = face[0];
+          for (const Point<dim> &x : face)
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                low[d]  = std::min(low[d], x[d]);
+                high[d] = std::max(high[d], x[d]);
+              }
+          add(low, high);
+        }
+      else // on the lines between vertices: where the sign changes, by halving
+        for (unsigned int i = 0; i < face.size(); ++i)
+          for (unsigned int j = 0; j < i; ++j)
+            {
+              constexpr unsigned int n_parts = 16;
+              const auto             at      = [&](const double s) {
+                return Point<dim>(face[i] + s * (face[j] - face[i]));
+              };
+              for (unsigned int k = 0; k <= n_parts; ++k)
+                {
+                  const double s = double(k) / n_parts;
+                  if (!formula_holds(at(s)))
+                    continue;
+                  add(at(s), at(s));
+                  for (const double step : {-1. / n_parts, 1. / n_parts})
+                    if (s + step >= 0. && s + step <= 1. &&
+                        !formula_holds(at(s + step)))
+                      {
+                        double inside = s, outside = s + step;
+                        for (unsigned int n = 0; n < 40; ++n)
+                          {
+                            const double middle = (inside + outside) / 2.;
+                            (formula_holds(at(middle)) ? inside : outside) =
+                              middle;
+                          }
+                        add(at(inside), at(inside));
+                      }
+                }
+            }
+    return all;
   }
 
   std::optional<std::array<dealii::Point<dim>, 2>>

@@ -9,19 +9,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace geocone
 {
   namespace
   {
-    /** Whether a side of the body, left or right, is a plane of symmetry: on all of it the
-     *  velocity across is held at zero, and nothing else is. */
+    /** Whether an end of the body along x is a plane of symmetry: on all of it the
+     *  velocity across is held at zero, and nothing else is.
+     *  @param has_part whether a condition has a part of that plane */
     bool
-    is_symmetric(const BoundaryConditions &conditions, const std::string &side)
+    is_symmetric(const BoundaryConditions &conditions,
+                 const std::function<bool(const BoundaryCondition &)> &has_part)
     {
       bool is_held = false;
       for (const auto &condition : conditions.list)
-        if (condition->is_on_side(side))
+        if (has_part(*condition))
           {
             for (unsigned int d = 0; d < dim; ++d)
               if (condition->components[d] &&
@@ -164,13 +167,16 @@ namespace geocone
   }
 
   double
-  Scene::time_of_small_motion() const
+  Scene::time_of_small_motion(const dealii::BoundingBox<dim> &mesh,
+                              const FacesOf                  &faces_of) const
   {
-    if (geometry.outline.empty()) // discs, or a file whose sides are not known
+    if (geometry.shape == Geometry::Shape::discs)
       return 0.;
-    const dealii::BoundingBox<dim> body(geometry.outline);
-    const double                   end   = loading.duration();
-    double                         least = 0.;
+    const dealii::BoundingBox<dim> body =
+      geometry.outline.empty() ? mesh
+                               : dealii::BoundingBox<dim>(geometry.outline);
+    const double end   = loading.duration();
+    double       least = 0.;
     // The greatest speed, seen at some times of the run.
     const auto speed_of = [&](const auto &velocity) {
       double                 speed = 0.;
@@ -196,28 +202,54 @@ namespace geocone
       {
         const BoundaryCondition &condition = *entry;
         auto [low, high]                   = body.get_boundary_points();
-        if (condition.has_formula())
-          continue; // whose length is not known
-        if (const auto box = condition.box_corners())
+        if (!condition.moves())
+          {
+            const auto faces = faces_of(condition);
+            const auto part  = condition.reach(faces);
+            if (!part)
+              continue;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                low[d]  = std::max(low[d], (*part)[0][d]);
+                high[d] = std::min(high[d], (*part)[1][d]);
+              }
+          }
+        else if (const auto box = condition.box_corners())
           for (unsigned int d = 0; d < dim; ++d)
             {
               low[d]  = std::max(low[d], (*box)[0][d]);
               high[d] = std::min(high[d], (*box)[1][d]);
             }
         // Sides that are upright are as long as the part is high.
-        bool upright = false;
-        for (const std::string &side : condition.sides)
-          upright = upright || side == "left" || side == "right";
+        const bool upright =
+          condition.moves()
+            ? std::any_of(condition.sides.begin(),
+                          condition.sides.end(),
+                          [](const std::string &side) {
+                            return side == "left" || side == "right";
+                          })
+            : high[1] - low[1] > high[0] - low[0];
         double     length = std::abs(high[upright] - low[upright]);
         const auto centre = dealii::Point<dim>((low + high) / 2.);
         // A part of a side that ends in a plane of symmetry goes on beyond it; of a round
         // body the radius counts, or loads would come out lower by a per cent.
         const auto [left, right] = body.get_boundary_points();
-        const bool ends_left     = low[0] <= left[0],
-                   ends_right    = high[0] >= right[0];
+        const double rounding    = 1e-9 * (right[0] - left[0]);
+        const bool   ends_left   = low[0] <= left[0] + rounding,
+                   ends_right    = high[0] >= right[0] - rounding;
+        const double end_of_part = ends_left ? left[0] : right[0];
+        const auto   has_part    = [&](const BoundaryCondition &other) {
+          if (other.moves())
+            return other.is_on_side(ends_left ? "left" : "right");
+          const auto faces = faces_of(other);
+          return std::any_of(faces.begin(), faces.end(), [&](const auto &face) {
+            return std::all_of(face.begin(), face.end(), [&](const auto &x) {
+              return std::abs(x[0] - end_of_part) <= rounding;
+            });
+          });
+        };
         if (!upright && ends_left != ends_right &&
-            is_symmetric(dirichlet, ends_left ? "left" : "right") &&
-            !geometry.is_axisymmetric())
+            !geometry.is_axisymmetric() && is_symmetric(dirichlet, has_part))
           length *= 2.;
         add(length, speed_of([&](const double t) {
               double square = 0.;

@@ -22,6 +22,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace geocone
 {
@@ -222,6 +223,11 @@ namespace geocone
      */
     std::set<dealii::types::boundary_id>
     side_ids(const BoundaryCondition &condition) const;
+
+    /** The vertices of each face on the sides of a condition, of all ranks.
+     *  Collective. @throws InputError for a name that no side has */
+    std::vector<std::vector<dealii::Point<dim>>>
+    faces_of(const BoundaryCondition &condition) const;
 
     /**
      * The connected part of the body (counted from 0) to which each vertex of

@@ -63,6 +63,11 @@ namespace geocone
     bool
     formula_holds(const dealii::Point<dim> &x) const;
 
+    /** The corners of the box around what of some faces belongs to the part; nothing if
+     *  none of it does. @param faces the vertices of each */
+    std::optional<std::array<dealii::Point<dim>, 2>>
+    reach(const std::vector<std::vector<dealii::Point<dim>>> &faces) const;
+
     /** The corners of the Box, a rounding larger; nothing where all is held. */
     std::optional<std::array<dealii::Point<dim>, 2>>
     wide_box() const;
