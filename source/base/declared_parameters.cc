@@ -26,36 +26,20 @@ namespace geocone
 
     constexpr double largest_value = 1e100;
 
-    /** A name as ParameterHandler writes it into JSON: what is neither a letter
-     *  nor a digit stands there as _XX. */
-    std::string
-    demangle(const std::string &text)
-    {
-      std::string name;
-      for (std::size_t i = 0; i < text.size(); ++i)
-        if (text[i] == '_' && i + 2 < text.size())
-          {
-            name += static_cast<char>(
-              std::strtol(text.substr(i + 1, 2).c_str(), nullptr, 16));
-            i += 2;
-          }
-        else
-          name += text[i];
-      return name;
-    }
-
+    /** What ParameterHandler writes, with names as they were declared; only a name with
+     *  a dot comes apart there. */
     Declared
     from_json(const nlohmann::json &json)
     {
       Declared declared;
       for (const auto &[key, value] : json.items())
-        if (value.contains("pattern_description"))
-          declared.entries[demangle(key)] = {
-            value.at("value").get<std::string>(),
-            value.at("default_value").get<std::string>(),
-            value.at("pattern_description").get<std::string>()};
+        if (const auto pattern = value.find("pattern_description");
+            pattern != value.end() && pattern->is_string())
+          declared.entries[key] = {value.at("value").get<std::string>(),
+                                   value.at("default_value").get<std::string>(),
+                                   pattern->get<std::string>()};
         else
-          declared.sections[demangle(key)] = from_json(value);
+          declared.sections[key] = from_json(value);
       return declared;
     }
 
@@ -119,6 +103,16 @@ namespace geocone
       return "text";
     }
 
+    /** Whether decimal commas may stand in a text: a comma between two digits, in a
+     *  list beside one that a blank follows. */
+    bool
+    has_decimal_comma(const std::string &value, const bool is_list)
+    {
+      static const std::regex tight("[0-9],[0-9]"), loose(",[ \t]");
+      return std::regex_search(value, tight) &&
+             (!is_list || std::regex_search(value, loose));
+    }
+
     /** The numbers in a text, which commas, semicolons and blanks separate, are
      *  finite and not absurd. */
     bool
@@ -176,9 +170,17 @@ namespace geocone
                   : "e.g. " + printable(entry.default_value) + ", the default") +
           " (" + place + ")");
     };
-    if (entry.pattern.find("[Double") != std::string::npos &&
-        !is_sensible(value))
+    const bool is_of_doubles =
+      entry.pattern.find("[Double") != std::string::npos;
+    if (is_of_doubles && !is_sensible(value))
       refuse("finite numbers of magnitude <= 1e100");
+    if (is_of_doubles &&
+        has_decimal_comma(value, entry.pattern.compare(0, 5, "[List") == 0))
+      throw InputError(path,
+                       value,
+                       "numbers with decimal points, e.g. 0.5; in a list a "
+                       "blank follows each comma, or none does",
+                       "write 0.5, not 0,5 (" + place + ")");
     // The library takes a number without sign for one with it.
     if (entry.pattern == "[Integer]" &&
         (value.empty() ||

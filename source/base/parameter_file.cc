@@ -436,10 +436,12 @@ namespace geocone
         if (std::count(names.begin(), names.begin() + i, name) > 0)
           refuse(shown + "stands there twice");
         if (name.size() > longest_name ||
-            name.find_first_of("/'\"\\") != std::string::npos || name == list)
+            name.find_first_of("/'\"\\.:=") != std::string::npos ||
+            name == list)
           refuse(shown + "cannot be that of a section: take at most " +
                  std::to_string(longest_name) +
-                 " letters, digits and blanks, no quotes and no slash");
+                 " letters, digits, blanks, underscores and hyphens; no "
+                 "quotes, and none of . : = / \\");
         if (is_given && has_strict_lists && subsections.count(name) == 0)
           refuse(
             "there is no 'subsection " + printable(name) + "' in '" + section +

@@ -109,7 +109,13 @@ namespace geocone
             for (const auto &entry : sides)
               known += ", " + entry.first;
             throw InputError(
-              condition.parameter("Sides"), name, known, "choose some of them");
+              condition.parameter("Sides"),
+              name,
+              known,
+              sides.empty() ? "the mesh names no side: give 'Sides = all' and "
+                              "the part in 'Box' or 'Where', or make physical "
+                              "curves in the mesh file"
+                            : "choose some of them");
           }
         ids.insert(side->second);
       }

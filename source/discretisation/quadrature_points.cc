@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/discretisation/empty_regions.h>
 #include <geocone/discretisation/history_start.h>
 #include <geocone/discretisation/quadrature_points.h>
 
@@ -174,12 +175,19 @@ namespace geocone
       scene, mesh, space, {}, [](const BackgroundMesh::Cell &) {
         return true;
       });
-    // The first material has what the others leave, which may be nothing; so may
-    // those have that others become.
     std::vector<unsigned int> n(scene.materials.size(), 0);
     for (const unsigned int material : points.material)
       ++n[material];
     Utilities::MPI::sum(n, mesh.triangulation().get_communicator(), n);
+    refuse_empty_regions(scene, n);
+    return points;
+  }
+
+  void
+  refuse_empty_regions(const Scene &scene, const std::vector<unsigned int> &n)
+  {
+    // The first material has what the others leave, which may be nothing; so may
+    // those have that others become.
     for (unsigned int i = 0; i < n.size(); ++i)
       if (n[i] == 0 && !scene.regions.may_be_empty(i))
         throw InputError("no cell lies in the region of the material '" +
@@ -187,6 +195,5 @@ namespace geocone
                          "'\n  allowed: one cell or more\n"
                          "  remedy:  take smaller cells, or check 'Region "
                          "polygon' and 'Region number'");
-    return points;
   }
 } // namespace geocone

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/discretisation/empty_regions.h>
 #include <geocone/limit_analysis/bounded_load.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -191,6 +192,10 @@ namespace geocone
   void
   BoundedLoad::check_loads(const Scene &scene, const Triangles &triangles)
   {
+    std::vector<unsigned int> n_cells(scene.materials.size());
+    for (const unsigned int material : triangles.material)
+      ++n_cells[material];
+    refuse_empty_regions(scene, n_cells);
     check_strength(scene, triangles);
     choose_units(scene, triangles);
     const BoundScene   bound   = on(scene, triangles);

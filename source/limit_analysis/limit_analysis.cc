@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/stop_request.h>
 #include <geocone/limit_analysis/limit_analysis.h>
+#include <geocone/scene/magnitudes.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -154,6 +155,12 @@ namespace geocone
                           "let one of the bodies be an obstacle");
     scene.observation.prepare(
       scene.supports(), scene.materials, scene.gravity, false);
+    if (!scene.observation.points.empty())
+      throw InputError(
+        "Observation/Points",
+        dealii::Patterns::Tools::to_string(scene.observation.points),
+        "empty with 'Analysis/Kind' = " + analysis.word(),
+        "a limit load has no displacements: leave it out");
     for (const auto &condition : scene.dirichlet.list)
       if (condition->moves())
         throw InputError(condition->parameter("Imposed on"),
@@ -181,7 +188,9 @@ namespace geocone
                        triangles->cells.size(),
                        most_cells,
                        100. + 0.02 * most_cells));
-    std::vector<std::string> warnings;
+    const dealii::BoundingBox<dim> body(triangles->vertices);
+    log.print(options.name + ": " + text_of_magnitudes(scene, body));
+    std::vector<std::string> warnings = warn_of_magnitudes(scene, body);
     if (scene.geometry.shape == Geometry::Shape::file && most_levels > 1)
       warnings.push_back("a mesh from a file is not made anew: the bounds are "
                          "those of this mesh; give a box or a polygon, or set "

@@ -5,6 +5,7 @@
 #include <geocone/output/run_status.h>
 #include <geocone/run/explicit_simulation.h>
 #include <geocone/run/run_estimate.h>
+#include <geocone/scene/magnitudes.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -35,6 +36,10 @@ namespace geocone
     std::vector<std::string> remarks = stepper.prepare(scene, method);
     if (const std::string warning = scene.warn_of_records(); !warning.empty())
       remarks.push_back(warning);
+    const BoundingBox<dim> body(scene.geometry.bounding_box());
+    log.print(options.name + ": " + text_of_magnitudes(scene, body));
+    const std::vector<std::string> absurd = warn_of_magnitudes(scene, body);
+    remarks.insert(remarks.end(), absurd.begin(), absurd.end());
     observed_points.prepare_points(scene, stepper.points(), comm);
     return remarks;
   }

@@ -4,9 +4,11 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/over_ranks.h>
 #include <geocone/base/stop_request.h>
+#include <geocone/mechanics/held_width.h>
 #include <geocone/output/run_status.h>
 #include <geocone/run/implicit_simulation.h>
 #include <geocone/run/run_estimate.h>
+#include <geocone/scene/magnitudes.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -221,6 +223,13 @@ namespace geocone
         },
         "Initial stress/Run");
     warnings.push_back(scene.warn_of_records());
+    const BoundingBox<dim> body(scene.geometry.shape == Geometry::Shape::file
+                                  ? mesh.bounding_box()
+                                  : scene.geometry.bounding_box());
+    log.print(options.name + ": " + text_of_magnitudes(scene, body));
+    for (const auto &more : {warn_of_magnitudes(scene, body),
+                             warn_of_held_width(scene, mesh, space)})
+      warnings.insert(warnings.end(), more.begin(), more.end());
     warnings.push_back(outside_strength(points, scene.materials, comm));
     warnings.erase(std::remove(warnings.begin(), warnings.end(), ""),
                    warnings.end());

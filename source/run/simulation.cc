@@ -23,7 +23,11 @@ namespace geocone
     checkpoint.prepare(comm);
     const std::vector<std::string> warnings = prepare(options);
     if (options.dry_run)
-      return true;
+      {
+        for (const std::string &warning : warnings)
+          log.warn(warning);
+        return true;
+      }
     n_in_stage = programme();
     for (const unsigned int n : n_in_stage)
       n_steps += n;

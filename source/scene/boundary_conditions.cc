@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/scene/boundary_conditions.h>
+#include <geocone/scene/formula.h>
 
 #include <algorithm>
 
@@ -131,7 +132,10 @@ namespace geocone
     for (unsigned int c = 0; c < dim && box.size() == 2; ++c)
       is_box = is_box && box[0][c] <= box[1][c];
     if (!where_text.empty())
-      where.emplace().prepare(where_text, parameter("Where"));
+      {
+        check_formula(where_text, parameter("Where"), FormulaOf::place);
+        where.emplace().prepare(where_text, parameter("Where"));
+      }
     if (!is_box)
       throw InputError(parameter("Box"),
                        dealii::Patterns::Tools::to_string(box),
@@ -219,13 +223,12 @@ namespace geocone
   bool
   BoundaryCondition::holds_at(const dealii::Point<dim> &x) const
   {
-    if (!formula_holds(x))
-      return false;
+    // The formula need have values in the box only.
     if (const auto corners = wide_box())
       for (unsigned int c = 0; c < dim; ++c)
         if (x[c] < (*corners)[0][c] || x[c] > (*corners)[1][c])
           return false;
-    return true;
+    return formula_holds(x);
   }
 
   bool

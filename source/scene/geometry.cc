@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/lexicographic.h>
 #include <geocone/base/log.h>
+#include <geocone/scene/formula.h>
 #include <geocone/scene/geometry.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -337,7 +338,10 @@ namespace geocone
     outline.clear();
     sides.clear();
     if (!where_text.empty())
-      where.emplace().prepare(where_text, "Geometry/Where");
+      {
+        check_formula(where_text, "Geometry/Where", FormulaOf::place);
+        where.emplace().prepare(where_text, "Geometry/Where");
+      }
     if (shape == Shape::box)
       {
         if (!is_box(box))

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/scene/formula.h>
 #include <geocone/scene/initial_state.h>
 #include <geocone/scene/water.h>
 
@@ -15,6 +16,16 @@ namespace geocone
 {
   namespace
   {
+    /** A formula of the state at the start, which knows no time. */
+    void
+    prepare_initial(Expression        &formula,
+                    const std::string &text,
+                    const std::string &parameter)
+    {
+      check_formula(text, parameter, FormulaOf::place);
+      formula.prepare(text, parameter);
+    }
+
     /** Of the components of a given initial stress. */
     std::string
     name_of_stress(const unsigned int component)
@@ -39,8 +50,10 @@ namespace geocone
   InitialVelocity::prepare()
   {
     for (unsigned int c = 0; c < dim; ++c)
-      components[c].prepare(
-        texts[c], std::string("Initial velocity/Velocity ") + coordinate[c]);
+      prepare_initial(components[c],
+                      texts[c],
+                      std::string("Initial velocity/Velocity ") +
+                        coordinate[c]);
   }
 
   dealii::Tensor<1, dim>
@@ -130,10 +143,10 @@ namespace geocone
     if (type == Type::given || adds(Type::given))
       {
         for (unsigned int i = 0; i < texts.size(); ++i)
-          components[i].prepare(texts[i],
-                                "Initial stress/" + name_of_stress(i));
+          prepare_initial(
+            components[i], texts[i], "Initial stress/" + name_of_stress(i));
         if (!text_zz.empty())
-          component_zz.prepare(text_zz, "Initial stress/Stress zz");
+          prepare_initial(component_zz, text_zz, "Initial stress/Stress zz");
       }
     if (type == Type::geostatic || adds(Type::geostatic))
       {

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/scene/formula.h>
 #include <geocone/scene/loading.h>
 
 #include <deal.II/base/utilities.h>
@@ -297,8 +298,12 @@ namespace geocone
     if (!removed_polygon.empty())
       check_polygon(removed_polygon, section + "Removed polygon");
     if (!removed_where_text.empty())
-      removed_where.emplace().prepare(removed_where_text,
-                                      section + "Removed where");
+      {
+        check_formula(
+          removed_where_text, section + "Removed where", FormulaOf::place);
+        removed_where.emplace().prepare(removed_where_text,
+                                        section + "Removed where");
+      }
     if (!removes() && removal_duration > 0.)
       throw InputError(section + "Removal duration",
                        removal_duration,

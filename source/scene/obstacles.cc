@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/scene/formula.h>
 #include <geocone/scene/obstacles.h>
 
 #include <algorithm>
@@ -158,10 +159,16 @@ namespace geocone
   {
     for (unsigned int k = 0; k < n_motions; ++k)
       {
-        free[k] = velocity_texts[k] == "free";
+        free[k]            = velocity_texts[k] == "free";
+        const auto prepare = [&](Expression        &formula,
+                                 const std::string &text,
+                                 const std::string &entry) {
+          check_formula(text, parameter(entry), FormulaOf::time);
+          formula.prepare(text, parameter(entry));
+        };
         if (!free[k])
-          velocities[k].prepare(velocity_texts[k], parameter(velocity_name(k)));
-        loads[k].prepare(load_texts[k], parameter(load_name(k)));
+          prepare(velocities[k], velocity_texts[k], velocity_name(k));
+        prepare(loads[k], load_texts[k], load_name(k));
         if (!free[k] && load_texts[k] != "0")
           throw InputError(parameter(load_name(k)),
                            load_texts[k],

@@ -82,6 +82,14 @@ namespace geocone
         ys = places_of(rows, 1);
         if (xs.size() < 2 || ys.size() < 2)
           throw RunError("it has no two different x, or no two different y");
+        // Scattered places would fill a grid of the square of their number.
+        if (xs.size() > rows.size() / ys.size() + 1)
+          throw RunError(format("its %zu rows have %zu different x and %zu "
+                                "different y: these places are no grid; "
+                                "interpolate them to one",
+                                rows.size(),
+                                xs.size(),
+                                ys.size()));
         values.assign(xs.size() * ys.size(),
                       std::numeric_limits<double>::quiet_NaN());
         for (const auto &row : rows)

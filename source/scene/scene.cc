@@ -3,13 +3,17 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/scene/magnitudes.h>
+#include <geocone/scene/part_in_box.h>
 #include <geocone/scene/scene.h>
 
 #include <deal.II/base/bounding_box.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
+#include <limits>
 
 namespace geocone
 {
@@ -38,6 +42,92 @@ namespace geocone
                           !condition->wide_box() && !condition->has_formula());
           }
       return is_held;
+    }
+
+    /** Places on the part of the sides of a body, which is a box or a polygon, that is in
+     *  the box of a condition. */
+    std::vector<dealii::Point<dim>>
+    places_held_by(const BoundaryCondition &condition, const Geometry &geometry)
+    {
+      using Point = dealii::Point<dim>;
+      std::vector<Point> places;
+      const auto         add = [&](const Point &a, const Point &b) {
+        constexpr unsigned int n    = 8;
+        const auto             box  = condition.wide_box();
+        const auto             part = box ? part_in_box(*box, a, b)
+                                                  : std::optional(std::array<Point, 2>{{a, b}});
+        if (part)
+          for (unsigned int i = 0; i < n; ++i)
+            places.push_back((*part)[0] +
+                             (i + 0.5) / n * ((*part)[1] - (*part)[0]));
+      };
+      if (geometry.outline.empty())
+        return places;
+      for (const auto &[name, id] : geometry.sides)
+        if (!condition.is_on_side(name))
+          continue;
+        else if (dim == 2)
+          {
+            const auto [a, b] = geometry.side_ends(id);
+            add(a, b);
+          }
+        else
+          for (unsigned int d = 0; d < dim; ++d)
+            for (unsigned int end = 0; end < 2; ++end)
+              if (name == side_of_box[d][end])
+                {
+                  // Lines across the face, from corner to corner.
+                  Point a = geometry.outline[0], b = geometry.outline[1];
+                  a[d] = b[d] = geometry.outline[end][d];
+                  add(a, b);
+                  std::swap(a[(d + 1) % dim], b[(d + 1) % dim]);
+                  add(a, b);
+                }
+      return places;
+    }
+
+    /**
+     * Evaluates the formulas of conditions and obstacles just after the beginning of each
+     * stage, at places that they hold of a body whose sides are known, so that one
+     * without a value is found before anything is written.
+     */
+    void
+    check_values(const Scene &scene)
+    {
+      const auto check = [&](const BoundaryCondition  &condition,
+                             const dealii::Point<dim> &x,
+                             const double              t) {
+        if (!condition.holds_at(x))
+          return;
+        for (const auto &component : condition.components)
+          if (component)
+            component->value(x, t);
+        condition.vector_on_side(x, dealii::Tensor<1, dim>(), t);
+      };
+      double begin = 0.;
+      try
+        {
+          for (const auto &stage : scene.loading.stages)
+            {
+              const double t = begin + 1e-6 * stage->duration;
+              begin += stage->duration;
+              for (const auto &obstacle : scene.obstacles.list)
+                {
+                  obstacle->velocity(t);
+                  obstacle->load(t);
+                }
+              for (const auto *conditions :
+                   {&scene.dirichlet, &scene.tractions, &scene.absorbing})
+                for (const auto &condition : conditions->list)
+                  for (const dealii::Point<dim> &x :
+                       places_held_by(*condition, scene.geometry))
+                    check(*condition, x, t);
+            }
+        }
+      catch (const RunError &error)
+        {
+          throw InputError(error.what());
+        }
     }
   } // namespace
 
@@ -132,6 +222,90 @@ namespace geocone
       geometry.refuse_axis("'Observation/Reference' = Prandtl",
                            "it is the load of a strip; set it to none or to "
                            "the load of the round footing (N)");
+    check_values(*this);
+  }
+
+  namespace
+  {
+    /** gamma H of a material (Pa): of its own density and of all of the body's height. */
+    double
+    weight_of_column(const Scene                    &scene,
+                     const unsigned int              material,
+                     const dealii::BoundingBox<dim> &body)
+    {
+      return scene.materials.law(material).density() *
+             scene.gravity.at(std::numeric_limits<double>::max()).norm() *
+             body.side_length(1);
+    }
+  } // namespace
+
+  std::string
+  text_of_magnitudes(const Scene &scene, const dealii::BoundingBox<dim> &body)
+  {
+    std::string text = "body";
+    for (unsigned int d = 0; d < dim; ++d)
+      text += format(d == 0 ? " %g" : " x %g", body.side_length(d));
+    text += " m";
+    for (unsigned int m = 0; m < scene.materials.size(); ++m)
+      if (const auto strength = scene.materials.law(m).plane_strain_strength())
+        {
+          text += format("; %s: c = %g Pa, phi = %g",
+                         scene.materials.name(m).c_str(),
+                         strength->c,
+                         strength->phi);
+          if (const double weight = weight_of_column(scene, m, body);
+              weight > 0.)
+            text += format(", c/(gamma H) = %.3g", strength->c / weight);
+        }
+    return text;
+  }
+
+  std::vector<std::string>
+  warn_of_magnitudes(const Scene &scene, const dealii::BoundingBox<dim> &body)
+  {
+    constexpr double largest_body = 1e4, smallest_body = 1e-3; // m
+    constexpr double lightest = 100., heaviest = 1e4;          // kg/m^3
+    constexpr double least_strength = 1e-5; // over gamma H, without friction
+    std::vector<std::string> warnings;
+    double                   size = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      size = std::max(size, body.side_length(d));
+    if (scene.gravity.acts() &&
+        !(size >= smallest_body && size <= largest_body))
+      warnings.push_back(
+        format("the body is %g m large: lengths are in m", size));
+    for (unsigned int m = 0; m < scene.materials.size(); ++m)
+      {
+        const std::string name    = scene.materials.name(m);
+        const double      density = scene.materials.law(m).density();
+        if (scene.gravity.acts() && density > 0. &&
+            !(density >= lightest && density <= heaviest))
+          warnings.push_back(
+            format("the density of '%s' is %g kg/m^3", name.c_str(), density));
+        const auto strength = scene.materials.law(m).plane_strain_strength();
+        if (!strength)
+          continue;
+        const double weight = weight_of_column(scene, m, body);
+        if (strength->phi == 0. && strength->gradient == 0. &&
+            strength->c < least_strength * weight)
+          warnings.push_back(
+            format("the cohesion of '%s' is %g Pa, where a column of it as "
+                   "high as the body weighs %.3g Pa: strengths are in Pa",
+                   name.c_str(),
+                   strength->c,
+                   weight));
+        const std::string stiffness =
+          ParameterFile::value("Materials/" + name + "/Young modulus");
+        if (const double E = std::strtod(stiffness.c_str(), nullptr);
+            E > 0. && E < strength->c)
+          warnings.push_back(
+            format("Young's modulus of '%s', %g Pa, is smaller "
+                   "than its cohesion, %g Pa",
+                   name.c_str(),
+                   E,
+                   strength->c));
+      }
+    return warnings;
   }
 
   std::vector<std::string>
@@ -253,9 +427,16 @@ namespace geocone
           length *= 2.;
         add(length, speed_of([&](const double t) {
               double square = 0.;
-              for (const auto &component : condition.components)
-                if (component)
-                  square += std::pow(component->value(centre, t), 2);
+              try
+                {
+                  for (const auto &component : condition.components)
+                    if (component)
+                      square += std::pow(component->value(centre, t), 2);
+                }
+              catch (const RunError &)
+                {
+                  return 0.; // the centre need not be held
+                }
               return std::sqrt(square);
             }));
       }

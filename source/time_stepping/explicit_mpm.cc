@@ -8,6 +8,7 @@
 #include <geocone/base/stopwatch.h>
 #include <geocone/mechanics/cartesian_transfer.h>
 #include <geocone/mechanics/mesh_transfer.h>
+#include <geocone/time_stepping/check_removal.h>
 #include <geocone/time_stepping/explicit_mpm.h>
 #include <geocone/time_stepping/time_stepper.h>
 
@@ -33,6 +34,35 @@ namespace geocone
     constexpr Update velocity_and_position = {false, true, true};
     constexpr Update everything            = {true, true, true};
     /** @} */
+
+    /** @throws InputError if a stage has more steps than any run can do */
+    void
+    check_number_of_steps(const LoadingProgramme &loading,
+                          const double            fixed_step,
+                          const double            courant,
+                          const double            stability_limit)
+    {
+      constexpr double most     = 1e9;
+      const bool       is_fixed = fixed_step > 0.;
+      const double     step = is_fixed ? fixed_step : courant * stability_limit;
+      for (const auto &stage : loading.stages)
+        if (!(stage->duration <= most * step))
+          throw InputError(
+            is_fixed ? "Explicit/Time step" : "Explicit/Courant number",
+            is_fixed ? fixed_step : courant,
+            format("steps of at least %.3g s, of which the stage '%s' has at "
+                   "most %g",
+                   stage->duration / most,
+                   stage->name.c_str(),
+                   most),
+            is_fixed ? std::string("take a larger step, or 0 for the largest "
+                                   "stable one")
+                     : format("its steps are %.3g s: take a larger number, "
+                              "larger cells, a softer body or a shorter "
+                              "'Loading/%s/Duration'",
+                              step,
+                              stage->name.c_str()));
+    }
   } // namespace
 
   ExplicitMPM::ExplicitMPM(const MPI_Comm comm, const ParameterFile &file)
@@ -192,6 +222,20 @@ namespace geocone
                          " s, which an elastic wave takes through a cell",
                        "take a smaller step, or 0 for the largest stable one; "
                        "'Explicit/Allow unstable step' = true forces it");
+    if (const Stage &first = *scene->loading.stages.front(); first.removes())
+      {
+        unsigned long n_removed = 0;
+        for (const PointArrays &group : groups)
+          for (unsigned int p = 0; p < group.n_points(); ++p)
+            n_removed += first.removes(group.position.of(p));
+        check_removal(first,
+                      Utilities::MPI::sum(n_removed, comm),
+                      Utilities::MPI::sum(
+                        static_cast<unsigned long>(n_points_of_rank()), comm),
+                      "points");
+      }
+    check_number_of_steps(
+      scene->loading, fixed_step, courant, stability_limit());
     return remarks;
   }
 

@@ -6,6 +6,7 @@
 #include <geocone/base/over_ranks.h>
 #include <geocone/discretisation/point_record.h>
 #include <geocone/discretisation/quadrature_points.h>
+#include <geocone/time_stepping/check_removal.h>
 #include <geocone/time_stepping/implicit_fem.h>
 
 #include <deal.II/base/mpi.h>
@@ -15,6 +16,49 @@
 namespace geocone
 {
   using dealii::TimerOutput;
+
+  namespace
+  {
+    /** @throws InputError if a stage removes none or all of the cells that are there: they
+     *  do not move */
+    void
+    check_removals(const Scene          &scene,
+                   const BackgroundMesh &mesh,
+                   const MPI_Comm        comm)
+    {
+      std::vector<BackgroundMesh::Cell> cells;
+      std::vector<bool>                 is_there;
+      for (const BackgroundMesh::Cell &cell : mesh.own_cells())
+        {
+          cells.push_back(cell);
+          is_there.push_back(
+            !scene.loading.adds(scene.materials.name(cell->material_id())));
+        }
+      for (const auto &stage : scene.loading.stages)
+        {
+          unsigned int n_removed = 0, n_all = 0;
+          for (unsigned int c = 0; c < cells.size(); ++c)
+            if (is_there[c])
+              {
+                ++n_all;
+                if (stage->removes(cells[c]->center()))
+                  {
+                    ++n_removed;
+                    is_there[c] = false;
+                  }
+              }
+          if (stage->removes())
+            check_removal(*stage,
+                          dealii::Utilities::MPI::sum(n_removed, comm),
+                          dealii::Utilities::MPI::sum(n_all, comm),
+                          "cells");
+          for (const std::string &material : stage->added_materials)
+            for (unsigned int c = 0; c < cells.size(); ++c)
+              if (scene.materials.name(cells[c]->material_id()) == material)
+                is_there[c] = true;
+        }
+    }
+  } // namespace
 
   ImplicitFEM::ImplicitFEM()
     : dealii::ParameterAcceptor("/Time stepping")
@@ -80,6 +124,7 @@ namespace geocone
               scene->materials.name(cell->material_id()));
           });
       }
+    check_removals(*scene, mesh_, mesh_.triangulation().get_communicator());
     constraints = std::make_unique<Constraints>(*scene, mesh_, space_);
     obstacles   = std::make_unique<ObstacleContact>(
       *scene, mesh_, space_, constraints.get());
@@ -99,6 +144,14 @@ namespace geocone
     constraints->check_axis(mesh_, space_);
     check_resistance(points, mesh_.triangulation().get_communicator());
     newton.check(*problem);
+    // Formulas have values just after the beginning of each stage, or are refused.
+    Vector v     = problem->make_vector();
+    double start = 0.;
+    for (const auto &stage : scene->loading.stages)
+      {
+        constraints->set_values(v, start + 1e-6 * stage->duration);
+        start += stage->duration;
+      }
     return constraints->warn_of_bent_values();
   }
 

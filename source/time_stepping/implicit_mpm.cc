@@ -3,12 +3,15 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/discretisation/point_elasticity.h>
+#include <geocone/time_stepping/check_removal.h>
 #include <geocone/time_stepping/implicit_mpm.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/solver_control.h>
+
+#include <algorithm>
 
 namespace geocone
 {
@@ -62,6 +65,20 @@ namespace geocone
     constraints->check_axis(*mesh, *space);
     newton.check(*problem);
     moving->check_held_particles(points);
+    if (const Stage &first = *scene->loading.stages.front(); first.removes())
+      {
+        const MPI_Comm comm = mesh->triangulation().get_communicator();
+        check_removal(
+          first,
+          Utilities::MPI::sum(std::count_if(points.position.begin(),
+                                            points.position.end(),
+                                            [&](const Point<dim> &x) {
+                                              return first.removes(x);
+                                            }),
+                              comm),
+          Utilities::MPI::sum(points.n_points(), comm),
+          "points");
+      }
     Vector v = problem->make_vector();
     constraints->set_values(v, 0.);
     moving->make_rows(

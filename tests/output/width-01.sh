@@ -1,0 +1,19 @@
+# A strip of velocity is as wide as the nodes that it holds: a run whose box ends between
+# nodes says so, and others do not.
+program=$1 root=$2 folder=$3
+. "$root/tests/fails.sh"
+rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
+width() { # BOX OF THE FOOTING, FURTHER OPTIONS
+  "$program" "$root/tests/footing_coarse.prm" --quiet --dry-run \
+    --set "Boundary conditions/footing/Box = $1" "${@:2}" 2>err
+}
+# Cells of 0.1 m; of cubic ones nodes are at their thirds.
+width '0, -0.1; 0.09, 0.1'
+grep -q "'footing' holds nodes from x = 0 to 0.0666667 m, a width of 0.0666667 m, where 0.09 m" err
+width '0, -0.1; 0.2, 0.1'
+fails grep -q 'holds nodes' err
+# What is outside of the body is no part of the width.
+width '-5, -0.1; 0.2, 0.1'
+fails grep -q 'holds nodes' err
+width '0, -0.1; 0.09, 0.1' --set 'Discretisation/Element = P1'
+grep -q 'a width of 0 m, where 0.09 m' err
