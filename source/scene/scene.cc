@@ -24,6 +24,7 @@ namespace geocone
      *  @param has_part whether a condition has a part of that plane */
     bool
     is_symmetric(const BoundaryConditions &conditions,
+                 const unsigned int        across,
                  const std::function<bool(const BoundaryCondition &)> &has_part)
     {
       bool is_held = false;
@@ -32,14 +33,14 @@ namespace geocone
           {
             for (unsigned int d = 0; d < dim; ++d)
               if (condition->components[d] &&
-                  (d > 0 || !condition->components[d]->is_zero()))
+                  (d != across || !condition->components[d]->is_zero()))
                 return false;
             if (condition->tangential ||
                 (condition->normal && !condition->normal->is_zero()))
               return false;
-            is_held =
-              is_held || ((condition->components[0] || condition->normal) &&
-                          !condition->wide_box() && !condition->has_formula());
+            is_held = is_held ||
+                      ((condition->components[across] || condition->normal) &&
+                       !condition->wide_box() && !condition->has_formula());
           }
       return is_held;
     }
@@ -407,23 +408,26 @@ namespace geocone
         const auto centre = dealii::Point<dim>((low + high) / 2.);
         // A part of a side that ends in a plane of symmetry goes on beyond it; of a round
         // body the radius counts, or loads would come out lower by a per cent.
-        const auto [left, right] = body.get_boundary_points();
-        const double rounding    = 1e-9 * (right[0] - left[0]);
-        const bool   ends_left   = low[0] <= left[0] + rounding,
-                   ends_right    = high[0] >= right[0] - rounding;
-        const double end_of_part = ends_left ? left[0] : right[0];
-        const auto   has_part    = [&](const BoundaryCondition &other) {
+        const auto [left, right]     = body.get_boundary_points();
+        const unsigned int along     = upright ? 1 : 0;
+        const double       rounding  = 1e-9 * (right[along] - left[along]);
+        const bool         ends_left = low[along] <= left[along] + rounding,
+                   ends_right        = high[along] >= right[along] - rounding;
+        const double end_of_part     = ends_left ? left[along] : right[along];
+        const auto   has_part        = [&](const BoundaryCondition &other) {
           if (other.moves())
-            return other.is_on_side(ends_left ? "left" : "right");
+            return other.is_on_side(upright ? (ends_left ? "bottom" : "top")
+                                            : (ends_left ? "left" : "right"));
           const auto faces = faces_of(other);
           return std::any_of(faces.begin(), faces.end(), [&](const auto &face) {
             return std::all_of(face.begin(), face.end(), [&](const auto &x) {
-              return std::abs(x[0] - end_of_part) <= rounding;
+              return std::abs(x[along] - end_of_part) <= rounding;
             });
           });
         };
-        if (!upright && ends_left != ends_right &&
-            !geometry.is_axisymmetric() && is_symmetric(dirichlet, has_part))
+        if (ends_left != ends_right && gravity.at(end)[along] == 0. &&
+            !geometry.is_axisymmetric() &&
+            is_symmetric(dirichlet, along, has_part))
           length *= 2.;
         add(length, speed_of([&](const double t) {
               double square = 0.;

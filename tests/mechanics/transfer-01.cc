@@ -42,7 +42,7 @@ struct Run
   void
   step(const double h)
   {
-    report = stepper.advance(kinematics, points, newton, freezer, timer, t, h);
+    report = stepper.advance(kinematics, points, newton, freezer, timer, t, h, 1.);
     if (!report.converged && speaks())
       std::printf("  failed: %s\n", report.newton.reason.c_str());
     t += h;

@@ -82,7 +82,7 @@ run(const char                     *name,
   double           t = 0., momentum = 0.;
   for (const double h : scene.loading.stages[0]->step_sizes())
     {
-      if (!mpm.advance(kinematics, points, newton, freezer, timer, t, h)
+      if (!mpm.advance(kinematics, points, newton, freezer, timer, t, h, 1.)
              .converged)
         std::printf("FAILED\n");
       t += h;

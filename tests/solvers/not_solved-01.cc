@@ -111,7 +111,7 @@ try_all()
                                          parts->freezer,
                                          parts->timer,
                                          0.,
-                                         40.);
+                                         40., 1.);
                 ++n_tried;
                 n_failed += !report.converged;
                 if (report.converged != report.newton.reason.empty())
@@ -145,7 +145,7 @@ try_floor()
                                                    parts->freezer,
                                                    parts->timer,
                                                    0.,
-                                                   0.02);
+                                                   0.02, 1.);
   std::printf("the elastic step is solved: %d, by one system: %d, at the floor "
               "of rounding: %d\n",
               int(report.converged),
@@ -163,7 +163,7 @@ try_floor()
                                other->freezer,
                                other->timer,
                                0.,
-                               0.02);
+                               0.02, 1.);
         Constraints constraints(other->scene, other->mesh, other->space);
         constraints.number_unknowns(nullptr);
         IncrementalProblem problem(other->points,

@@ -36,7 +36,7 @@ struct Parts
   bool
   advance(const double t, const double h)
   {
-    return stepper.advance(kinematics, points, newton, freezer, timer, t, h)
+    return stepper.advance(kinematics, points, newton, freezer, timer, t, h, 1.)
       .converged;
   }
 
