@@ -283,4 +283,5 @@ def finish(most=None):
         if os.waitpid(process, 0)[1] != 0:
             raise PlotError(error or f"'{paths[0]}' cannot be written")
         for path in paths:
+            add_to_list(path)
             print(path)
