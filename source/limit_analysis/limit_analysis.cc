@@ -155,12 +155,6 @@ namespace geocone
                           "let one of the bodies be an obstacle");
     scene.observation.prepare(
       scene.supports(), scene.materials, scene.gravity, false);
-    if (!scene.observation.points.empty())
-      throw InputError(
-        "Observation/Points",
-        dealii::Patterns::Tools::to_string(scene.observation.points),
-        "empty with 'Analysis/Kind' = " + analysis.word(),
-        "a limit load has no displacements: leave it out");
     for (const auto &condition : scene.dirichlet.list)
       if (condition->moves())
         throw InputError(condition->parameter("Imposed on"),

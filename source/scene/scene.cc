@@ -19,7 +19,29 @@ namespace geocone
 {
   namespace
   {
-    /** Whether an end of the body along x is a plane of symmetry: on all of it the
+    /** Whether faces lie on one line that is along no axis. */
+    bool
+    is_oblique_line(const std::vector<std::vector<dealii::Point<dim>>> &faces)
+    {
+      if (dim == 3 || faces.empty())
+        return false;
+      const dealii::Point<dim> &first    = faces[0][0];
+      dealii::Point<dim>        farthest = first;
+      for (const auto &face : faces)
+        for (const auto &x : face)
+          if (first.distance(x) > first.distance(farthest))
+            farthest = x;
+      const auto   line   = farthest - first;
+      const double length = line.norm(), rounding = 1e-9 * length;
+      for (const auto &face : faces)
+        for (const auto &x : face)
+          if (std::abs(line[0] * (x - first)[1] - line[1] * (x - first)[0]) >
+              rounding * length)
+            return false;
+      return std::abs(line[0]) > rounding && std::abs(line[1]) > rounding;
+    }
+
+    /** Whether an end of the body along an axis is a plane of symmetry: on all of it the
      *  velocity across is held at zero, and nothing else is.
      *  @param has_part whether a condition has a part of that plane */
     bool
@@ -404,7 +426,9 @@ namespace geocone
                             return side == "left" || side == "right";
                           })
             : high[1] - low[1] > high[0] - low[0];
-        double     length = std::abs(high[upright] - low[upright]);
+        double length = std::abs(high[upright] - low[upright]);
+        if (!condition.moves() && is_oblique_line(faces_of(condition)))
+          length = low.distance(high);
         const auto centre = dealii::Point<dim>((low + high) / 2.);
         // A part of a side that ends in a plane of symmetry goes on beyond it; of a round
         // body the radius counts, or loads would come out lower by a per cent.
@@ -436,6 +460,10 @@ namespace geocone
                   for (const auto &component : condition.components)
                     if (component)
                       square += std::pow(component->value(centre, t), 2);
+                  for (const auto &along_side :
+                       {&condition.normal, &condition.tangential})
+                    if (*along_side)
+                      square += std::pow((*along_side)->value(centre, t), 2);
                 }
               catch (const RunError &)
                 {
