@@ -97,11 +97,11 @@ def titles_case(rng, tools, folder):
     section, old = path.split("/")
     right = rng.random() < 0.6
     n = rng.choice((1, 2, 3, 5, 12, 30, 60))
-    name = "".join(rng.choice(LETTERS + "__-. ") for _ in range(n)).strip()
+    name = "".join(rng.choice(LETTERS + "__- ") for _ in range(n)).strip()
     name = rng.choice(LETTERS[:52]) + name[1:-1] + rng.choice(LETTERS) if n > 1 else "q"
     if not right:
         i = rng.randrange(len(name))
-        sign = rng.choice(["/", "'", '"', "\\", "\x01", "\x7f", ",", "\x1b[31m"])
+        sign = rng.choice([".", ":", "=", "/", "'", '"', "\\", "\x01", "\x7f", ",", "\x1b[31m"])
         name = rng.choice([name[:i] + sign + "zz" + name[i:], name + "z" * 100])
     write_scene(folder, scene)
     text = rename(folder, section, old, name)
