@@ -26,7 +26,7 @@ namespace geocone
 
     constexpr double largest_value = 1e100;
 
-    /** What ParameterHandler writes, with names as they were declared; only a name with
+    /** Output of ParameterHandler, with names as declared; only a name with
      *  a dot comes apart there. */
     Declared
     from_json(const nlohmann::json &json)

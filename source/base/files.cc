@@ -63,7 +63,7 @@ namespace geocone
     int
     sync_descriptor(const int file)
     {
-      // What cannot be synchronised, e.g. a pipe, is not meant to last.
+      // Files that cannot be synchronised, e.g. pipes, are not persistent.
       return ::fsync(file) == 0 || errno == EINVAL ? 0 : errno;
     }
   } // namespace

@@ -296,7 +296,7 @@ namespace geocone
       return named.st_dev == opened.st_dev && named.st_ino == opened.st_ino;
     }
 
-    /** What is in a lock that may be anybody's; empty if it says nothing. */
+    /** Content of a lock of any owner; empty if it is invalid. */
     Json
     content_of(const int file)
     {

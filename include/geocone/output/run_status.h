@@ -13,7 +13,7 @@
 
 // How a run ended is told by the "status" of its summary.json in every case:
 // running | finished | failed: WHY | stopped: BY WHAT | killed: WHEN. That it goes on,
-// and nobody else may write into its folder, is told by the folder's lock.
+// and nobody else may write into its folder, is recorded in the folder's lock.
 
 namespace geocone
 {

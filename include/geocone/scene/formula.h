@@ -8,7 +8,7 @@
 
 namespace geocone
 {
-  /** What a formula may depend on. */
+  /** Variables of a formula. */
   enum class FormulaOf
   {
     place_and_time,

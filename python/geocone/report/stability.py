@@ -107,9 +107,9 @@ def load(row):
         return "-", "-"
     name = "Prandtl" if limit.get("reference_name") == "Prandtl" else "given"
     kind = " (last)" if limit.get("value") is None else ""
-    told = row["status"] == "finished" and ratio is not None
+    known = row["status"] == "finished" and ratio is not None
     return (f"{name}, {limit['reference']:.4g}",
-            f"{100. * (ratio - 1.):+.1f} %{kind}" if told else "-")
+            f"{100. * (ratio - 1.):+.1f} %{kind}" if known else "-")
 
 
 def line_of(row):
