@@ -199,7 +199,7 @@ namespace geocone
       check_size();
     // The exact law is easy for particles, unless volume hardly changes at all.
     if ((!method.is_mpm() || is_nearly_incompressible(scene.materials)) &&
-        !newton.wants_exact_friction())
+        !newton.wants_exact_friction() && scene.materials.have_hard_flow())
       scene.materials.set_friction_memory(scene.time_of_small_motion(
         mesh.bounding_box(), [&](const BoundaryCondition &condition) {
           return mesh.faces_of(condition);

@@ -399,10 +399,11 @@ namespace geocone
       {
         const BoundaryCondition &condition = *entry;
         auto [low, high]                   = body.get_boundary_points();
+        std::vector<std::vector<dealii::Point<dim>>> faces;
         if (!condition.moves())
           {
-            const auto faces = faces_of(condition);
-            const auto part  = condition.reach(faces);
+            faces           = faces_of(condition);
+            const auto part = condition.reach(faces);
             if (!part)
               continue;
             for (unsigned int d = 0; d < dim; ++d)
@@ -427,7 +428,7 @@ namespace geocone
                           })
             : high[1] - low[1] > high[0] - low[0];
         double length = std::abs(high[upright] - low[upright]);
-        if (!condition.moves() && is_oblique_line(faces_of(condition)))
+        if (is_oblique_line(faces))
           length = low.distance(high);
         const auto centre = dealii::Point<dim>((low + high) / 2.);
         // A part of a side that ends in a plane of symmetry goes on beyond it; of a round
