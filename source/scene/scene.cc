@@ -41,17 +41,26 @@ namespace geocone
       return std::abs(line[0]) > rounding && std::abs(line[1]) > rounding;
     }
 
+    /** How much of a plane a condition holds. */
+    enum class Extent
+    {
+      none,
+      some,
+      all
+    };
+
     /** Whether an end of the body along an axis is a plane of symmetry: on all of it the
      *  velocity across is held at zero, and nothing else is.
-     *  @param has_part whether a condition has a part of that plane */
+     *  @param across number of the axis @param extent_of of the plane */
     bool
-    is_symmetric(const BoundaryConditions &conditions,
-                 const unsigned int        across,
-                 const std::function<bool(const BoundaryCondition &)> &has_part)
+    is_symmetric(
+      const BoundaryConditions                               &conditions,
+      const unsigned int                                      across,
+      const std::function<Extent(const BoundaryCondition &)> &extent_of)
     {
       bool is_held = false;
       for (const auto &condition : conditions.list)
-        if (has_part(*condition))
+        if (const Extent extent = extent_of(*condition); extent != Extent::none)
           {
             for (unsigned int d = 0; d < dim; ++d)
               if (condition->components[d] &&
@@ -62,7 +71,7 @@ namespace geocone
               return false;
             is_held = is_held ||
                       ((condition->components[across] || condition->normal) &&
-                       !condition->wide_box() && !condition->has_formula());
+                       extent == Extent::all);
           }
       return is_held;
     }
@@ -439,20 +448,39 @@ namespace geocone
         const bool         ends_left = low[along] <= left[along] + rounding,
                    ends_right        = high[along] >= right[along] - rounding;
         const double end_of_part     = ends_left ? left[along] : right[along];
-        const auto   has_part        = [&](const BoundaryCondition &other) {
+        const auto   extent_of       = [&](const BoundaryCondition &other) {
           if (other.moves())
-            return other.is_on_side(upright ? (ends_left ? "bottom" : "top")
-                                            : (ends_left ? "left" : "right"));
-          const auto faces = faces_of(other);
-          return std::any_of(faces.begin(), faces.end(), [&](const auto &face) {
-            return std::all_of(face.begin(), face.end(), [&](const auto &x) {
-              return std::abs(x[along] - end_of_part) <= rounding;
-            });
-          });
+            return !other.is_on_side(upright ? (ends_left ? "bottom" : "top")
+                                             : (ends_left ? "left" : "right"))
+                             ? Extent::none
+                           : other.wide_box() || other.has_formula() ? Extent::some
+                                                                     : Extent::all;
+          auto plane = faces_of(other);
+          plane.erase(
+            std::remove_if(plane.begin(),
+                           plane.end(),
+                           [&](const auto &face) {
+                             return std::any_of(
+                               face.begin(), face.end(), [&](const auto &x) {
+                                 return std::abs(x[along] - end_of_part) >
+                                        rounding;
+                               });
+                           }),
+            plane.end());
+          const auto held = other.reach(plane);
+          if (!held)
+            return Extent::none;
+          for (const auto &face : plane)
+            for (const auto &x : face)
+              for (unsigned int d = 0; d < dim; ++d)
+                if (x[d] < (*held)[0][d] - rounding ||
+                    x[d] > (*held)[1][d] + rounding)
+                  return Extent::some;
+          return Extent::all;
         };
         if (ends_left != ends_right && gravity.at(end)[along] == 0. &&
             !geometry.is_axisymmetric() &&
-            is_symmetric(dirichlet, along, has_part))
+            is_symmetric(dirichlet, along, extent_of))
           length *= 2.;
         add(length, speed_of([&](const double t) {
               double square = 0.;

@@ -3,4 +3,4 @@
 program=$1 root=$2 folder=$3
 rm -rf "$folder"
 "$root/scripts/fuzz" --program "$program" --output "$folder" --jobs 1 --verbose \
-  --seed 2 --formulas 9 --titles 5 --descriptions 4 --studies 8 --foreign 4
+  --seed 2 --formulas 9 --titles 5 --descriptions 5 --studies 8 --foreign 4
