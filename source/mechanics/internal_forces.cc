@@ -656,8 +656,11 @@ namespace geocone
   SpatialMandel
   InternalForces::whole_stress_n(const unsigned int p) const
   {
-    return materials[points.material[p]].whole_stress(points.stress[p],
-                                                      points.history_of(p));
+    // Laws of the plane do not ask for s_zz, which frozen problems do not have.
+    const Material &law = materials[points.material[p]];
+    return law.is_spatial()
+             ? law.whole_stress(points.stress[p], points.history_of(p))
+             : extended(points.stress[p], 0.);
   }
 
   SpatialMandel

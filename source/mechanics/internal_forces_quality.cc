@@ -85,14 +85,12 @@ namespace geocone
     for (const Run &run : runs)
       for (unsigned int p = run.begin; p < run.end; ++p)
         {
-          const Material &law = materials[run.material];
-          // Laws of the plane do not ask for s_zz, which frozen problems do not have.
-          const SpatialMandel stress_n = law.is_spatial()
-                                           ? whole_stress_n(p)
-                                           : extended(points.stress[p], 0.);
-          const auto          here     = law.check_flow(
-            {whole_strain(p), stress_n, whole_stress(p), points.history_of(p)},
-            step_law());
+          const Material &law  = materials[run.material];
+          const auto      here = law.check_flow({whole_strain(p),
+                                                 whole_stress_n(p),
+                                                 whole_stress(p),
+                                                 points.history_of(p)},
+                                           step_law());
           if (!here)
             break; // nor has any other point of the law
           largest.take_worse(*here);
