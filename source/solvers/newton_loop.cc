@@ -117,9 +117,11 @@ namespace geocone
         else
           work.solve(prescribed, jump.defect, line.direction);
         // Where the direction does not lead downhill, the tangent of flow that is not
-        // associated is indefinite along it, and the search would go astray.
+        // associated is indefinite along it, and the search would go astray. (Particles
+        // in motion have a mass, and full steps take them past such iterates sooner.)
         if (globalisation.needs_descent() && prescribed == nullptr &&
             line.contact == nullptr && !work.problem.has_contact() &&
+            !work.problem.points_move() &&
             work.problem.non_associativity() > 0.)
           for (const double more : {0.01, 0.05, 0.25})
             {
