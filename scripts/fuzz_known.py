@@ -101,7 +101,7 @@ def titles_case(rng, tools, folder):
     name = rng.choice(LETTERS[:52]) + name[1:-1] + rng.choice(LETTERS) if n > 1 else "q"
     if not right:
         i = rng.randrange(len(name))
-        sign = rng.choice([".", ":", "=", "/", "'", '"', "\\", "\x01", "\x7f", ",", "\x1b[31m"])
+        sign = rng.choice([".", "/", "'", '"', "\\", "\x01", "\x7f", ",", "\x1b[31m"])
         name = rng.choice([name[:i] + sign + "zz" + name[i:], name + "z" * 100])
     write_scene(folder, scene)
     text = rename(folder, section, old, name)

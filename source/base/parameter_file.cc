@@ -185,7 +185,22 @@ namespace geocone
   {
     for (const std::string &override_text : overrides)
       {
-        const auto        equals = override_text.find('=');
+        // The names of sections may have equals signs.
+        std::size_t entry = 0;
+        for (auto slash = override_text.find('/');
+             slash != std::string::npos;
+             slash = override_text.find('/', entry))
+          {
+            const std::string section =
+              trim(override_text.substr(entry, slash - entry));
+            if (section.find('=') != std::string::npos &&
+                std::none_of(lines.begin(), lines.end(), [&](const Line &line) {
+                  return line.text == "subsection " + section;
+                }))
+              break;
+            entry = slash + 1;
+          }
+        const auto        equals = override_text.find('=', entry);
         const std::string where  = "--set '" + printable(override_text) + "'";
         const auto [sections, name] =
           sections_and_name(override_text.substr(0, equals));
@@ -436,12 +451,11 @@ namespace geocone
         if (std::count(names.begin(), names.begin() + i, name) > 0)
           refuse(shown + "stands there twice");
         if (name.size() > longest_name ||
-            name.find_first_of("/'\"\\.:=") != std::string::npos ||
-            name == list)
+            name.find_first_of("/'\"\\.") != std::string::npos || name == list)
           refuse(shown + "cannot be that of a section: take at most " +
                  std::to_string(longest_name) +
                  " letters, digits, blanks, underscores and hyphens; no "
-                 "quotes, and none of . : = / \\");
+                 "quotes, and none of . / \\");
         if (is_given && has_strict_lists && subsections.count(name) == 0)
           refuse(
             "there is no 'subsection " + printable(name) + "' in '" + section +
