@@ -187,13 +187,12 @@ namespace geocone
       {
         // The names of sections may have equals signs.
         std::size_t entry = 0;
-        for (auto slash = override_text.find('/');
-             slash != std::string::npos;
-             slash = override_text.find('/', entry))
+        for (auto slash = override_text.find('/'); slash != std::string::npos;
+             slash      = override_text.find('/', entry))
           {
-            const std::string section =
-              trim(override_text.substr(entry, slash - entry));
-            if (section.find('=') != std::string::npos &&
+                 const std::string section =
+                   trim(override_text.substr(entry, slash - entry));
+                 if (section.find('=') != std::string::npos &&
                 std::none_of(lines.begin(), lines.end(), [&](const Line &line) {
                   return line.text == "subsection " + section;
                 }))
