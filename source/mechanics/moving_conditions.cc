@@ -280,6 +280,7 @@ namespace geocone
   void
   MovingConditions::add_rows_of_particles(const MaterialPoints &points,
                                           const double          t,
+                                          const Transfer       &transfer,
                                           Multipliers          &rows) const
   {
     const auto &conditions = scene.dirichlet.list;
@@ -313,13 +314,16 @@ namespace geocone
                    size / of_cell[held - 1],
                    size / of_conditions[held - 1]});
               space.cell_nodes(points.cells[c], nodes);
-              add_to_row(held - 1,
-                         share,
-                         points.position[p],
-                         t,
-                         nodes,
-                         &points.values[p * points.n_nodes],
-                         rows);
+              if (conditions[held - 1]->imposition.get()->through_flip)
+                add_flip_row(points, p, share, nodes, transfer, rows);
+              else
+                add_to_row(held - 1,
+                           share,
+                           points.position[p],
+                           t,
+                           nodes,
+                           &points.values[p * points.n_nodes],
+                           rows);
             }
       }
   }
@@ -347,15 +351,49 @@ namespace geocone
   }
 
   void
+  MovingConditions::add_flip_row(
+    const MaterialPoints                       &points,
+    const unsigned int                          p,
+    const Imposition::Share                    &share,
+    const std::vector<types::global_dof_index> &nodes,
+    const Transfer                             &transfer,
+    Multipliers                                &rows) const
+  {
+    const double *const N = &points.values[p * points.n_nodes];
+    Tensor<1, dim>      L; // N v^L
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        L[d] += N[i] * transfer.velocity_L.local_element(
+                         dim * space.local_node(nodes[i]) + d);
+    const unsigned int       c         = points.held_by[p] - 1;
+    const BoundaryCondition &condition = *scene.dirichlet.list[c];
+    for (unsigned int d = 0; d < dim; ++d)
+      if (condition.components[d])
+        {
+          const Multipliers::Key key{c, d, share.row};
+          for (unsigned int i = 0; i < nodes.size(); ++i)
+            rows.add_coefficient(key, nodes[i], share.weight * N[i]);
+          const double v =
+            condition.components[d]->value(points.position[p], transfer.t_end);
+          const double end =
+            v - transfer.flip_part * (points.velocity[p][d] - L[d]); // N v_end
+          rows.add_target(key, share.weight * v);
+          rows.add_offset(
+            key, share.weight * (L[d] + transfer.part * (end - L[d]) - v));
+        }
+  }
+
+  void
   MovingConditions::make_rows(const MaterialPoints &points,
                               const Vector         &prescribed,
                               const double          t,
+                              const Transfer       &transfer,
                               Constraints          &constraints) const
   {
     Multipliers &rows = constraints.multipliers;
     rows.clear();
     add_rows_of_sides(t, rows);
-    add_rows_of_particles(points, t, rows);
+    add_rows_of_particles(points, t, transfer, rows);
     const auto refusal = rows.assemble(space, constraints, prescribed);
     if (!refusal)
       return;

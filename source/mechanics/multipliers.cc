@@ -37,12 +37,16 @@ namespace geocone
       return x;
     }
 
-    /** A row as the ranks give it: its coefficients by dof, and its right-hand side. */
+    /** A row as the ranks give it: its coefficients by dof, its right-hand side, and
+     *  the part of that which is an offset. */
     struct GivenRow
     {
       std::map<types::global_dof_index, double> coefficients;
-      double                                    target = 0.;
+      double                                    target = 0., offset = 0.;
     };
+
+    /** What contributions have in place of a node. */
+    constexpr double is_target = -1., is_offset = -2.;
 
     /** By condition, component and number. */
     using GivenRows = std::map<std::array<unsigned int, 3>, GivenRow>;
@@ -62,7 +66,11 @@ namespace geocone
                                    static_cast<unsigned int>(component),
                                    static_cast<unsigned int>(number)}}];
             if (node < 0.)
-              row.target += value;
+              {
+                row.target += value;
+                if (node == is_offset)
+                  row.offset += value;
+              }
             else
               row
                 .coefficients[dim * static_cast<types::global_dof_index>(node) +
@@ -236,7 +244,17 @@ namespace geocone
     contributions.push_back({{double(key.condition),
                               double(key.component),
                               double(key.number),
-                              -1.,
+                              is_target,
+                              value}});
+  }
+
+  void
+  Multipliers::add_offset(const Key &key, const double value)
+  {
+    contributions.push_back({{double(key.condition),
+                              double(key.component),
+                              double(key.number),
+                              is_offset,
                               value}});
   }
 
@@ -260,7 +278,7 @@ namespace geocone
         const auto sum = all.add(key, row, dofs);
         if (!sum)
           return Refusal{key, false};
-        asked.push_back({key, row.target, *sum});
+        asked.push_back({key, row.target - row.offset, *sum});
       }
 
     const std::vector<int> kept = independent_rows(all.matrix);

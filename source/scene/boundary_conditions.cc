@@ -67,10 +67,10 @@ namespace geocone
           "Imposed on",
           ". FEM knows nodes only. MPM: nodes of sides of the background mesh "
           "(bottom, right, top, left), or, of sides of the body, its first row "
-          "of particles one by one, averaged per cell, or averaged over all, "
-          "or "
-          "the averages over parts (segments) of the side, which moves as "
-          "prescribed.");
+          "of particles one by one (by the velocity of the grid there, or by "
+          "the particle's own that FLIP makes of it), averaged per cell, or "
+          "averaged over all, or the averages over parts (segments) of the "
+          "side, which moves as prescribed.");
         add_parameter("Segments",
                       n_segments,
                       "Number of equal parts of the side for 'segments', in "

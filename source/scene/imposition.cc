@@ -36,6 +36,7 @@ namespace geocone
     static const std::vector<Imposition> all = {
       {"nodes", On::nodes, nullptr, false},
       {"points", On::particles, &own_row, true},
+      {"particles (FLIP)", On::particles, &own_row, true, true},
       {"cell averages", On::particles, &mean_of_cell, false},
       {"mean of points", On::particles, &mean_of_all, false},
       {"segments", On::side, nullptr, false}};

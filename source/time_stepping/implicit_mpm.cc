@@ -81,8 +81,9 @@ namespace geocone
       }
     Vector v = problem->make_vector();
     constraints->set_values(v, 0.);
+    // Refuses what it must before the run.
     moving->make_rows(
-      points, v, 0., *constraints); // refuses what it must before the run
+      points, v, 0., {velocity_L, rule.flip_part(), 1., 0.}, *constraints);
     kinematics.velocity = velocity_L;
     kinematics.supports.resize(scene->supports().size());
     if (const std::string bent = constraints->warn_of_bent_values();
@@ -416,7 +417,12 @@ namespace geocone
     {
       TimerOutput::Scope scope(timer, "transfer");
       constraints->set_values(prescribed, step.solved_at);
-      moving->make_rows(points, prescribed, step.solved_at, *constraints);
+      moving->make_rows(
+        points,
+        prescribed,
+        step.solved_at,
+        {velocity_L, rule.flip_part(), step.solved_h / step.h, step.t + step.h},
+        *constraints);
       if (stage.raises_loads())
         {
           evaluate_force(points, step.solved_at, &stage, true);

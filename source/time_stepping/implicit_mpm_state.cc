@@ -127,7 +127,8 @@ namespace geocone
                                (1. - flip_part) * end[d];
             const bool follows_grid =
               advection != Advection::particle_velocity ||
-              (holder != nullptr && holder->components[d]);
+              (holder != nullptr && holder->components[d] &&
+               !holder->imposition.get()->through_flip);
             next.displacement[d] =
               h * (follows_grid ? mean[d] : next.velocity[d]);
           }

@@ -41,6 +41,16 @@ namespace geocone
                   const Stage *stage  = nullptr,
                   const bool   raised = false) const;
 
+    /** What turns the velocity that a step solves for, v = v^L + part (v_end - v^L), into
+     *  that of a particle at its end, f (v_p + N (v_end - v^L)) + (1 - f) N v_end. */
+    struct Transfer
+    {
+      const Vector &velocity_L; ///< with ghost values
+      double        flip_part;  ///< f
+      double        part;       ///< 1, or 1/2 by the midpoint rule
+      double        t_end;
+    };
+
     /**
      * Makes the rows H v = q, with q at time t. Collective.
      * @throws StepFailure if a side is no longer in the mesh
@@ -51,6 +61,7 @@ namespace geocone
     make_rows(const MaterialPoints &points,
               const Vector         &prescribed,
               const double          t,
+              const Transfer       &transfer,
               Constraints          &constraints) const;
 
     /**
@@ -122,7 +133,17 @@ namespace geocone
     void
     add_rows_of_particles(const MaterialPoints &points,
                           const double          t,
+                          const Transfer       &transfer,
                           Multipliers          &rows) const;
+
+    /** The row of a particle with the velocity that FLIP gives it. */
+    void
+    add_flip_row(const MaterialPoints                               &points,
+                 const unsigned int                                  p,
+                 const Imposition::Share                            &share,
+                 const std::vector<dealii::types::global_dof_index> &nodes,
+                 const Transfer                                     &transfer,
+                 Multipliers &rows) const;
 
     /** Adds a place x, with the functions that are not zero there, to a row of
      *  a condition for each component that it prescribes. */

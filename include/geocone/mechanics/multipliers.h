@@ -69,6 +69,11 @@ namespace geocone
     void
     add_target(const Key &key, const double value);
 
+    /** Adds to the right-hand side what is no prescribed velocity: mean_target() does
+     *  not count it. */
+    void
+    add_offset(const Key &key, const double value);
+
     /**
      * Makes the rows from what all ranks have added. Prescribed dofs move to the
      * right-hand side; functions without mass are left out, and the remaining
@@ -228,7 +233,8 @@ namespace geocone
     Eigen::VectorXd           q; ///< without what prescribed dofs contribute
     Eigen::VectorXd           row_sum;
 
-    /** Of a row that was given: its right-hand side and the sum of its N. */
+    /** Of a row that was given: its right-hand side without offset and the sum of its
+     *  N. */
     struct Asked
     {
       Key    key;

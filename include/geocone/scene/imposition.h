@@ -45,6 +45,9 @@ namespace geocone
     On          on;
     Share (*share)(const Held &); ///< of held particles
     bool single; ///< each particle has the prescribed velocity itself
+    /** Rows ask for that of particles at the end of the step, v_p + N (v - v^L), in
+     *  place of that of the grid, N v (equations (66) to (69) of Guillet et al. 2025). */
+    bool through_flip = false;
   };
 
   /** All of them; the first one is the default. */
