@@ -80,7 +80,7 @@ namespace geocone
         for (unsigned int p = 0; p < points.n_points(); ++p)
           if (!own.back() ||
               is_nearer(points.position[p], own.back()->position, x))
-            own.back() = {points.position[p], points.weight[p], points.id[p]};
+            own.back() = {points.position[p], points.volume[p], points.id[p]};
       }
     choose(scene, own);
   }
@@ -99,7 +99,7 @@ namespace geocone
           for (unsigned int p = 0; p < group.n_points(); ++p)
             if (!own.back() ||
                 is_nearer(group.position.of(p), own.back()->position, x))
-              own.back() = {group.position.of(p), group.weight[p], group.id[p]};
+              own.back() = {group.position.of(p), group.volume[p], group.id[p]};
       }
     choose(scene, own);
   }

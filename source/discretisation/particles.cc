@@ -119,7 +119,7 @@ namespace geocone
         set.id[p]       = first + i;
         set.cell[p]     = numbers::invalid_unsigned_int;
         set.position[p] = seed.position;
-        set.weight[p]   = seed.volume;
+        set.volume[p]   = seed.volume;
         set.material[p] = seed.material;
         set.mass[p]     = seed.volume * law.density();
         set.stress[p]   = seed.stress;
@@ -198,8 +198,19 @@ namespace geocone
       }
     if (n_points > 0)
       points.first_point.push_back(n_points);
-    if (space->has_b_bar())
-      project_gradients(space->volumetric_degree(), points);
+    points.weight.assign(points.volume.begin(), points.volume.end());
+  }
+
+  void
+  Particles::integrate(const bool                    consistent,
+                       const std::vector<SoilLimit> &limits,
+                       MaterialPoints               &points) const
+  {
+    if (!space->has_b_bar())
+      return;
+    if (consistent && space->is_spline() && contacts->list.empty())
+      make_consistent(*mesh, *space, limits, points);
+    project_gradients(space->volumetric_degree(), points);
   }
 
   void

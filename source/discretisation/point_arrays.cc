@@ -61,7 +61,7 @@ namespace geocone
     for (std::size_t p = n; p < n_padded(); ++p)
       {
         set(p, last.data());
-        mass[p] = weight[p] = 0.;
+        mass[p] = volume[p] = 0.;
       }
   }
 

@@ -141,7 +141,7 @@ namespace geocone
             const Point<dim>  &x        = values.position[q];
             const unsigned int material = cell->material_id();
             points.set_size(p + 1);
-            points.weight[p]   = values.weight[q];
+            points.volume[p]   = values.weight[q];
             points.position[p] = x;
             points.material[p] = material;
             points.stress[p]   = scene.initial_stress.at(
@@ -160,9 +160,10 @@ namespace geocone
               for (unsigned int i = 0; i < points.n_nodes; ++i)
                 points.hoop.push_back(values.value(i, q) / x[0]);
           }
-        points.first_point.push_back(points.weight.size());
+        points.first_point.push_back(points.n_points());
       }
     start.check<InputError>(mesh.triangulation().get_communicator());
+    points.weight.assign(points.volume.begin(), points.volume.end());
     if (space.has_b_bar())
       project_gradients(space.volumetric_degree(), points);
     if (known.n_cells() > 0)

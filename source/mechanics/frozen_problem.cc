@@ -148,6 +148,7 @@ namespace geocone
     p.volumetric_modes     = gather(points.volumetric_modes, comm);
     p.material             = gather(points.material, comm);
     p.weight               = gather(points.weight, comm);
+    p.volume               = p.weight;
     p.mass                 = gather(points.mass, comm);
     p.history.width        = points.n_history();
     p.history              = gather(points.history, comm);
@@ -330,6 +331,7 @@ namespace geocone
         p.volumetric_modes = in.doubles("points/volumetric_modes");
       p.material    = in.unsigned_array("points/material");
       p.weight      = in.doubles("points/weight");
+      p.volume      = p.weight;
       p.mass        = in.doubles("points/mass");
       flat.stress   = in.doubles("points/stress");
       flat.position = in.doubles("points/position");

@@ -523,12 +523,31 @@ namespace geocone
                 behind ||
                 (seen.is_close_behind() &&
                  seen.beyond > 0.1 * scene.geometry.size_of_point(
-                                       points.position[p], points.weight[p]) &&
+                                       points.position[p], points.volume[p]) &&
                  holds_normal(*scene.dirichlet.list[side.condition], panel));
             }
         n += behind;
       }
     return Utilities::MPI::sum(n, mesh.triangulation().get_communicator());
+  }
+
+  std::vector<SoilLimit>
+  MovingConditions::soil_limits() const
+  {
+    std::vector<SoilLimit> limits;
+    for (const HeldSide &side : supports)
+      for (const Panel &panel : side.panels)
+        {
+          const Tensor<1, dim> area = panel.area();
+          for (unsigned int d = 0; d < dim; ++d)
+            if (std::abs(area[d]) > (1. - 1e-9) * area.norm() &&
+                holds_normal(*scene.dirichlet.list[side.condition], panel))
+              limits.push_back({d,
+                                panel.corner[d],
+                                area[d] > 0.,
+                                BoundingBox<dim>(panel.corners())});
+        }
+    return limits;
   }
 
   void

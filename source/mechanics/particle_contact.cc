@@ -99,7 +99,7 @@ namespace geocone
                        const PointFunctions &at) {
                      const Point<dim> x = position_of(scene, points, p);
                      const double     half =
-                       scene.geometry.size_of_point(x, points.weight[p]) / 2.;
+                       scene.geometry.size_of_point(x, points.volume[p]) / 2.;
                      for (unsigned int o = 0; o < n; ++o)
                        near[o] = list[o]->nearest(x, moved[o], {});
                      for (unsigned int o = 0; o < n; ++o)
@@ -218,7 +218,7 @@ namespace geocone
               {place,
                layer == pair.first,
                x,
-               scene.geometry.size_of_point(x, points.weight[p]) / 2.});
+               scene.geometry.size_of_point(x, points.volume[p]) / 2.});
       });
     return shares;
   }
@@ -365,7 +365,7 @@ namespace geocone
                      for (unsigned int i = 0; i < at.n; ++i)
                        for (unsigned int d = 0; d < dim; ++d)
                          outward.local_element(dim * at.nodes[i] + d) +=
-                           points.weight[p] * at.slopes[d][i];
+                           points.volume[p] * at.slopes[d][i];
                    });
     outward.compress(VectorOperation::add);
     outward.update_ghost_values();

@@ -252,7 +252,7 @@ namespace geocone
          return double(group.of_material);
        })});
     add("volume", [](const auto &group, const unsigned int p, int) {
-      return group.weight[p];
+      return group.volume[p];
     });
     if (scene->geometry
           .is_axisymmetric()) // what a point is in the plane of pictures
@@ -260,7 +260,7 @@ namespace geocone
         {"area",
          1,
          filled(1, [this](const auto &group, const unsigned int p, int) {
-           return group.weight[p] / Geometry::measure(scene->geometry.symmetry,
+           return group.volume[p] / Geometry::measure(scene->geometry.symmetry,
                                                       group.position.of(p));
          })});
     for (int i = 0; i < n_mandel; ++i)

@@ -102,12 +102,12 @@ namespace geocone
                          last  = points.first_point[c + 1];
       double area              = 0.;
       for (unsigned int p = first; p < last; ++p)
-        area += points.weight[p];
+        area += points.volume[p];
       std::vector<double> means = {double(points.material[first])};
       const auto          add   = [&](const auto &value) {
         double sum = 0.;
         for (unsigned int p = first; p < last; ++p)
-          sum += points.weight[p] * value(p);
+          sum += points.volume[p] * value(p);
         means.push_back(sum / area);
       };
       for (int i = 0; i < n_mandel; ++i)
@@ -222,11 +222,11 @@ namespace geocone
             {"displacement", dim, components(points.displacement)});
         }
       add("material", [&](const std::size_t p) { return points.material[p]; });
-      add("volume", [&](const std::size_t p) { return points.weight[p]; });
+      add("volume", [&](const std::size_t p) { return points.volume[p]; });
       // What a point is in the plane of the pictures.
       if (mesh.is_axisymmetric())
         add("area", [&](const std::size_t p) {
-          return points.weight[p] / mesh.measure(points.position[p]);
+          return points.volume[p] / mesh.measure(points.position[p]);
         });
       const auto add_tensor = [&](const std::string         &name,
                                   const std::vector<Mandel> &values) {

@@ -378,7 +378,7 @@ namespace geocone
     if (obstacle.empty() && !(sums.least_volume > 0.))
       for (const PointArrays &group : groups)
         for (unsigned int p = 0; p < group.n_points() && obstacle.empty(); ++p)
-          if (!(group.weight[p] > 0.) && group.mass[p] > 0.)
+          if (!(group.volume[p] > 0.) && group.mass[p] > 0.)
             obstacle = format("the volume of point %u at (%s) has become "
                               "zero or negative\n"
                               "  remedy:  take a smaller 'Explicit/Courant "

@@ -26,7 +26,7 @@ namespace geocone
                             {},
                             {},
                             {},
-                            group.weight.data() + first,
+                            group.volume.data() + first,
                             group.mass.data() + first,
                             {},
                             transfer->keeps_cells() ? group.cell.data() + first

@@ -92,7 +92,7 @@ namespace geocone
       const auto components = components_of(seed.stress);
       for (int i = 0; i < n_mandel; ++i)
         group.stress[i][p] = components[i];
-      group.weight[p] = seed.volume;
+      group.volume[p] = seed.volume;
       group.mass[p]   = seed.volume * law.density();
       largest_mass    = std::max(largest_mass, group.mass[p]);
       const ConstitutiveLaw::Stress stress =
@@ -263,7 +263,7 @@ namespace geocone
     sum.removed_potential -=
       m * (scene->gravity.at(1e300) * (group.position.of(p) - datum));
     group.mass[p]   = 0.;
-    group.weight[p] = 0.;
+    group.volume[p] = 0.;
   }
 
   void
@@ -283,7 +283,7 @@ namespace geocone
         for (unsigned int d = 0; d < dim; ++d)
           sum.removed_momentum[d] += (1. - fade) * m * group.velocity[d][p];
         group.mass[p] *= fade;
-        group.weight[p] *= fade;
+        group.volume[p] *= fade;
       }
   }
 

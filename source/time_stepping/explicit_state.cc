@@ -54,7 +54,7 @@ namespace geocone
             ++s.n_points;
             const Tensor<1, dim> v = group.velocity.of(p);
             s.mass += m;
-            s.volume += group.weight[p];
+            s.volume += group.volume[p];
             s.kinetic += m * v.norm_square() / 2.;
             s.potential -= m * (g * (x - datum));
             s.momentum += m * v;
@@ -76,7 +76,7 @@ namespace geocone
               law.wave_modulus(
                 law.whole(group.stress_components(p), values.data()),
                 values.data()) *
-              group.weight[p] / m;
+              group.volume[p] / m;
             if (c2 > fastest)
               {
                 fastest          = c2;

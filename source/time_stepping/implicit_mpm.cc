@@ -57,7 +57,7 @@ namespace geocone
       for (unsigned int p = 0; p < points.n_points(); ++p)
         points.affine[p] = scene->initial_velocity.gradient(
           points.position[p],
-          scene->geometry.size_of_point(points.position[p], points.weight[p]));
+          scene->geometry.size_of_point(points.position[p], points.volume[p]));
     begin(points, timer);
     unknowns = constraints->n_rows;
     if (bodies)
@@ -149,7 +149,7 @@ namespace geocone
   }
 
   void
-  ImplicitMPM::begin(const MaterialPoints &points, TimerOutput &timer)
+  ImplicitMPM::begin(MaterialPoints &points, TimerOutput &timer)
   {
     if (Utilities::MPI::sum(points.n_points(), force.get_mpi_communicator()) ==
         0)
@@ -158,6 +158,8 @@ namespace geocone
                         "'Mesh/Box'");
     {
       TimerOutput::Scope scope(timer, "transfer");
+      particles.integrate(
+        consistent_integration, moving->soil_limits(), points);
       if (nodes_moved)
         constraints = std::make_unique<Constraints>(*scene, *mesh, *space);
       nodes_moved = false;
@@ -254,7 +256,7 @@ namespace geocone
       [&](const unsigned int p,
           const unsigned int /* cell */,
           const PointFunctions &at) {
-        const double V         = points.weight[p];
+        const double V         = points.volume[p];
         const double both[dim] = {
           V,
           V * elasticity_at_start(scene->materials, points, p).young_modulus()};
@@ -342,7 +344,7 @@ namespace geocone
                      Tensor<1, dim> f;
                      for (std::size_t line = 0; line < parts.size(); ++line)
                        if (parts[line] != 0.)
-                         f += parts[line] * part * points.weight[p] *
+                         f += parts[line] * part * points.volume[p] *
                               scene->water.force(points.position[p], line);
                      at.scatter<dim, false>(f.begin_raw(), of_water.begin());
                    });

@@ -26,6 +26,12 @@ namespace geocone
                   prm,
                   Patterns::Double(0., 1.));
     add_parameter(
+      "Consistent integration",
+      consistent_integration,
+      "With B-bar of B-splines, in cells full of soil: weights of the "
+      "particles sum up to the cell and mean gradients are those of the "
+      "cell, wherever the particles are. false: weights are volumes.");
+    add_parameter(
       "Ghost stiffness",
       ghost_part,
       "gamma >= 0: B-splines that hold hardly any material are kept with those "

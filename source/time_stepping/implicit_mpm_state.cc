@@ -145,7 +145,7 @@ namespace geocone
           determinant(stretch) * (mesh->is_axisymmetric()
                                     ? next.position[0] / points.position[p][0]
                                     : 1.);
-        next.volume = ratio * points.weight[p];
+        next.volume = ratio * points.volume[p];
         for (unsigned int k = 0; k < n_rotations; ++k)
           {
             const auto [a, b] = plane_of_rotation[k];
@@ -356,7 +356,7 @@ namespace geocone
           turn(points.plastic_strain[p] + plastic, moved[p].spin);
         points.cumulative_plastic_strain[p] += slip;
         points.plastic_strain_rate[p] = slip / step.h;
-        points.weight[p]              = moved[p].volume;
+        points.volume[p]              = moved[p].volume;
         points.displacement[p] += moved[p].displacement;
         points.position[p] = moved[p].position;
         points.velocity[p] = moved[p].velocity;

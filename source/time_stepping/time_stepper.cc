@@ -72,7 +72,7 @@ namespace geocone
                     points.position[p],
                     points.history_of(p));
           if (!points.mass.empty())
-            points.mass[p] = points.weight[p] * materials[to].density();
+            points.mass[p] = points.volume[p] * materials[to].density();
         }
     start.check<StepFailure>(comm);
     Utilities::MPI::sum(number, comm, number);
@@ -101,11 +101,11 @@ namespace geocone
   {
     double sum = 0.;
     for (unsigned int p = 0; p < points.n_points(); ++p)
-      sum += points.weight[p] * materials[points.material[p]].elastic_energy(
+      sum += points.volume[p] * materials[points.material[p]].elastic_energy(
                                   points.stress[p], points.history_of(p));
     if (materials.are_undrained())
       for (unsigned int p = 0; p < points.n_points(); ++p)
-        sum += points.weight[p] * materials[points.material[p]].fluid_energy(
+        sum += points.volume[p] * materials[points.material[p]].fluid_energy(
                                     points.excess_pressure(p));
     return Utilities::MPI::sum(sum, comm);
   }

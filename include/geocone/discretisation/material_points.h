@@ -23,7 +23,7 @@ namespace geocone
     unsigned int
     n_points() const
     {
-      return weight.size();
+      return volume.size();
     }
     unsigned int
     n_cells() const
@@ -39,6 +39,10 @@ namespace geocone
 
     /** The points of cell c are first_point[c] ... first_point[c + 1] - 1. */
     std::vector<unsigned int> first_point = {0};
+
+    /** Weight of a point in integrals over the body (m^2; around an axis m^3): its volume,
+     *  unless make_consistent() has changed it. */
+    std::vector<double> weight;
 
     /** Local numbers of the nodes of a cell: n_nodes per cell. */
     std::vector<unsigned int> nodes;

@@ -6,6 +6,7 @@
 
 #include <geocone/base/archive.h>
 #include <geocone/discretisation/cell_search.h>
+#include <geocone/discretisation/consistent_integration.h>
 #include <geocone/discretisation/material_points.h>
 #include <geocone/discretisation/outflow.h>
 #include <geocone/discretisation/seeding.h>
@@ -63,6 +64,17 @@ namespace geocone
      */
     void
     sort(MaterialPoints &points);
+
+    /**
+     * Prepares the projection of B-bar, before each step: the means over cells, with the
+     * weights of the points. Collective.
+     * @param consistent make_consistent() first, of splines and where no bodies touch
+     * @param limits of the soil
+     */
+    void
+    integrate(const bool                    consistent,
+              const std::vector<SoilLimit> &limits,
+              MaterialPoints               &points) const;
 
     /** After BackgroundMesh::repartition(), and Space::follow_ranks(): sends particles to
      *  where their cells are. Collective. */

@@ -41,7 +41,7 @@ namespace geocone
     unsigned int
     n_padded() const
     {
-      return weight.size();
+      return volume.size();
     }
 
     /** The history variables of a point, n_history() of them. */

@@ -255,7 +255,7 @@ namespace geocone
 
     /** Volume that a point stands for, per unit thickness (m^2), or around the axis
      *  (m^3). */
-    PointValues<double> weight;
+    PointValues<double> volume;
     PointValues<double> mass; ///< (kg/m)
 
     /** Index of the material, where the points of a set have several. */
@@ -410,7 +410,7 @@ namespace geocone
     visit_all(State &state, const Visit &visit)
     {
       visit("position", state.position);
-      visit("weight", state.weight);
+      visit("volume", state.volume);
       visit("mass", state.mass);
       visit("material", state.material);
       visit("stress", state.stress);

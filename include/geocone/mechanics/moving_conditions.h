@@ -5,7 +5,7 @@
 #define geocone_mechanics_moving_conditions_h
 
 #include <geocone/base/state_row.h>
-#include <geocone/discretisation/material_points.h>
+#include <geocone/discretisation/consistent_integration.h>
 #include <geocone/mechanics/constraints.h>
 #include <geocone/mechanics/moving_surface.h>
 
@@ -70,6 +70,11 @@ namespace geocone
      */
     void
     move(const Vector &v, const double h, const double t);
+
+    /** The sides normal to an axis that hold the body across it, on which its soil
+     *  ends. */
+    std::vector<SoilLimit>
+    soil_limits() const;
 
     /** The corners of the box around the sides that a condition holds.
      *  @pre it holds sides */

@@ -197,7 +197,7 @@ namespace geocone
 
     /** Mass, vL, unknowns and pattern: all that depends on t_n only. */
     void
-    begin(const MaterialPoints &points, dealii::TimerOutput &timer);
+    begin(MaterialPoints &points, dealii::TimerOutput &timer);
 
     /** Stencils of ghost stiffness for the points as they are. Collective. */
     std::vector<GhostStencil>
@@ -359,7 +359,8 @@ namespace geocone
     Choice<Ghosts> ghosts = {
       {{"loaded sides", Ghosts::loaded}, {"all", Ghosts::all}}};
 
-    double consistent_mass = 0.;
+    double consistent_mass        = 0.;
+    bool   consistent_integration = true;
     double ghost_part      = 1e-5; ///< gamma of GhostStiffness
     double largest_move    = 3.;
 
