@@ -21,14 +21,15 @@ def wrapped(text):
                    for paragraph in re.split(r"\n\s*\n", text.strip()) if paragraph)
 
 
-def page_text(part):
-    """A study and what its sections show, as page.write_report() has found it."""
+def page_text(part, pictures="figures"):
+    """A study and what its sections show, as page.write_report() has found it.
+    @param pictures the folder of the figures"""
     text = f"# {part['title']}\n\n" + wrapped(part["source"])
     for section in part["sections"]:
         text += f"## {section['title']}\n\n" + wrapped(section["source"])
         text += "".join(f"**{problem}**\n\n" for problem in section["problems"])
         for figure in section["figures"]:
-            text += (f"![{section['title']}](figures/{figure['file']})\n\n" +
+            text += (f"![{section['title']}]({pictures}/{figure['file']})\n\n" +
                      wrapped(figure["source"]))
         for table in section["tables"]:
             text += (table_text(table["head"], table["lines"]) + "\n" +

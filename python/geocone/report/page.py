@@ -119,9 +119,21 @@ def section_data(study, number, section, rows, folder):
     return data
 
 
-def write_report(path, studies, program):
-    """Writes the page.
+def write_page(path, part, folder):
+    """Writes a study as a page of documentation, its figures into 'images' beside it.
+    @param folder of the figures"""
+    pictures = path.parent / "images"
+    pictures.mkdir(exist_ok=True)
+    for section in part["sections"]:
+        for figure in section["figures"]:
+            write_whole(pictures / figure["file"], (folder / figure["file"]).read_bytes())
+    write_whole(path, page_text(part, pictures.name))
+
+
+def write_report(path, studies, program, page=None):
+    """Writes the report.
     @param studies pairs of a study and its rows
+    @param page of documentation, of the only study
     @return the problems of figures and tables"""
     folder = own_folder(path.parent / "figures")
     parts, problems = [], []
@@ -138,6 +150,8 @@ def write_report(path, studies, program):
             "failed": sum(row["status"] == "failed" for row in rows),
             "time": duration(sum(row["seconds"] for row in rows))})
         write_whole(path.parent / f"{study.name}.md", page_text(parts[-1]))
+    if page is not None and not problems:
+        write_page(page, parts[0], folder)
     environment = jinja2.Environment(autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True,
                                      undefined=jinja2.StrictUndefined)

@@ -56,6 +56,10 @@ def report(arguments, prog):
                         help="default: results/study, or results/study-NAME of one file")
     parser.add_argument("--program", type=Path, metavar="GEOCONE",
                         help="a built program (default: that of scripts/build)")
+    parser.add_argument("--page", type=Path, metavar="FILE.md",
+                        help="also write the study as this page, its figures into "
+                        "'images' beside it; of one study, all of whose figures and "
+                        "tables can be shown")
     parser.add_argument("--cores", type=int, default=len(os.sched_getaffinity(0)),
                         help="how many runs go side by side (default: all cores)")
     parser.add_argument("--run-gmsh-script", action="store_true",
@@ -73,6 +77,9 @@ def report(arguments, prog):
                            for name in (["quick"] if call.quick else ALL)]
     output = call.output or ROOT / "results" / (
         f"study-{files[0].stem}" if len(files) == 1 else "study")
+    if call.page and (len(files) != 1 or call.page.suffix != ".md"
+                      or not call.page.parent.is_dir()):
+        parser.error("--page takes a file NAME.md in an existing folder, and one study")
     if call.cores < 1:
         parser.error("--cores must be 1 or more")
     try:
@@ -114,7 +121,7 @@ def compute(studies, output, program, options, call):
         rows = [computer.row(run) for run in runs]
         write_csv(output / f"{study.name}.csv", rows)
         results.append((study, rows))
-    problems = write_report(output / "report.html", results, program)
+    problems = write_report(output / "report.html", results, program, call.page)
     lock.close()
     print(output / "report.html")
     return 1 if problems else 0
