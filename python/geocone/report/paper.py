@@ -527,3 +527,37 @@ def energies_table(rows, _):
                      "kinetic energy at the end (kJ/m)", "loss / released (%)",
                      "loss / initial (%)", "largest rise of the total (J/m)",
                      "points that left"], rows, cells)
+
+
+@takes()
+def misfits(rows, _):
+    """Head and lines: how far slopes of several shapes (axes 'shape' and 'theta') are from
+    the numbers of figures 16 to 19, the root mean square of the logarithms of their
+    ratios; losses count above 5 %."""
+    found = {}
+    for row in rows:
+        if row["status"] == "finished":
+            time, e = energy_table(row)
+            found[row["axes"]["shape"], row["axes"]["theta"]] = {
+                "strain": row["summary"]["state"]["largest_plastic_strain"],
+                "released": e["potential"][0], "dissipated": e["dissipation"][-1],
+                "loss": (e["total"][0] - e["total"][-1]) / e["potential"][0],
+                "time": time[np.argmax(e["kinetic"])]}
+    lines = []
+    for shape in dict.fromkeys(row["axes"]["shape"] for row in rows):
+        try:
+            a, z = found[shape, "theta = phi"], found[shape, "theta = 0"]
+        except KeyError:
+            lines.append([shape, "failed", *["-"] * 7])
+            continue
+        ratios = [a["strain"] / 2., z["strain"] / 3., z["released"] / a["released"] / 5.,
+                  z["dissipated"] / a["dissipated"] / 10., a["time"] / 1.5,
+                  max(1., a["loss"] / 0.05), max(1., z["loss"] / 0.05)]
+        lines.append([shape, f"{np.sqrt(np.mean(np.log(ratios)**2)):.3f}",
+                      f"{100. * a['strain']:.0f}", f"{100. * z['strain']:.0f}",
+                      f"{z['released'] / a['released']:.1f}",
+                      f"{z['dissipated'] / a['dissipated']:.1f}", f"{a['time']:.2f}",
+                      f"{100. * a['loss']:.1f}", f"{100. * z['loss']:.1f}"])
+    return ["shape", "misfit", "strain, theta = phi (%)", "strain, theta = 0 (%)",
+            "ratio of energies", "ratio of dissipations", "time (s)",
+            "loss, theta = phi (%)", "loss, theta = 0 (%)"], lines
