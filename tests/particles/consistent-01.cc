@@ -21,6 +21,7 @@ struct Body : Setup
   explicit Body(const std::string &layout)
     : Setup("particles/seeding.prm",
             {"Discretisation/Element = B-spline 3",
+             "Discretisation/B-bar = true",
              "Particles/Layout = " + layout,
              layout == "random" ? "Particles/Number = 2400"
                                 : "Particles/Points per direction = 3"})
