@@ -13,6 +13,7 @@ import sys
 from pathlib import Path
 
 import jinja2
+from PIL import Image
 from markupsafe import Markup, escape
 
 from geocone.files import write_whole
@@ -126,7 +127,11 @@ def write_page(path, part, folder):
     pictures.mkdir(exist_ok=True)
     for section in part["sections"]:
         for figure in section["figures"]:
-            write_whole(pictures / figure["file"], (folder / figure["file"]).read_bytes())
+            small = io.BytesIO()
+            with Image.open(folder / figure["file"]) as picture:
+                picture.convert("P", palette=Image.Palette.ADAPTIVE, colors=128).save(
+                    small, "png", optimize=True)
+            write_whole(pictures / figure["file"], small.getvalue())
     write_whole(path, page_text(part, pictures.name))
 
 

@@ -88,7 +88,8 @@ def numbers(rows, options):
             return good[0]
         row = found(line.get("run", {}))
         head = [line["what"], line["paper"]]
-        rest = [line.get("why", "-"), f"`{row['command']}`"]
+        rest = [line.get("why", "-"),
+                "`" + row["command"].replace(" --set 'Output/Pictures = false'", "") + "`"]
         if row["status"] != "finished":
             lines.append([*head, f"failed: {row['reason']}", "-", *rest])
             continue
