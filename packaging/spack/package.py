@@ -24,9 +24,10 @@ class Geocone(CMakePackage):
     depends_on("cmake@3.16:", type="build")
 
     # Of deal.II's many variants only these are used.
-    depends_on("dealii@9.4.1:9.6 +mpi+p4est+metis+muparser+hdf5+simplex"
+    depends_on("dealii@9.4.1:9.6 +mpi+p4est+metis+muparser+hdf5+simplex+trilinos"
                "~adol-c~arborx~arpack~assimp~cgal~examples~ginkgo~gmsh~gsl~opencascade"
-               "~petsc~scalapack~slepc~sundials~symengine~trilinos build_type=Release")
+               "~petsc~scalapack~slepc~sundials~symengine build_type=Release")
+    depends_on("trilinos+mpi+epetra+ml")  # multigrid of three dimensions
     depends_on("mpi")
     depends_on("hdf5")
     depends_on("suite-sparse")
