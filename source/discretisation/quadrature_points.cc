@@ -24,13 +24,9 @@ namespace geocone
     const unsigned int p = space.degree();
     if (!mesh.is_simplicial())
       return QGauss<dim>(p + 1);
-    // P1: 1 point, degree 1. P2 in space: 4 points, degree 2.
-    if (p == 1 || (p == 2 && dim == 3))
+    if (p < 3) // 1 point of degree 1; 3 or 4 of degree 2
       return QGaussSimplex<dim>(p);
-    // QGaussSimplex<2>(2) depends on the order of the vertices.
-    if (p == 2)
-      return QWitherdenVincentSimplex<dim>(2, false); // 6 points, degree 4
-    return QWitherdenVincentSimplex<dim>(3);          // 7 points, degree 5
+    return QWitherdenVincentSimplex<dim>(3); // 7 points, degree 5
   }
 
   struct CellValues::Geometry
