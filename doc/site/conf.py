@@ -57,6 +57,7 @@ PAGES = {
     "What is known": ["doc/comparison", "doc/validation", "doc/verification",
                       "doc/verification_mpm", "doc/limit_load", "doc/footing_deep",
                       "doc/friction_memory", "doc/small_dilatancy", "doc/stability", "doc/performance",
+                      "doc/paper",
                       "doc/profiles"],
     "How it works": ["doc/theory", "CONTRIBUTING", "CHANGELOG"]}
 

@@ -96,7 +96,7 @@ main(int argc, char **argv)
   print("six points take eight places",
         arrays.n_points() == 6 && arrays.n_padded() == 8);
   print("copies have no mass and no volume",
-        arrays.mass[6] == 0. && arrays.weight[7] == 0.);
+        arrays.mass[6] == 0. && arrays.volume[7] == 0.);
   print("but the last one's place",
         arrays.position.of(7) == arrays.position.of(5));
   arrays.append(row_of(7, arrays.n_numbers()).data());

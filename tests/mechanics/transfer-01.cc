@@ -305,7 +305,7 @@ check_rotation(const std::string &element)
         run.points.affine[p] * (run.points.position[p] - Point<dim>(1., 1.));
     }
   const auto stresses = by_number(run, run.points.stress);
-  const auto weights  = by_number(run, run.points.weight);
+  const auto weights  = by_number(run, run.points.volume);
   run.step(h);
   double               invariants = 0., angle = 0., volume = 0.;
   const double         c = std::cos(omega * h), s = std::sin(omega * h);
@@ -324,7 +324,7 @@ check_rotation(const std::string &element)
         angle, (now - Mandel(T[0][0], T[1][1], sqrt2 * T[0][1])).norm());
       volume =
         std::max(volume,
-                 std::abs(run.points.weight[p] / weights[run.points.id[p]] -
+                 std::abs(run.points.volume[p] / weights[run.points.id[p]] -
                           1. - omega * omega * h * h));
     }
   print("the invariants of the stress stay", invariants < 1e-10);
