@@ -202,9 +202,9 @@ namespace geocone
   }
 
   void
-  Particles::integrate(const bool                    consistent,
-                       const std::vector<SoilLimit> &limits,
-                       MaterialPoints               &points) const
+  Particles::prepare_b_bar(const bool                    consistent,
+                           const std::vector<SoilLimit> &limits,
+                           MaterialPoints               &points) const
   {
     if (!space->has_b_bar())
       return;

@@ -158,8 +158,10 @@ namespace geocone
                         "'Mesh/Box'");
     {
       TimerOutput::Scope scope(timer, "transfer");
-      particles.integrate(
-        consistent_integration, moving->soil_limits(), points);
+      particles.prepare_b_bar(consistent_integration &&
+                                advection != Advection::none,
+                              moving->soil_limits(),
+                              points);
       if (nodes_moved)
         constraints = std::make_unique<Constraints>(*scene, *mesh, *space);
       nodes_moved = false;

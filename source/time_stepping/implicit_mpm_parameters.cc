@@ -28,9 +28,9 @@ namespace geocone
     add_parameter(
       "Consistent integration",
       consistent_integration,
-      "With B-bar of B-splines, in cells full of soil: weights of the "
-      "particles sum up to the cell and mean gradients are those of the "
-      "cell, wherever the particles are. false: weights are volumes.");
+      "With B-bar of B-splines and particles that move, in cells full of "
+      "soil: weights of the particles sum up to the cell and mean gradients "
+      "are those of the cell. false: weights are volumes.");
     add_parameter(
       "Ghost stiffness",
       ghost_part,

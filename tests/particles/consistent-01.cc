@@ -143,7 +143,7 @@ main(int argc, char **argv)
     print("volumes as weights: constant stress is out of balance",
           mpi::max(largest_force(body, {0.25, 0.25}, {0.95, 0.55}, none),
                    comm) > 1e-3);
-    body.particles.integrate(true, {}, body.points);
+    body.particles.prepare_b_bar(true, {}, body.points);
     double fill = 0.;
     for (unsigned int c = 0; c < body.points.n_cells(); ++c)
       if (const Point<dim> x = body.points.cells[c]->center();
@@ -163,7 +163,7 @@ main(int argc, char **argv)
     print("linear velocities have their gradient",
           body.gradient_error() < 1e-12);
     const double before = body.points.weight[0];
-    body.particles.integrate(true, {}, body.points);
+    body.particles.prepare_b_bar(true, {}, body.points);
     print("and again the same",
           std::abs(body.points.weight[0] - before) < 1e-17);
   }
@@ -175,7 +175,7 @@ main(int argc, char **argv)
       y,
       true,
       dealii::BoundingBox<dim>({Point<dim>(-1., y), Point<dim>(2., y)})};
-    body.particles.integrate(true, {limit}, body.points);
+    body.particles.prepare_b_bar(true, {limit}, body.points);
     if (speaks())
       std::printf("below a limit at 0.77\n");
     print("constant stress gives the forces of its traction",
@@ -188,7 +188,7 @@ main(int argc, char **argv)
     Body                      body("Gauss");
     const std::vector<double> weight = body.points.weight,
                               g      = body.points.gradients;
-    body.particles.integrate(true, {}, body.points);
+    body.particles.prepare_b_bar(true, {}, body.points);
     double change = 0.;
     for (unsigned int p = 0; p < weight.size(); ++p)
       change =

@@ -72,9 +72,9 @@ namespace geocone
      * @param limits of the soil
      */
     void
-    integrate(const bool                    consistent,
-              const std::vector<SoilLimit> &limits,
-              MaterialPoints               &points) const;
+    prepare_b_bar(const bool                    consistent,
+                  const std::vector<SoilLimit> &limits,
+                  MaterialPoints               &points) const;
 
     /** After BackgroundMesh::repartition(), and Space::follow_ranks(): sends particles to
      *  where their cells are. Collective. */

@@ -361,8 +361,8 @@ namespace geocone
 
     double consistent_mass        = 0.;
     bool   consistent_integration = true;
-    double ghost_part      = 1e-5; ///< gamma of GhostStiffness
-    double largest_move    = 3.;
+    double ghost_part             = 1e-5; ///< gamma of GhostStiffness
+    double largest_move           = 3.;
 
     std::string                  grid_follows; ///< a condition, or nothing
     std::optional<FollowingGrid> following;
