@@ -24,9 +24,12 @@ namespace geocone
     /** The part of a cell up to which it need not be. */
     constexpr double least_part = 0.1;
 
-    /** The part of a cell's box, from lower to upper corner, on the soil's side of the
-     *  limits that cross it, or end at most one cell from it. */
-    std::pair<Point<dim>, Point<dim>>
+    /** Lower and upper corner of a box. */
+    using Corners = std::pair<Point<dim>, Point<dim>>;
+
+    /** The part of a cell's box on the soil's side of the limits that cross it, or lie at
+     *  most one cell from it. */
+    Corners
     soil_part(const BoundingBox<dim> &box, const std::vector<SoilLimit> &limits)
     {
       auto [lower, upper] = box.get_boundary_points();
@@ -59,8 +62,7 @@ namespace geocone
 
     /** The part of the cell's volume that it is. */
     double
-    share(const std::pair<Point<dim>, Point<dim>> &part,
-          const BoundingBox<dim>                  &box)
+    share(const Corners &part, const BoundingBox<dim> &box)
     {
       double product = 1.;
       for (unsigned int d = 0; d < dim; ++d)
@@ -96,11 +98,11 @@ namespace geocone
     };
 
     CellIntegrals
-    integrate(const BackgroundMesh                    &mesh,
-              const Space                             &space,
-              const Space::Cell                       &cell,
-              const std::pair<Point<dim>, Point<dim>> &part,
-              const Quadrature<dim>                   &quadrature)
+    integrate(const BackgroundMesh  &mesh,
+              const Space           &space,
+              const Space::Cell     &cell,
+              const Corners         &part,
+              const Quadrature<dim> &quadrature)
     {
       const unsigned int          n   = space.nodes_per_cell();
       const BoundingBox<dim>      box = cell->bounding_box();
@@ -132,72 +134,72 @@ namespace geocone
       return sum;
     }
 
-    /** Shifts a row of n functions at the points from first to last, so that its
-     *  integral over the points is that over the cell. */
-    template <typename Integral>
-    void
-    shift_to_integral(const double         volume,
-                      const Integral      &integral,
-                      const double        *weight,
-                      double              *values,
-                      const std::size_t    stride,
-                      const unsigned int   n_points,
-                      const unsigned int   n,
-                      std::vector<double> &shift)
+    /** What a cell with points can hold: the part that may be soil, and how much of it is
+     *  filled by the volumes of its points. */
+    struct Room
     {
-      shift.resize(n);
-      for (unsigned int i = 0; i < n; ++i)
+      Corners part;
+      double  share;  ///< of the cell
+      double  volume; ///< of the part
+      double  filled; ///< volume of the points over that
+    };
+
+    std::vector<Room>
+    rooms_of_cells(const BackgroundMesh         &mesh,
+                   const std::vector<SoilLimit> &limits,
+                   const MaterialPoints         &points)
+    {
+      std::vector<Room> rooms;
+      for (unsigned int c = 0; c < points.n_cells(); ++c)
         {
-          double sum = integral(i);
-          for (unsigned int q = 0; q < n_points; ++q)
-            sum -= weight[q] * values[q * stride + i];
-          shift[i] = sum / volume;
+          const BoundingBox<dim> box  = points.cells[c]->bounding_box();
+          const Corners          part = soil_part(box, limits);
+          const double           soil = share(part, box);
+          // The measure is linear.
+          const double volume =
+            soil * box.volume() *
+            mesh.measure(part.first + (part.second - part.first) / 2.);
+          rooms.push_back(
+            {part,
+             soil,
+             volume,
+             std::accumulate(&points.volume[points.first_point[c]],
+                             &points.volume[points.first_point[c + 1] - 1] + 1,
+                             0.) /
+               volume});
         }
-      for (unsigned int q = 0; q < n_points; ++q)
-        for (unsigned int i = 0; i < n; ++i)
-          values[q * stride + i] += shift[i];
+      return rooms;
     }
-  } // namespace
 
-  void
-  make_consistent(const BackgroundMesh         &mesh,
-                  const Space                  &space,
+    /** Whether all cells around a vertex that can hold soil are filled with it. */
+    std::vector<bool>
+    surrounded_vertices(const BackgroundMesh         &mesh,
+                        const std::vector<SoilLimit> &limits,
+                        const std::vector<Room>      &rooms,
+                        const MaterialPoints         &points)
+    {
+      std::vector<Space::Cell> filled;
+      for (unsigned int c = 0; c < rooms.size(); ++c)
+        if (rooms[c].filled > least_fill)
+          filled.push_back(points.cells[c]);
+      const auto             &tria      = mesh.triangulation();
+      const std::vector<bool> is_filled = mesh.is_among(filled);
+      std::vector<bool>       result(tria.n_vertices(), true);
+      for (const Space::Cell &cell : tria.active_cell_iterators())
+        if (!cell->is_artificial() && !is_filled[cell->active_cell_index()])
+          if (const BoundingBox<dim> box = cell->bounding_box();
+              share(soil_part(box, limits), box) > least_part)
+            for (const unsigned int v : cell->vertex_indices())
+              result[cell->vertex_index(v)] = false;
+      return result;
+    }
+
+    /** The cell beside another one that a limit leaves a sliver without points. */
+    std::optional<Space::Cell>
+    sliver_beside(const Space::Cell            &cell,
                   const std::vector<SoilLimit> &limits,
-                  MaterialPoints               &points)
-  {
-    const auto &tria = mesh.triangulation();
-    points.weight.assign(points.volume.begin(), points.volume.end());
-
-    // Vertices around which all that can hold soil is filled with it.
-    std::vector<Space::Cell> filled_cells;
-    for (unsigned int c = 0; c < points.n_cells(); ++c)
-      {
-        double volume = 0.;
-        for (unsigned int p = points.first_point[c];
-             p < points.first_point[c + 1];
-             ++p)
-          volume += points.volume[p];
-        const auto part = soil_part(points.cells[c]->bounding_box(), limits);
-        double     room =
-          mesh.measure(part.first + (part.second - part.first) / 2.);
-        for (unsigned int d = 0; d < dim; ++d)
-          room *= part.second[d] - part.first[d];
-        if (volume > least_fill * room)
-          filled_cells.push_back(points.cells[c]);
-      }
-    std::vector<bool>       is_surrounded(tria.n_vertices(), true);
-    const std::vector<bool> is_filled = mesh.is_among(filled_cells);
-    for (const Space::Cell &cell : tria.active_cell_iterators())
-      if (!cell->is_artificial() && !is_filled[cell->active_cell_index()])
-        if (const BoundingBox<dim> box = cell->bounding_box();
-            share(soil_part(box, limits), box) > least_part)
-          for (const unsigned int v : cell->vertex_indices())
-            is_surrounded[cell->vertex_index(v)] = false;
-
-    // Slivers of soil without points below a limit belong to the cell beside them.
-    const std::vector<bool> has_points = mesh.is_among(points.cells);
-    const auto              sliver_beside =
-      [&](const Space::Cell &cell) -> std::optional<Space::Cell> {
+                  const std::vector<bool>      &has_points)
+    {
       for (const SoilLimit &limit : limits)
         {
           const unsigned int face =
@@ -213,76 +215,92 @@ namespace geocone
             return other;
         }
       return std::nullopt;
-    };
+    }
 
-    const unsigned int                   n = points.n_nodes;
-    const QGauss<dim>                    quadrature(space.degree() / 2 + 1 +
+    /** Scales the weights of the points of a cell and shifts their gradients, so that sums
+     *  over the points are the integrals. */
+    void
+    match_integrals(const CellIntegrals &exact,
+                    const unsigned int   cell,
+                    const double         volume_of_points,
+                    MaterialPoints      &points)
+    {
+      const unsigned int first    = points.first_point[cell],
+                         n_points = points.first_point[cell + 1] - first,
+                         n        = points.n_nodes;
+      double *const weight        = &points.weight[first];
+      for (unsigned int q = 0; q < n_points; ++q)
+        weight[q] *= exact.volume / volume_of_points;
+      const auto shift =
+        [&](const auto &integral, double *values, const std::size_t stride) {
+          for (unsigned int i = 0; i < n; ++i)
+            {
+              double defect = integral(i);
+              for (unsigned int q = 0; q < n_points; ++q)
+                defect -= weight[q] * values[q * stride + i];
+              for (unsigned int q = 0; q < n_points; ++q)
+                values[q * stride + i] += defect / exact.volume;
+            }
+        };
+      for (unsigned int d = 0; d < dim; ++d)
+        shift([&](const unsigned int i) { return exact.gradient[i][d]; },
+              &points.gradients[(std::size_t(first) * dim + d) * n],
+              dim * n);
+      if (!points.hoop.empty())
+        shift([&](const unsigned int i) { return exact.hoop[i]; },
+              &points.hoop[std::size_t(first) * n],
+              n);
+    }
+  } // namespace
+
+  void
+  make_consistent(const BackgroundMesh         &mesh,
+                  const Space                  &space,
+                  const std::vector<SoilLimit> &limits,
+                  MaterialPoints               &points)
+  {
+    points.weight.assign(points.volume.begin(), points.volume.end());
+    const std::vector<Room> rooms = rooms_of_cells(mesh, limits, points);
+    const std::vector<bool> is_surrounded =
+      surrounded_vertices(mesh, limits, rooms, points);
+    const std::vector<bool> has_points = mesh.is_among(points.cells);
+    const QGauss<dim>       quadrature(space.degree() / 2 + 1 +
                                  (mesh.is_axisymmetric() ? 1 : 0));
     std::vector<types::global_dof_index> nodes, nodes_beside;
-    std::vector<double>                  shift;
     for (unsigned int c = 0; c < points.n_cells(); ++c)
       {
         const Space::Cell  cell(points.cells[c]);
-        const unsigned int first    = points.first_point[c],
-                           n_points = points.first_point[c + 1] - first;
-        const BoundingBox<dim> box  = cell->bounding_box();
-        const auto             part = soil_part(box, limits);
-        const double           soil = share(part, box);
-        if (n_points == 0)
-          continue;
-        double *const weight = &points.weight[first];
-        const double  volume = std::accumulate(weight, weight + n_points, 0.);
-        if (soil < rounding)
+        const Room        &room  = rooms[c];
+        const unsigned int first = points.first_point[c],
+                           last  = points.first_point[c + 1];
+        if (room.share < rounding)
           {
-            std::fill(weight, weight + n_points, 0.);
+            std::fill(&points.weight[first], &points.weight[last - 1] + 1, 0.);
             continue;
           }
-        CellIntegrals exact    = integrate(mesh, space, cell, part, quadrature);
-        const auto    vertices = cell->vertex_indices();
-        const bool    is_inside =
+        const auto vertices = cell->vertex_indices();
+        const bool is_inside =
           std::all_of(vertices.begin(), vertices.end(), [&](const auto v) {
             return is_surrounded[cell->vertex_index(v)];
           });
-        const double filled  = volume / exact.volume;
-        const bool   is_full = soil < 1. - rounding ||
-                             (is_inside && n_points > 1 && filled > 0.3) ||
-                             std::abs(filled - 1.) < 0.03;
-        if (!is_full)
+        if (room.share > 1. - rounding && !(is_inside && last - first > 1) &&
+            !(std::abs(room.filled - 1.) < 0.03))
           continue;
-        if (const auto beside = sliver_beside(cell))
+        CellIntegrals exact =
+          integrate(mesh, space, cell, room.part, quadrature);
+        if (const auto beside = sliver_beside(cell, limits, has_points))
           {
-            const CellIntegrals more =
-              integrate(mesh,
-                        space,
-                        *beside,
-                        soil_part((*beside)->bounding_box(), limits),
-                        quadrature);
             space.cell_nodes(cell, nodes);
             space.cell_nodes(*beside, nodes_beside);
-            exact.add(more, nodes_beside, nodes);
+            exact.add(integrate(mesh,
+                                space,
+                                *beside,
+                                soil_part((*beside)->bounding_box(), limits),
+                                quadrature),
+                      nodes_beside,
+                      nodes);
           }
-        for (unsigned int q = 0; q < n_points; ++q)
-          weight[q] *= exact.volume / volume;
-        for (unsigned int d = 0; d < dim; ++d)
-          shift_to_integral(
-            exact.volume,
-            [&](const unsigned int i) { return exact.gradient[i][d]; },
-            weight,
-            &points.gradients[(std::size_t(first) * dim + d) * n],
-            dim * n,
-            n_points,
-            n,
-            shift);
-        if (!points.hoop.empty())
-          shift_to_integral(
-            exact.volume,
-            [&](const unsigned int i) { return exact.hoop[i]; },
-            weight,
-            &points.hoop[std::size_t(first) * n],
-            n,
-            n_points,
-            n,
-            shift);
+        match_integrals(exact, c, room.filled * room.volume, points);
       }
   }
 } // namespace geocone
