@@ -314,16 +314,17 @@ namespace geocone
                    size / of_cell[held - 1],
                    size / of_conditions[held - 1]});
               space.cell_nodes(points.cells[c], nodes);
-              if (conditions[held - 1]->imposition.get()->through_flip)
-                add_flip_row(points, p, share, nodes, transfer, rows);
-              else
-                add_to_row(held - 1,
-                           share,
-                           points.position[p],
-                           t,
-                           nodes,
-                           &points.values[p * points.n_nodes],
-                           rows);
+              const bool through_flip =
+                conditions[held - 1]->imposition.get()->through_flip;
+              add_to_row(held - 1,
+                         share,
+                         points.position[p],
+                         through_flip ? transfer.t_end : t,
+                         nodes,
+                         &points.values[p * points.n_nodes],
+                         rows);
+              if (through_flip)
+                add_flip_offsets(points, p, share, nodes, transfer, rows);
             }
       }
   }
@@ -351,7 +352,7 @@ namespace geocone
   }
 
   void
-  MovingConditions::add_flip_row(
+  MovingConditions::add_flip_offsets(
     const MaterialPoints                       &points,
     const unsigned int                          p,
     const Imposition::Share                    &share,
@@ -370,16 +371,13 @@ namespace geocone
     for (unsigned int d = 0; d < dim; ++d)
       if (condition.components[d])
         {
-          const Multipliers::Key key{c, d, share.row};
-          for (unsigned int i = 0; i < nodes.size(); ++i)
-            rows.add_coefficient(key, nodes[i], share.weight * N[i]);
-          const double v =
+          const double prescribed =
             condition.components[d]->value(points.position[p], transfer.t_end);
-          const double end =
-            v - transfer.flip_part * (points.velocity[p][d] - L[d]); // N v_end
-          rows.add_target(key, share.weight * v);
-          rows.add_offset(
-            key, share.weight * (L[d] + transfer.part * (end - L[d]) - v));
+          const double end = // N v_end
+            prescribed - transfer.flip_part * (points.velocity[p][d] - L[d]);
+          rows.add_offset({c, d, share.row},
+                          share.weight *
+                            (L[d] + transfer.part * (end - L[d]) - prescribed));
         }
   }
 

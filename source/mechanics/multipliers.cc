@@ -37,15 +37,15 @@ namespace geocone
       return x;
     }
 
-    /** A row as the ranks give it: its coefficients by dof, its right-hand side, and
-     *  the part of that which is an offset. */
+    /** A row as the ranks give it: its coefficients by dof, its right-hand side q, and
+     *  the offset that q contains. */
     struct GivenRow
     {
       std::map<types::global_dof_index, double> coefficients;
       double                                    target = 0., offset = 0.;
     };
 
-    /** What contributions have in place of a node. */
+    /** Values of 'node' that mark contributions to the right-hand side. */
     constexpr double is_target = -1., is_offset = -2.;
 
     /** By condition, component and number. */
@@ -231,30 +231,28 @@ namespace geocone
                                const types::global_dof_index node,
                                const double                  value)
   {
-    contributions.push_back({{double(key.condition),
-                              double(key.component),
-                              double(key.number),
-                              double(node),
-                              value}});
+    contribute(key, node, value);
   }
 
   void
   Multipliers::add_target(const Key &key, const double value)
   {
-    contributions.push_back({{double(key.condition),
-                              double(key.component),
-                              double(key.number),
-                              is_target,
-                              value}});
+    contribute(key, is_target, value);
   }
 
   void
   Multipliers::add_offset(const Key &key, const double value)
   {
+    contribute(key, is_offset, value);
+  }
+
+  void
+  Multipliers::contribute(const Key &key, const double node, const double value)
+  {
     contributions.push_back({{double(key.condition),
                               double(key.component),
                               double(key.number),
-                              is_offset,
+                              node,
                               value}});
   }
 

@@ -41,8 +41,9 @@ namespace geocone
                   const Stage *stage  = nullptr,
                   const bool   raised = false) const;
 
-    /** What turns the velocity that a step solves for, v = v^L + part (v_end - v^L), into
-     *  that of a particle at its end, f (v_p + N (v_end - v^L)) + (1 - f) N v_end. */
+    /** The transfer from nodes to particles in a step: it solves for
+     *  v = v^L + part (v_end - v^L), and the velocity of a particle at its end is
+     *  f (v_p + N (v_end - v^L)) + (1 - f) N v_end. */
     struct Transfer
     {
       const Vector &velocity_L; ///< with ghost values
@@ -141,15 +142,6 @@ namespace geocone
                           const Transfer       &transfer,
                           Multipliers          &rows) const;
 
-    /** The row of a particle with the velocity that FLIP gives it. */
-    void
-    add_flip_row(const MaterialPoints                               &points,
-                 const unsigned int                                  p,
-                 const Imposition::Share                            &share,
-                 const std::vector<dealii::types::global_dof_index> &nodes,
-                 const Transfer                                     &transfer,
-                 Multipliers &rows) const;
-
     /** Adds a place x, with the functions that are not zero there, to a row of
      *  a condition for each component that it prescribes. */
     void
@@ -160,6 +152,17 @@ namespace geocone
                const std::vector<dealii::types::global_dof_index> &nodes,
                const double                                       *values,
                Multipliers                                        &rows) const;
+
+    /** Adds to the row of a held particle the offsets by which N v has to differ from the
+     *  prescribed velocity, so that FLIP gives it to the particle. */
+    void
+    add_flip_offsets(
+      const MaterialPoints                               &points,
+      const unsigned int                                  p,
+      const Imposition::Share                            &share,
+      const std::vector<dealii::types::global_dof_index> &nodes,
+      const Transfer                                     &transfer,
+      Multipliers                                        &rows) const;
     /** @} */
 
     /** Adds the part of a load that acts at a point of a facet.

@@ -221,7 +221,10 @@ namespace geocone
     }
 
   private:
-    /** condition, component, number, node (-1: target), value. */
+    void
+    contribute(const Key &key, const double node, const double value);
+
+    /** condition, component, number, node (-1: target, -2: offset), value. */
     std::vector<std::array<double, 5>> contributions;
 
     MPI_Comm         comm         = MPI_COMM_SELF;
