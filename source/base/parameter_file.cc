@@ -180,26 +180,33 @@ namespace geocone
     return std::filesystem::path(path_of_file).stem().string();
   }
 
+  std::size_t
+  ParameterFile::equals_sign(const std::string &override_text) const
+  {
+    const auto is_section = [&](const std::string &name) {
+      return std::any_of(lines.begin(), lines.end(), [&](const Line &line) {
+        return line.text == "subsection " + name;
+      });
+    };
+    std::size_t begin = 0; // of the next name
+    for (;;)
+      {
+        const std::size_t slash  = override_text.find('/', begin),
+                          equals = override_text.find('=', begin);
+        if (slash == std::string::npos ||
+            (equals < slash &&
+             !is_section(trim(override_text.substr(begin, slash - begin)))))
+          return equals;
+        begin = slash + 1;
+      }
+  }
+
   void
   ParameterFile::append(const std::vector<std::string> &overrides)
   {
     for (const std::string &override_text : overrides)
       {
-        // The names of sections may have equals signs.
-        std::size_t entry = 0;
-        for (auto slash = override_text.find('/'); slash != std::string::npos;
-             slash      = override_text.find('/', entry))
-          {
-                 const std::string section =
-                   trim(override_text.substr(entry, slash - entry));
-                 if (section.find('=') != std::string::npos &&
-                std::none_of(lines.begin(), lines.end(), [&](const Line &line) {
-                  return line.text == "subsection " + section;
-                }))
-              break;
-            entry = slash + 1;
-          }
-        const auto        equals = override_text.find('=', entry);
+        const auto        equals = equals_sign(override_text);
         const std::string where  = "--set '" + printable(override_text) + "'";
         const auto [sections, name] =
           sections_and_name(override_text.substr(0, equals));

@@ -159,6 +159,11 @@ namespace geocone
                const std::string &shown_name,
                const int          depth);
 
+    /** The place of the sign behind the name of an override's parameter: names of sections
+     *  may have equals signs, too. */
+    std::size_t
+    equals_sign(const std::string &override_text) const;
+
     /** Adds overrides of the command line. */
     void
     append(const std::vector<std::string> &overrides);
