@@ -489,17 +489,24 @@ def table_of(head, rows, cells):
     return ["run", *head], lines
 
 
+def load_numbers(row):
+    """Loads of a footing (N/m) by name: first, last, largest, and late, the mean of the second
+    half of the run."""
+    table = statistics(row)
+    load, time = table["load (N/m)"], table["time (s)"]
+    return {"first": load[0], "last": load[-1], "largest": load.max(),
+            "late": load[time > time[-1] / 2.].mean()}
+
+
 @takes()
 def loads_table(rows, _):
     """Head and lines: what each run of a footing has found."""
     def cells(row):
-        table, summary = statistics(row), row["summary"]
-        load, time = table["load (N/m)"], table["time (s)"]
-        late = load[time > time[-1] / 2.].mean()
+        summary, loads = row["summary"], load_numbers(row)
         exact = summary["limit_load"]["reference"]
-        loads = (load.max(), load[-1], late, exact)
-        return [*(f"{value / 1e3:.2f}" for value in loads),
-                f"{load.max() / exact:.3f}", f"{late / exact:.3f}",
+        return [*(f"{value / 1e3:.2f}" for value in
+                  (loads["largest"], loads["last"], loads["late"], exact)),
+                f"{loads['largest'] / exact:.3f}", f"{loads['late'] / exact:.3f}",
                 str(summary["size"].get("lost_points", 0)),
                 f"{summary['newton']['iterations_mean']:.1f}",
                 str(summary["newton"]["failures"])]
@@ -509,18 +516,31 @@ def loads_table(rows, _):
                      "failed attempts"], rows, cells)
 
 
+def energy_numbers(row):
+    """Numbers of section 5.2 by name: the largest plastic strain, energies (J/m), the time of
+    the largest kinetic energy (s), losses of the total relative to what is released and to
+    the initial energy."""
+    time, e = energy_table(row)
+    loss = e["total"][0] - e["total"][-1]
+    return {"strain": row["summary"]["state"]["largest_plastic_strain"],
+            "released": e["potential"][0], "dissipated": e["dissipation"][-1],
+            "largest kinetic": e["kinetic"].max(), "last kinetic": e["kinetic"][-1],
+            "time of the largest kinetic": time[np.argmax(e["kinetic"])],
+            "loss / released": loss / e["potential"][0],
+            "loss / initial": loss / row["summary"]["energy"]["initial_J_per_m"],
+            "largest rise of the total": max(0., np.diff(e["total"]).max())}
+
+
 @takes()
 def energies_table(rows, _):
     """Head and lines: what each run of a slope has found."""
     def cells(row):
-        time, e = energy_table(row)
-        loss = e["total"][0] - e["total"][-1]
-        return [f"{100. * row['summary']['state']['largest_plastic_strain']:.0f} %",
-                f"{e['potential'][0] / 1e3:.1f}", f"{e['dissipation'][-1] / 1e3:.1f}",
-                f"{e['kinetic'].max() / 1e3:.1f}", f"{time[np.argmax(e['kinetic'])]:.2f}",
-                f"{e['kinetic'][-1] / 1e3:.2f}", f"{100. * loss / e['potential'][0]:.1f}",
-                f"{100. * loss / row['summary']['energy']['initial_J_per_m']:.2f}",
-                f"{max(0., np.diff(e['total']).max()):.1f}",
+        e = energy_numbers(row)
+        return [f"{100. * e['strain']:.0f} %",
+                f"{e['released'] / 1e3:.1f}", f"{e['dissipated'] / 1e3:.1f}",
+                f"{e['largest kinetic'] / 1e3:.1f}", f"{e['time of the largest kinetic']:.2f}",
+                f"{e['last kinetic'] / 1e3:.2f}", f"{100. * e['loss / released']:.1f}",
+                f"{100. * e['loss / initial']:.2f}", f"{e['largest rise of the total']:.1f}",
                 str(row["summary"]["size"].get("lost_points", 0))]
     return table_of(["largest plastic strain", "released potential energy (kJ/m)",
                      "dissipation (kJ/m)", "largest kinetic energy (kJ/m)", "at (s)",
@@ -534,15 +554,8 @@ def misfits(rows, _):
     """Head and lines: how far slopes of several shapes (axes 'shape' and 'theta') are from
     the numbers of figures 16 to 19, the root mean square of the logarithms of their
     ratios; losses count above 5 %."""
-    found = {}
-    for row in rows:
-        if row["status"] == "finished":
-            time, e = energy_table(row)
-            found[row["axes"]["shape"], row["axes"]["theta"]] = {
-                "strain": row["summary"]["state"]["largest_plastic_strain"],
-                "released": e["potential"][0], "dissipated": e["dissipation"][-1],
-                "loss": (e["total"][0] - e["total"][-1]) / e["potential"][0],
-                "time": time[np.argmax(e["kinetic"])]}
+    found = {(row["axes"]["shape"], row["axes"]["theta"]): energy_numbers(row)
+             for row in rows if row["status"] == "finished"}
     lines = []
     for shape in dict.fromkeys(row["axes"]["shape"] for row in rows):
         try:
@@ -551,13 +564,14 @@ def misfits(rows, _):
             lines.append([shape, "failed", *["-"] * 7])
             continue
         ratios = [a["strain"] / 2., z["strain"] / 3., z["released"] / a["released"] / 5.,
-                  z["dissipated"] / a["dissipated"] / 10., a["time"] / 1.5,
-                  max(1., a["loss"] / 0.05), max(1., z["loss"] / 0.05)]
+                  z["dissipated"] / a["dissipated"] / 10., a["time of the largest kinetic"] / 1.5,
+                  *(max(1., e["loss / released"] / 0.05) for e in (a, z))]
         lines.append([shape, f"{np.sqrt(np.mean(np.log(ratios)**2)):.3f}",
                       f"{100. * a['strain']:.0f}", f"{100. * z['strain']:.0f}",
                       f"{z['released'] / a['released']:.1f}",
-                      f"{z['dissipated'] / a['dissipated']:.1f}", f"{a['time']:.2f}",
-                      f"{100. * a['loss']:.1f}", f"{100. * z['loss']:.1f}"])
+                      f"{z['dissipated'] / a['dissipated']:.1f}",
+                      f"{a['time of the largest kinetic']:.2f}",
+                      *(f"{100. * e['loss / released']:.1f}" for e in (a, z))])
     return ["shape", "misfit", "strain, theta = phi (%)", "strain, theta = 0 (%)",
             "ratio of energies", "ratio of dissipations", "time (s)",
             "loss, theta = phi (%)", "loss, theta = 0 (%)"], lines
