@@ -21,7 +21,7 @@ release = re.search(r"project\(geocone VERSION ([\d.]+)",
 extensions = ["myst_parser", "sphinx.ext.mathjax"]
 root_doc = "README"
 include_patterns = ["*.md", "doc/*.md", "doc/cookbook/*.md", "doc/notebooks/*.ipynb",
-                    "packaging/*.md"]
+                    "packaging/*.md", "meshes/*.md"]
 exclude_patterns = ["doc/api.md"]  # the first page of doxygen's site
 myst_enable_extensions = ["dollarmath", "amsmath"]
 myst_heading_anchors = 4
@@ -53,11 +53,11 @@ PAGES = {
     "Use": ["doc/cookbook/README", "doc/notebooks/footing",
             "doc/notebooks/slope_factor_of_safety", "doc/notebooks/element_tests",
             "doc/runs", "doc/trust", "doc/element_test", "doc/studies",
-            "packaging/README"],
+            "meshes/README", "packaging/README"],
     "What is known": ["doc/comparison", "doc/validation", "doc/verification",
                       "doc/verification_mpm", "doc/limit_load", "doc/footing_deep",
                       "doc/friction_memory", "doc/small_dilatancy", "doc/stability", "doc/performance",
-                      "doc/paper",
+                      "doc/overhead", "doc/paper",
                       "doc/profiles"],
     "How it works": ["doc/theory", "CONTRIBUTING", "CHANGELOG"]}
 

@@ -30,7 +30,7 @@ for words in 'limit_load.html, which is not there' 'footing_mpm.png, which is no
 done
 mkdir broken
 cp -r "$root"/*.md "$root/CMakeLists.txt" "$root/doc" "$root/scripts" "$root/prm" \
-  "$root/packaging" "$root/LICENSE" broken
+  "$root/meshes" "$root/packaging" "$root/LICENSE" broken
 cat >> broken/doc/cookbook/bar.md <<'TEXT'
 
 [a](none.md), [b](../../prm/none.prm), [c](footing.md#none), ![d](none.png)

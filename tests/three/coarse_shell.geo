@@ -1,5 +1,5 @@
 // An eighth of a thick sphere, x, y, z >= 0 (m), of hexahedra: three blocks around
-// (1, 1, 1), in layers from the inner to the outer radius. As prm/three/eighth_shell.geo,
+// (1, 1, 1), in layers from the inner to the outer radius. As meshes/eighth_shell.geo,
 // with larger cells.
 inner  = 1;
 outer  = 2;

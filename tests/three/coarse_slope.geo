@@ -1,5 +1,5 @@
 // Half of a slope of finite length on a rigid base: H = 1 m high, 60 degrees, from the
-// middle (z = 0) to its end (m), hexahedra. As prm/three/slope.geo, with larger cells.
+// middle (z = 0) to its end (m), hexahedra. As meshes/slope.geo, with larger cells.
 half   = 1;     // of the length
 angle  = 60;    // of the face, degrees
 crest  = 1.5;   // width of the ground behind the crest

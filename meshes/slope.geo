@@ -1,6 +1,6 @@
 // Half of a slope of finite length on a rigid base: H = 1 m high, 60 degrees, from the
-// middle (z = 0) to its end (m), hexahedra. It is read by slope.prm, and by gmsh:
-// gmsh -3 slope.geo
+// middle (z = 0) to its end (m), hexahedra. It is read by prm/three/slope.prm, and by
+// gmsh: gmsh -3 slope.geo
 half   = 1;     // of the length
 angle  = 60;    // of the face, degrees
 crest  = 1.5;   // width of the ground behind the crest

@@ -1,6 +1,6 @@
 // A quarter of the ground under a round footing: x, z >= 0, y <= 0 (m), hexahedra in
 // rings that are fine at the footing's edge and layers that are fine at the ground.
-// It is read by the .prm files of this folder, and by gmsh: gmsh -3 quarter_disc.geo
+// It is read by prm/three/circular_footing.prm, and by gmsh: gmsh -3 quarter_disc.geo
 radius = 0.1;  // of the footing
 width  = 0.6;  // of the ground
 depth  = 0.4;

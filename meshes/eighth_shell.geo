@@ -1,6 +1,6 @@
 // An eighth of a thick sphere, x, y, z >= 0 (m), of hexahedra: three blocks around
-// (1, 1, 1), in layers from the inner to the outer radius. It is read by sphere.prm, and
-// by gmsh: gmsh -3 eighth_shell.geo
+// (1, 1, 1), in layers from the inner to the outer radius. It is read by
+// prm/three/sphere.prm, and by gmsh: gmsh -3 eighth_shell.geo
 inner  = 1;
 outer  = 2;
 n      = 8;  // cells along the half of an arc of 90 degrees

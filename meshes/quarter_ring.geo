@@ -1,5 +1,6 @@
 // A quarter of a thick cylinder around y, x, z >= 0 (m), of hexahedra: one layer of cells
-// along y. It is read by thick_cylinder.prm, and by gmsh: gmsh -3 quarter_ring.geo
+// along y. It is read by prm/three/thick_cylinder.prm, and by gmsh:
+// gmsh -3 quarter_ring.geo
 inner  = 1;
 outer  = 2;
 height = 0.25;
