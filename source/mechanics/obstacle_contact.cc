@@ -663,7 +663,9 @@ namespace geocone
           displacement[o].add({h * solved.centre, h * solved.rotation});
         for (unsigned int k = 0; k < RigidMotion::n_components; ++k)
           velocity[o][k] =
-            h == solved_h ? solved[k] : 2. * solved[k] - velocity[o][k];
+            h == solved_h ?
+              solved[k] :
+              h / solved_h * solved[k] - (h / solved_h - 1.) * velocity[o][k];
       }
     if (!moves)
       return;

@@ -70,9 +70,8 @@ namespace geocone
                   "the scaled diagonal).");
     integration.declare(
       *this,
-      "Integration",
-      ", of FEM with inertia. Midpoint: of order two; elastic "
-      "motion loses no energy, and waves are not damped.");
+      ", of FEM with inertia. Midpoint and Newmark's average acceleration: of "
+      "order two; elastic motion loses no energy, and waves are not damped.");
   }
 
   std::string
@@ -94,7 +93,7 @@ namespace geocone
                          "nodes with FEM",
                          "impose it on nodes, or set Discretisation/Method = "
                          "MPM");
-    if (integration == Integration::midpoint && !inertia)
+    if (!integration.is_backward_euler() && !inertia)
       throw InputError("Time stepping/Integration",
                        integration.word(),
                        "backward Euler without inertia",
@@ -111,7 +110,7 @@ namespace geocone
                        "set Time stepping/Inertia = true");
     RaisedLoads::check(*scene);
     check_round_body(*scene);
-    check_midpoint(integration, *scene, "Time stepping/Integration");
+    integration.check(*scene, "Time stepping/");
     points = make_quadrature_points(*scene, mesh_, space_);
     if (scene->loading.changes_body())
       {
@@ -183,15 +182,15 @@ namespace geocone
         *scene, *mesh, *space, points, weight_per_g, lumped_mass);
     if (has_force())
       force.reinit(space->partitioner());
-    problem =
-      std::make_unique<IncrementalProblem>(points,
-                                           scene->materials,
-                                           *constraints,
-                                           space->partitioner(),
-                                           inertia ? &lumped_mass : nullptr,
-                                           0.,
-                                           std::vector<GhostStencil>(),
-                                           obstacles->exists());
+    problem = std::make_unique<IncrementalProblem>(
+      points,
+      scene->materials,
+      *constraints,
+      space->partitioner(),
+      inertia ? &integration.mass_of_problem(lumped_mass) : nullptr,
+      0.,
+      std::vector<GhostStencil>(),
+      obstacles->exists());
     if (absorbing->exists())
       problem->add(*absorbing);
     system->set_pattern(*problem, timer);
@@ -333,7 +332,7 @@ namespace geocone
                           TimerOutput      &timer)
   {
     Vector prescribed = problem->make_vector();
-    constraints->set_values(prescribed, step.solved_at);
+    constraints->set_values(prescribed, step.prescribed_at);
     // Where dofs are turned, the problem has its vectors along them.
     const Stage &stage  = scene->loading.stage_at(step.t + step.h / 2.);
     const bool   raises = stage.raises_loads();
@@ -354,8 +353,15 @@ namespace geocone
         constraints->turn(of_raised);
         raised.add_row(stage, of_raised, prescribed, *constraints);
       }
-    velocity_n = kinematics.velocity;
-    constraints->turn(velocity_n);
+    velocity_L = kinematics.velocity;
+    constraints->turn(velocity_L);
+    if (integration.is_newmark())
+      {
+        Vector net = net_force(step.t);
+        fading.add_to(net, step.t);
+        constraints->turn(net);
+        integration.predict(step, net, lumped_mass, *constraints, velocity_L);
+      }
     ContactStep touching;
     if (obstacles->exists())
       {
@@ -368,7 +374,7 @@ namespace geocone
       absorbing->begin_step(step.solved_at, *constraints);
     problem->begin_step(step.solved_h,
                         has_force() ? &force : nullptr,
-                        velocity_n,
+                        velocity_L,
                         prescribed,
                         std::move(touching));
     if (problem->needs_pattern())
@@ -398,8 +404,8 @@ namespace geocone
   double
   ImplicitFEM::update_points(const TimeStep &step, MaterialPoints &points) const
   {
-    const std::vector<EndOfStep> ends = end_step(
-      integration, problem->internal_forces(), scene->materials, points);
+    const std::vector<EndOfStep> ends =
+      end_step(step, problem->internal_forces(), scene->materials, points);
     double dissipation = 0.;
     for (unsigned int p = 0; p < points.n_points(); ++p)
       {
@@ -411,7 +417,7 @@ namespace geocone
         points.plastic_strain_rate[p] = end.slip / step.h;
       }
     return dealii::Utilities::MPI::sum(dissipation,
-                                       velocity_n.get_mpi_communicator());
+                                       velocity_L.get_mpi_communicator());
   }
 
   double
@@ -420,18 +426,9 @@ namespace geocone
                                  Kinematics     &kinematics)
   {
     double settled = 0.;
-    if (integration == Integration::midpoint)
-      {
-        kinematics.velocity.sadd(-1., 2., v);
-        if (obstacles->exists())
-          settled = obstacles->settle(problem->contact(),
-                                      *constraints,
-                                      v,
-                                      lumped_mass,
-                                      kinematics.velocity);
-      }
-    else
-      kinematics.velocity = v;
+    if (step.extrapolation != 1. && obstacles->exists())
+      settled = obstacles->settle(
+        problem->contact(), *constraints, v, lumped_mass, kinematics.velocity);
     kinematics.displacement.add(step.h, v);
     for (unsigned int c = 0; c < scene->dirichlet.list.size(); ++c)
       for (unsigned int d = 0; d < dim; ++d)
@@ -457,21 +454,21 @@ namespace geocone
   {
     if (!begun)
       begin(points, timer);
-    const TimeStep    step(integration, t, h);
+    const TimeStep    step   = integration.step(t, h);
     const RaisedLoads raised = begin_step(step, kinematics, timer);
 
     StepReport report;
     Vector     residual = problem->make_vector();
-    Vector     v        = velocity_n;
+    Vector     v        = velocity_L;
     report.newton       = newton.solve(
       *problem, *system, timer, v, residual, {false, accepted_excess});
     report.converged = report.newton.converged;
-    freezer.take(*problem, velocity_n, false, report.converged);
+    freezer.take(*problem, velocity_L, false, report.converged);
     if (const Stage &stage = scene->loading.stage_at(t + h / 2.);
         stage.seeks_equilibrium() && report.converged)
       {
         report.newton.reason = stage.no_equilibrium(accelerating_share(
-          *problem, points, scene->materials, velocity_n, v));
+          *problem, points, scene->materials, velocity_L, v));
         report.converged     = report.newton.reason.empty();
       }
     if (!report.converged)
@@ -494,12 +491,14 @@ namespace geocone
       energy_identity_error(*problem,
                             points,
                             scene->materials,
-                            velocity_n,
+                            velocity_L,
                             v,
                             (step.solved_h / h) * works.external);
     works.of_excess   = (h / step.solved_h) * forces.excess_work();
     works.dissipation = update_points(step, points);
 
+    kinematics.velocity = integration.end_velocity(step, velocity_L, v);
+    constraints->turn_back(kinematics.velocity);
     constraints->turn_back(v);
     report.reactions = constraints->reactions(
       residual, points, forces.total_stress(), step.solved_at);
@@ -572,7 +571,7 @@ namespace geocone
                   [&](const auto &cell) { return record.has(cell); });
     const bool is_other_body = dealii::Utilities::MPI::logical_or(
       scene->loading.changes_body() || !has_all,
-      velocity_n.get_mpi_communicator());
+      velocity_L.get_mpi_communicator());
     if (is_other_body)
       {
         points = quadrature_points_of(

@@ -32,7 +32,6 @@ namespace geocone
     check_parameters();
     RaisedLoads::check(*scene);
     check_round_body(*scene);
-    check_midpoint(integration, *scene, "Material point method/Integration");
 
     for (const auto &condition : scene->dirichlet.list)
       condition->refuse_normal("free with MPM",
@@ -40,10 +39,11 @@ namespace geocone
                                "Discretisation/Method = FEM");
 
     std::string warning = particles.prepare(*scene, *mesh, *space, points);
-    if (integration == Integration::midpoint &&
+    if (!integration.is_backward_euler() &&
         advection == Advection::particle_velocity)
       warning += std::string(warning.empty() ? "" : "; ") +
-                 "the midpoint rule with Advection = particle velocity lets "
+                 "Integration = " + integration.word() +
+                 " with Advection = particle velocity lets "
                  "the total energy grow where particles and nodes move "
                  "differently: take the grid velocity";
     datum = mesh->lower_corner();
@@ -63,7 +63,6 @@ namespace geocone
     if (bodies)
       bodies->check_start(points, *constraints);
     constraints->check_axis(*mesh, *space);
-    newton.check(*problem);
     moving->check_held_particles(points);
     if (const Stage &first = *scene->loading.stages.front(); first.removes())
       {
@@ -84,6 +83,7 @@ namespace geocone
     // Refuses what it must before the run.
     moving->make_rows(
       points, v, 0., {velocity_L, rule.flip_part(), 1., 0.}, *constraints);
+    newton.check(*problem);
     kinematics.velocity = velocity_L;
     kinematics.supports.resize(scene->supports().size());
     if (const std::string bent = constraints->warn_of_bent_values();
@@ -192,14 +192,15 @@ namespace geocone
       lumped_mass.update_ghost_values();
       constraints->number_unknowns(&lumped_mass);
     }
-    problem = std::make_unique<IncrementalProblem>(points,
-                                                   scene->materials,
-                                                   *constraints,
-                                                   space->partitioner(),
-                                                   &lumped_mass,
-                                                   consistent_mass,
-                                                   ghost_stencils(points),
-                                                   obstacles->exists());
+    problem = std::make_unique<IncrementalProblem>(
+      points,
+      scene->materials,
+      *constraints,
+      space->partitioner(),
+      &integration.mass_of_problem(lumped_mass),
+      consistent_mass,
+      ghost_stencils(points),
+      obstacles->exists());
     {
       TimerOutput::Scope scope(timer, "transfer");
       if (consistent_mass > 0.)
@@ -389,14 +390,14 @@ namespace geocone
     SolverReport report;
     for (const Start start : starts)
       {
-        v = velocity_L;
+        v = start_velocity();
         if (start == Start::nodes)
           for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
             if (had_mass.empty() || had_mass[i])
               v.local_element(i) = constraints->has_mass(i)
                                      ? kinematics.velocity.local_element(i)
                                      : 0.;
-        constraints->set_values(v, step.solved_at);
+        constraints->set_values(v, step.prescribed_at);
         const Vector v_start = v;
         hints.elastic_first  = start == Start::particles;
         SolverReport tried =
@@ -420,7 +421,15 @@ namespace geocone
     RaisedLoads  raised;
     {
       TimerOutput::Scope scope(timer, "transfer");
-      constraints->set_values(prescribed, step.solved_at);
+      constraints->set_values(prescribed, step.prescribed_at);
+      if (integration.is_newmark())
+        {
+          Vector net = net_force(points, step.t);
+          fading.add_to(net, step.t);
+          predicted = velocity_L;
+          integration.predict(step, net, lumped_mass, *constraints, predicted);
+          predicted.update_ghost_values();
+        }
       moving->make_rows(
         points,
         prescribed,
@@ -450,7 +459,7 @@ namespace geocone
         bodies ? bodies->find(points, *constraints)
                : std::vector<FacingNode>());
     problem->begin_step(
-      step.solved_h, &force, velocity_L, prescribed, std::move(touching));
+      step.solved_h, &force, start_velocity(), prescribed, std::move(touching));
     if (!has_pattern || problem->needs_pattern())
       system->set_pattern(*problem, timer);
     has_pattern = true;
@@ -469,7 +478,7 @@ namespace geocone
   {
     if (!begun)
       begin(points, timer);
-    const TimeStep    step(integration, t, h);
+    const TimeStep    step   = integration.step(t, h);
     const RaisedLoads raised = begin_step(step, points, timer);
     StepReport        report;
     report.unknowns = unknowns = constraints->n_rows;
@@ -491,17 +500,15 @@ namespace geocone
     // By the midpoint rule a node that hits rebounds, and its particles share that with
     // others when the next step begins: what touches comes to rest by itself, where
     // fixed meshes need ObstacleContact::settle.
-    Vector v_end = v;
-    if (integration == Integration::midpoint)
-      v_end.sadd(2., -1., velocity_L);
+    const Vector v_end = integration.end_velocity(step, start_velocity(), v);
     std::vector<Moved>            moved;
     const Multipliers::LightShare share =
       constraints->multipliers.light_share(v, lumped_mass, *space);
     report.newton.reason = objection(share);
     if (const Stage &stage = scene->loading.stage_at(t + h / 2.);
         stage.seeks_equilibrium() && report.newton.reason.empty())
-      report.newton.reason = stage.no_equilibrium(
-        accelerating_share(*problem, points, scene->materials, velocity_L, v));
+      report.newton.reason = stage.no_equilibrium(accelerating_share(
+        *problem, points, scene->materials, start_velocity(), v));
     if (report.newton.reason.empty())
       report.newton.reason = transfer(points, v_end, v, h, moved);
     if (!report.newton.reason.empty())

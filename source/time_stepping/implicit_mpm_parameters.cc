@@ -44,7 +44,7 @@ namespace geocone
                    "Ghost stiffness of",
                    ": which functions. All: fewer iterations where soil flows, "
                    "but it takes some per cent of the energy.");
-    integration.declare(*this, "Integration", ", which loses less energy.");
+    integration.declare(*this, ". All but the first lose less energy.");
     start_asked.declare(
       *this,
       "Start",
@@ -79,6 +79,13 @@ namespace geocone
       throw InputError(
         section + "Largest move", largest_move, "> 0 cells", "3 is usual");
     balance.prepare();
+    integration.check(*scene, section);
+    if (integration.is_newmark() && consistent_mass > 0.)
+      throw InputError(section + "Consistent mass part",
+                       consistent_mass,
+                       "0 with Integration = Newmark",
+                       "accelerations are forces over the lumped mass: set it "
+                       "to 0, or take the theta-scheme");
     if (ghosts == Ghosts::all && !space->is_spline())
       throw InputError(
         section + "Ghost stiffness of",

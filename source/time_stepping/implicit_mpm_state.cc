@@ -256,7 +256,7 @@ namespace geocone
       *problem,
       points,
       scene->materials,
-      velocity_L,
+      start_velocity(),
       v,
       (work.of_weight + work.of_others) * (step.solved_h / step.h) -
         ghost_work);
@@ -344,8 +344,8 @@ namespace geocone
                              const std::vector<Moved> &moved,
                              MaterialPoints           &points) const
   {
-    const std::vector<EndOfStep> ends = end_step(
-      integration, problem->internal_forces(), scene->materials, points);
+    const std::vector<EndOfStep> ends =
+      end_step(step, problem->internal_forces(), scene->materials, points);
     double dissipation = 0.;
     for (unsigned int p = 0; p < points.n_points(); ++p)
       {

@@ -189,9 +189,14 @@ namespace geocone
     SpatialMandel
     plastic_strain_increment(const unsigned int point) const;
 
-    /** Of a point, with s_zz of laws that are spatial (else 0). */
+    /** @name Stress of a point, the trial one and at t_n, with s_zz of laws that are
+     *  spatial (else 0) */
+    /** @{ */
     SpatialMandel
     whole_stress(const unsigned int point) const;
+    SpatialMandel
+    whole_stress_n(const unsigned int point) const;
+    /** @} */
 
     /** Of a point in the step, per volume (J/m^3). */
     struct Work
@@ -312,9 +317,7 @@ namespace geocone
     void
     update_pressures();
 
-    /** Of a point at t_n, and its strain increment. */
-    SpatialMandel
-    whole_stress_n(const unsigned int point) const;
+    /** The strain increment of a point. */
     SpatialMandel
     whole_strain(const unsigned int point) const;
 

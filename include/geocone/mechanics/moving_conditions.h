@@ -48,7 +48,7 @@ namespace geocone
     {
       const Vector &velocity_L; ///< with ghost values
       double        flip_part;  ///< f
-      double        part;       ///< 1, or 1/2 by the midpoint rule
+      double        part;       ///< theta of the theta-scheme, or 1
       double        t_end;
     };
 

@@ -95,7 +95,7 @@ namespace geocone
     /**
      * The nodes and the obstacles of a step from t to t + h.
      * @param velocity_n at t_n, with ghosts
-     * @param solved_h what is solved for: h, or h/2 by the midpoint rule
+     * @param solved_h what is solved for: theta h by the theta-scheme
      * @param gaps of a background mesh: per obstacle the gap to it of the nearest
      * particle that a node moves, by its first dof, with ghosts
      * @param facing of a background mesh: the nodes of bodies that may touch
@@ -131,8 +131,8 @@ namespace geocone
                       std::vector<dealii::Tensor<1, dim>> &supports) const;
 
     /**
-     * For the midpoint rule: nodes that touch keep the velocity against the obstacle
-     * that was solved for, where the one at the end of the step is larger. Doubled
+     * For the theta-scheme: nodes that touch keep the velocity against the obstacle
+     * that was solved for, where the one at the end of the step is larger. Extrapolated
      * like others they would rebound in each step, and their forces alternate.
      * @param unknowns what is held stays as it is @param v solved for @param mass of the
      *  nodes @param[in,out] v_end

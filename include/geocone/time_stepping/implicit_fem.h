@@ -9,15 +9,14 @@
 #include <geocone/mechanics/loads.h>
 #include <geocone/mechanics/obstacle_contact.h>
 #include <geocone/time_stepping/fading_forces.h>
-#include <geocone/time_stepping/midpoint_rule.h>
 #include <geocone/time_stepping/raised_loads.h>
+#include <geocone/time_stepping/time_integration.h>
 #include <geocone/time_stepping/time_stepper.h>
 
 namespace geocone
 {
   /**
-   * Steps of the finite element method with points that do not move (small strains):
-   * backward Euler, or the midpoint rule.
+   * Steps of the finite element method with points that do not move (small strains).
    */
   class ImplicitFEM : public TimeStepper, public dealii::ParameterAcceptor
   {
@@ -121,7 +120,8 @@ namespace geocone
     double
     update_points(const TimeStep &step, MaterialPoints &points) const;
 
-    /** Gives nodes and supports theirs, by the velocity v that was solved for.
+    /** Gives nodes and supports their displacements, by the velocity v that was solved
+     *  for, and nodes in contact theirs at the end of the step.
      *  @return what contact takes when it settles (J/m) */
     double
     update_kinematics(const TimeStep &step,
@@ -138,8 +138,8 @@ namespace geocone
     Vector
     net_force(const double t) const;
 
-    bool                inertia     = false;
-    Choice<Integration> integration = integration_choice();
+    bool            inertia = false;
+    TimeIntegration integration;
 
     const Scene                        *scene = nullptr;
     const BackgroundMesh               *mesh  = nullptr;
@@ -155,7 +155,7 @@ namespace geocone
     Vector                              lumped_mass;
     Vector                              weight_per_g;
     Vector                              force;
-    Vector                              velocity_n; ///< along turned dofs
+    Vector velocity_L; ///< along turned dofs: v^n, or Newmark's prediction
   };
 } // namespace geocone
 

@@ -13,8 +13,8 @@
 #include <geocone/mechanics/point_functions.h>
 #include <geocone/time_stepping/fading_forces.h>
 #include <geocone/time_stepping/following_grid.h>
-#include <geocone/time_stepping/midpoint_rule.h>
 #include <geocone/time_stepping/raised_loads.h>
+#include <geocone/time_stepping/time_integration.h>
 #include <geocone/time_stepping/time_stepper.h>
 
 namespace geocone
@@ -31,9 +31,8 @@ namespace geocone
    * sorted into cells anew, and the mesh is as if it had never moved.
    *
    * Options: PIC and APIC instead of FLIP, advection with the velocity of the
-   * particle, a mass that is partly consistent, and the midpoint rule: the
-   * problem is solved over h/2 and extrapolated, the stress projected on the
-   * cone.
+   * particle, a mass that is partly consistent, and the integrations in time of
+   * TimeIntegration.
    */
   class ImplicitMPM : public TimeStepper, public dealii::ParameterAcceptor
   {
@@ -239,6 +238,13 @@ namespace geocone
                    const Stage          *stage  = nullptr,
                    const bool            raised = false);
 
+    /** The velocity that the problem's step begins from: vL, or Newmark's prediction. */
+    const Vector &
+    start_velocity() const
+    {
+      return integration.is_newmark() ? predicted : velocity_L;
+    }
+
     /** vL from momentum, where the mass is partly consistent. */
     void
     solve_mass(Vector &velocity) const;
@@ -345,10 +351,10 @@ namespace geocone
       {{"grid velocity", Advection::grid_velocity},
        {"particle velocity", Advection::particle_velocity},
        {"none", Advection::none}}};
-    Choice<Integration> integration = integration_choice();
-    Choice<Start>       start_asked = {{{"automatic", Start::automatic},
-                                        {"grid velocity", Start::nodes},
-                                        {"particle velocity", Start::particles}}};
+    TimeIntegration integration;
+    Choice<Start>   start_asked = {{{"automatic", Start::automatic},
+                                    {"grid velocity", Start::nodes},
+                                    {"particle velocity", Start::particles}}};
 
     /** Which light functions have ghost stiffness. */
     enum class Ghosts
@@ -392,6 +398,7 @@ namespace geocone
     bool                                has_pattern = false; ///< of begin()
     Vector                              lumped_mass;
     Vector                              velocity_L;
+    Vector                              predicted; ///< by Newmark, from vL
     Vector                              force;
     std::vector<bool>                   had_mass; ///< nodes, in the last step
     FadingForces                        fading;
