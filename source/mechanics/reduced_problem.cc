@@ -25,16 +25,32 @@ namespace geocone
     }
   } // namespace
 
+  VectorXd
+  ReducedProblem::multiply(const VectorXd &s) const
+  {
+    if (!has_factors())
+      return W * s;
+    const VectorXd of_nodes = m.cwiseProduct(G.transpose() * s);
+    return S.cwiseProduct(s) + G * of_nodes;
+  }
+
   MandelMatrix
   ReducedProblem::diagonal_block(const unsigned int p) const
   {
+    if (has_factors())
+      {
+        const MatrixXd rows  = G.middleRows(n_mandel * p, n_mandel);
+        MandelMatrix   block = rows * m.asDiagonal() * rows.transpose();
+        block.diagonal() += S.segment<n_mandel>(n_mandel * p);
+        return block;
+      }
     return MatrixXd(W.block(n_mandel * p, n_mandel * p, n_mandel, n_mandel));
   }
 
   VectorXd
   ReducedProblem::z(const VectorXd &s, const VectorXd &lambda) const
   {
-    VectorXd result = W * s + q;
+    VectorXd result = multiply(s) + q;
     if (n_multipliers() > 0)
       result -= C * lambda;
     return result;
@@ -53,12 +69,18 @@ namespace geocone
   {
     if (n_multipliers() == 0)
       return *this;
-    const auto     factors = factorised(L);
+    const auto factors = factorised(L);
+    MatrixXd   dense   = W;
+    if (has_factors())
+      {
+        dense = G * Matrix(m.asDiagonal() * G.transpose());
+        dense.diagonal() += S;
+      }
     ReducedProblem result;
     result.cones = cones;
     result.S     = S;
-    result.W = (MatrixXd(W) - C * factors.solve(C.transpose())).sparseView();
-    result.q = q + C * factors.solve(d);
+    result.W     = (dense - C * factors.solve(C.transpose())).sparseView();
+    result.q     = q + C * factors.solve(d);
     return result;
   }
 

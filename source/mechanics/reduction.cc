@@ -15,7 +15,8 @@ namespace geocone
   void
   Reduction::check(const IncrementalProblem &problem,
                    const std::string        &parameter,
-                   const std::string        &value)
+                   const std::string        &value,
+                   const bool                projected)
   {
     const MaterialPoints &points    = problem.points;
     const Materials      &materials = problem.materials;
@@ -48,11 +49,13 @@ namespace geocone
       refuse(
         "another one with ghost stiffness",
         "set Material point method/Ghost stiffness = 0, or take automatic");
-    if (points.n_points() > max_cones)
-      refuse(format("another one for more than %u points, and there are %u",
-                    max_cones,
+    if (projected && problem.unknowns.multipliers.n_rows() > 0 &&
+        points.n_points() > most_projected)
+      refuse(format("another one for more than %u points with constraints on "
+                    "particles, and there are %u",
+                    most_projected,
                     points.n_points()),
-             "take a coarser mesh, or automatic");
+             "take 'reduced with multipliers', whose iterates are the same");
     for (const unsigned int material : points.material)
       if (materials[material].has_history())
         refuse("another one with the material '" + materials.name(material) +
@@ -85,18 +88,18 @@ namespace geocone
 
     velocity = problem.velocity_L;
     problem.set_prescribed(velocity);
-    mobility.resize(unknowns.n_rows);
+    reduced.m.resize(unknowns.n_rows);
     for (unsigned int i = 0; i < velocity.locally_owned_size(); ++i)
       if (unknowns.is_free(i))
         {
           const double inverse =
             h / problem.inertia->lumped_mass().local_element(i);
-          mobility[unknowns.free_row[i]] = inverse;
+          reduced.m[unknowns.free_row[i]] = h * inverse;
           if (const Vector *force = problem.external.vector())
             velocity.local_element(i) += inverse * force->local_element(i);
         }
 
-    // V B in cone axes, S the diagonal V S, and V B v*.
+    // G = V B in cone axes, S the diagonal V S, and V B v*.
     std::vector<Eigen::Triplet<double>> entries;
     VectorXd strain_rate = VectorXd::Zero(n_mandel * n);
     problem.internal.for_each_strain_column([&](const unsigned int p,
@@ -109,8 +112,8 @@ namespace geocone
         for (int i = 0; i < n_mandel; ++i)
           entries.emplace_back(n_mandel * p + i, unknowns.free_row[dof], x[i]);
     });
-    VB.resize(n_mandel * n, unknowns.n_rows);
-    VB.setFromTriplets(entries.begin(), entries.end());
+    reduced.G.resize(n_mandel * n, unknowns.n_rows);
+    reduced.G.setFromTriplets(entries.begin(), entries.end());
     reduced.S.resize(n_mandel * n);
     for (unsigned int p = 0; p < n; ++p)
       {
@@ -119,22 +122,17 @@ namespace geocone
           Mandel::Constant(points.weight[p] / e.two_G);
         reduced.S[n_mandel * p] = points.weight[p] / e.normal_stiffness();
       }
-    ReducedProblem::Matrix transposed = VB.transpose();
-    transposed = VectorXd(h * mobility).asDiagonal() * transposed;
-    reduced.W  = VB * transposed;
-    for (unsigned int i = 0; i < n_mandel * n; ++i)
-      reduced.W.coeffRef(i, i) += reduced.S[i];
     reduced.q = -reduced.S.cwiseProduct(stress_at_start()) - h * strain_rate;
 
     const Multipliers &rows = unknowns.multipliers;
-    H                       = MatrixXd::Zero(rows.n_rows(), unknowns.n_rows);
+    MatrixXd           H    = MatrixXd::Zero(rows.n_rows(), unknowns.n_rows);
     for (unsigned int j = 0; j < rows.dofs().size(); ++j)
       H.col(unknowns.free_row[rows.dofs()[j]]) = rows.coefficients().col(j);
-    const MatrixXd weighted =
-      VectorXd(h * mobility).asDiagonal() * H.transpose();
-    reduced.C = VB * weighted;
-    reduced.L = H * weighted;
-    reduced.d = -h * rows.defect(velocity);
+    const MatrixXd weighted = reduced.m.asDiagonal() * H.transpose();
+    reduced.C               = reduced.G * weighted;
+    reduced.L               = H * weighted;
+    reduced.H               = H.sparseView();
+    reduced.d               = -h * rows.defect(velocity);
   }
 
   VectorXd
@@ -150,15 +148,14 @@ namespace geocone
   void
   Reduction::recover_velocity(const VectorXd &s, Vector &v) const
   {
-    VectorXd force = -(VB.transpose() * s);
-    if (H.rows() > 0)
-      force += H.transpose() * reduced.multipliers(s);
+    VectorXd force = -(reduced.G.transpose() * s);
+    if (reduced.n_multipliers() > 0)
+      force += reduced.H.transpose() * reduced.multipliers(s);
+    const VectorXd  change   = reduced.m.cwiseProduct(force) / incremental.h;
     const Unknowns &unknowns = incremental.unknowns;
     for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
       v.local_element(i) =
         velocity.local_element(i) +
-        (unknowns.is_free(i)
-           ? mobility[unknowns.free_row[i]] * force[unknowns.free_row[i]]
-           : 0.);
+        (unknowns.is_free(i) ? change[unknowns.free_row[i]] : 0.);
   }
 } // namespace geocone

@@ -36,7 +36,7 @@ namespace geocone
     GaussSeidel                sweeps;
     sweeps.tolerance  = 0.;
     sweeps.max_sweeps = n_sweeps;
-    sweeps.solve(reduction.problem().projected(), s);
+    sweeps.solve(reduction.problem(), s);
     reduction.recover_velocity(s, work.v);
     std::vector<Mandel> stress;
     for (unsigned int p = 0; p < reduction.problem().n_cones(); ++p)

@@ -49,8 +49,9 @@ namespace geocone
       "and where that fails. Reduced: the "
       "stresses alone, by Newton's method; constraints on particles are "
       "eliminated or kept with multipliers. Gauss-Seidel: the stresses alone, "
-      "point by point. What is reduced needs a lumped mass, one rank and at "
-      "most 3000 points. All but the first are there to be compared with it.");
+      "point by point. What is reduced needs a lumped mass and one rank, and "
+      "at most 3000 points where constraints are eliminated. All but the "
+      "first are there to be compared with it.");
     add_parameter("Rho",
                   rho,
                   "Rho of the formulation 'natural map', in units of 2G of "
@@ -162,9 +163,13 @@ namespace geocone
         "set it to false, or Newton/Formulation = automatic and "
         "First iterate = none");
     if (is_reduced())
-      Reduction::check(problem, "Newton/Formulation", formulation.word());
+      Reduction::check(problem,
+                       "Newton/Formulation",
+                       formulation.word(),
+                       formulation == Formulation::reduced);
     else if (first_iterate == FirstIterate::gauss_seidel)
-      Reduction::check(problem, "Newton/First iterate", first_iterate.word());
+      Reduction::check(
+        problem, "Newton/First iterate", first_iterate.word(), false);
   }
 
   void

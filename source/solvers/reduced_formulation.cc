@@ -16,13 +16,14 @@ namespace geocone
   {
     SolverReport        &report = work.report;
     const Reduction      reduction(work.problem);
-    const ReducedProblem problem = solver == Solver::newton_with_multipliers
-                                     ? reduction.problem()
-                                     : reduction.problem().projected();
+    const ReducedProblem problem = solver == Solver::newton
+                                     ? reduction.problem().projected()
+                                     : reduction.problem();
     Eigen::VectorXd      s       = reduction.stress_at_start();
     ReducedNewton        newton;
     GaussSeidel          sweeps;
     newton.max_iterations = sweeps.max_sweeps = max_iterations;
+    sweeps.stops_if_slow                      = true;
     work.record(work.evaluate(), 0., 0., 0.);
     // Below 1e-15 there is only rounding.
     for (double accuracy = tolerance; accuracy > 0.9e-15; accuracy /= 10.)

@@ -71,7 +71,8 @@ namespace geocone
         , D(problem.n_cones(), Mandel::Constant(newton.rho))
         , points(problem.n_cones())
         , n_stresses(problem.q.size())
-        , dense(problem.W.nonZeros() > 0.05 * n_stresses * n_stresses)
+        , dense(!problem.has_factors() &&
+                problem.W.nonZeros() > 0.05 * n_stresses * n_stresses)
       {
         if (newton.rho != 0.)
           return;
@@ -94,7 +95,7 @@ namespace geocone
       strain(const VectorXd &step) const
       {
         const VectorXd ds = step.head(n_stresses);
-        VectorXd       dz = problem.W * ds - problem.S.cwiseProduct(ds);
+        VectorXd       dz = problem.multiply(ds) - problem.S.cwiseProduct(ds);
         if (problem.n_multipliers() > 0)
           dz -= problem.C * step.tail(problem.n_multipliers());
         return dz;
@@ -136,6 +137,8 @@ namespace geocone
         VectorXd           rhs  = VectorXd::Zero(size);
         for (unsigned int p = 0; p < points.size(); ++p)
           rhs.segment<n_mandel>(n_mandel * p) = -points[p].F;
+        if (problem.has_factors())
+          return step_by_factors(rhs.head(n_stresses));
         if (dense)
           {
             MatrixXd J = MatrixXd::Zero(size, size);
@@ -143,19 +146,84 @@ namespace geocone
               [&J](const int i, const int j, const double x) { J(i, j) += x; });
             return J.partialPivLu().solve(rhs);
           }
-        std::vector<Eigen::Triplet<double>> entries;
+        Entries entries;
         assemble([&entries](const int i, const int j, const double x) {
           entries.emplace_back(i, j, x);
         });
-        Eigen::SparseMatrix<double> J(size, size);
-        J.setFromTriplets(entries.begin(), entries.end());
-        const Eigen::SparseLU<Eigen::SparseMatrix<double>> factors(J);
-        if (factors.info() != Eigen::Success)
-          return VectorXd::Constant(size, std::nan(""));
-        return factors.solve(rhs);
+        return solved(entries, rhs);
       }
 
     private:
+      using Entries = std::vector<Eigen::Triplet<double>>;
+
+      /** Not finite if the matrix is singular. */
+      static VectorXd
+      solved(const Entries &entries, const VectorXd &rhs)
+      {
+        Eigen::SparseMatrix<double> matrix(rhs.size(), rhs.size());
+        matrix.setFromTriplets(entries.begin(), entries.end());
+        const Eigen::SparseLU<Eigen::SparseMatrix<double>> factors(matrix);
+        if (factors.info() != Eigen::Success)
+          return VectorXd::Constant(rhs.size(), std::nan(""));
+        return factors.solve(rhs);
+      }
+
+      /**
+       * The same step with few unknowns: with E = A + B S and u = diag(m)
+       * (G'ds - H'dlambda),
+       *   E ds + B G u = -F,   (diag(1/m) + G'E^-1 B G) u + H'dlambda = -G'E^-1 F,
+       *   H u = 0.
+       */
+      VectorXd
+      step_by_factors(const VectorXd &rhs) const
+      {
+        using Matrix                   = ReducedProblem::Matrix;
+        const Matrix      &G           = problem.G;
+        const unsigned int n_nodal     = problem.m.size(),
+                           multipliers = problem.n_multipliers();
+        VectorXd scaled(n_stresses); // E^-1 rhs
+        Entries  entries;            // E^-1 B
+        for (unsigned int p = 0; p < points.size(); ++p)
+          {
+            const MandelMatrix inverse =
+              (points[p].A +
+               points[p].B *
+                 problem.S.segment<n_mandel>(n_mandel * p).asDiagonal())
+                .inverse();
+            scaled.segment<n_mandel>(n_mandel * p) =
+              inverse * rhs.segment<n_mandel>(n_mandel * p);
+            const MandelMatrix slope = inverse * points[p].B;
+            for (int i = 0; i < n_mandel; ++i)
+              for (int k = 0; k < n_mandel; ++k)
+                entries.emplace_back(
+                  n_mandel * p + i, n_mandel * p + k, slope(i, k));
+          }
+        Matrix slopes(n_stresses, n_stresses);
+        slopes.setFromTriplets(entries.begin(), entries.end());
+        const Matrix slopes_G = slopes * G;
+        const Matrix tangent  = G.transpose() * slopes_G;
+
+        entries.clear();
+        for (unsigned int i = 0; i < n_nodal; ++i)
+          entries.emplace_back(i, i, 1. / problem.m[i]);
+        for (unsigned int i = 0; i < n_nodal; ++i)
+          for (Matrix::InnerIterator x(tangent, i); x; ++x)
+            entries.emplace_back(i, x.col(), x.value());
+        for (unsigned int r = 0; r < multipliers; ++r)
+          for (Matrix::InnerIterator x(problem.H, r); x; ++x)
+            {
+              entries.emplace_back(n_nodal + r, x.col(), x.value());
+              entries.emplace_back(x.col(), n_nodal + r, x.value());
+            }
+        VectorXd nodal_rhs      = VectorXd::Zero(n_nodal + multipliers);
+        nodal_rhs.head(n_nodal) = G.transpose() * scaled;
+        const VectorXd found    = solved(entries, nodal_rhs);
+        VectorXd       step(n_stresses + multipliers);
+        step.head(n_stresses)  = scaled - slopes_G * found.head(n_nodal);
+        step.tail(multipliers) = found.tail(multipliers);
+        return step;
+      }
+
       /** J = [A + B W, -B C; -C', L], the lower rows scaled to be of size one. */
       template <typename Add>
       void

@@ -184,7 +184,6 @@ main(int argc, char **argv)
           "Observation/Reference = none",
           "Materials/Names = rock",
           "Materials/rock/Type = linear elastic"});
-  refuse("footing_coarse.prm", fem, {reduced[0], "Mesh/Cell size = 0.05"});
   refuse("mpm/footing_coarse.prm",
          mpm,
          {"Newton/First iterate = Gauss-Seidel",

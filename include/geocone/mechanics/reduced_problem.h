@@ -25,18 +25,26 @@ namespace geocone
    * Without constraints C, L and d are empty. s is a stress (Pa); z may be a
    * strain increment or, with the volumes of the points in W and q, a multiple
    * of it.
+   *
+   * W is given as a matrix, or where the mass is lumped by its factors,
+   *   W = S + G diag(m) G',  C = G diag(m) H',  L = H diag(m) H',
+   * which couple two points only where they share a node: the matrix would have a
+   * hundred times as many entries.
    */
   struct ReducedProblem
   {
     using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
     std::vector<FlowCone> cones; ///< n
-    Matrix                W;     ///< 3n x 3n, symmetric positive definite
-    Eigen::VectorXd       q;     ///< 3n
-    Eigen::VectorXd       S;     ///< 3n, diagonal part of W, or empty: unknown
-    Eigen::MatrixXd       C;     ///< 3n x m, or empty
-    Eigen::MatrixXd       L;     ///< m x m, symmetric positive definite
-    Eigen::VectorXd       d;     ///< m
+    Matrix                W; ///< 3n x 3n, symmetric positive definite, or empty
+    Eigen::VectorXd       q; ///< 3n
+    Eigen::VectorXd       S; ///< 3n, diagonal part of W, or empty: unknown
+    Matrix                G; ///< 3n x f, or empty
+    Matrix                H; ///< m x f, or empty
+    Eigen::VectorXd       m; ///< f, positive
+    Eigen::MatrixXd       C; ///< 3n x m, or empty
+    Eigen::MatrixXd       L; ///< m x m, symmetric positive definite
+    Eigen::VectorXd       d; ///< m
 
     unsigned int
     n_cones() const
@@ -49,6 +57,17 @@ namespace geocone
     {
       return d.size();
     }
+
+    /** Whether W is given by its factors. */
+    bool
+    has_factors() const
+    {
+      return m.size() > 0;
+    }
+
+    /** W s. */
+    Eigen::VectorXd
+    multiply(const Eigen::VectorXd &s) const;
 
     /** The 3 x 3 block of W on the diagonal of a cone. */
     MandelMatrix
@@ -64,7 +83,7 @@ namespace geocone
 
     /**
      * The same problem without lambda (eqs 74, 75): W - C L^-1 C' and
-     * q + C L^-1 d. The new W is dense where C is.
+     * q + C L^-1 d, with W as a matrix. It is dense where C is.
      * @throws RunError if L is not positive definite (redundant constraints)
      */
     ReducedProblem

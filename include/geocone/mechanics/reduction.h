@@ -16,25 +16,28 @@ namespace geocone
    * volume so that W is symmetric,
    *   W = V S + h^2 V B M^-1 B' V,   q = -V S s_n - h V B v*,
    *   C = h^2 V B M^-1 H',  L = h^2 H M^-1 H',  d = h (H v* - q_H),
-   * where B, M and H are those of the free dofs: W is in m^2/Pa.
+   * where B, M and H are those of the free dofs: W is in m^2/Pa. Its factors are
+   * G = V B in cone axes and m = h^2/M.
    */
   class Reduction
   {
   public:
-    /** More cones make the dense matrix of ReducedNewton larger than 650 MB. */
-    static constexpr unsigned int max_cones = 3000;
+    /** Points of a dense W: 650 MB. */
+    static constexpr unsigned int most_projected = 3000;
 
     /**
      * Whether there is such a problem: not on several ranks, without inertia, for
-     * a consistent mass, for materials without a cone, and for more than
-     * max_cones points. Collective.
+     * a consistent mass, and for materials without a cone. Collective.
      * @param parameter what asks for it, and its value
+     * @param projected whether its multipliers are to be eliminated, which
+     * makes W a dense matrix
      * @throws InputError
      */
     static void
     check(const IncrementalProblem &problem,
           const std::string        &parameter,
-          const std::string        &value);
+          const std::string        &value,
+          const bool                projected);
 
     /** @param problem one that check() has passed */
     explicit Reduction(const IncrementalProblem &problem);
@@ -59,9 +62,6 @@ namespace geocone
   private:
     const IncrementalProblem &incremental;
     ReducedProblem            reduced;
-    Eigen::VectorXd           mobility; ///< h/m of the free dofs (s m/kg)
-    ReducedProblem::Matrix    VB;       ///< on the free dofs, in cone axes
-    Eigen::MatrixXd           H;        ///< on the free dofs
     Vector                    velocity; ///< v*
   };
 } // namespace geocone

@@ -11,8 +11,8 @@ namespace geocone
 {
   /**
    * Nonsmooth Gauss-Seidel method for a ReducedProblem: cone after cone is
-   * solved exactly (solve_one_cone) with the others as they are, then the
-   * multipliers, if any, as one more block; a sweep goes over all of them. For
+   * solved exactly (solve_one_cone) with the others as they are and the multipliers,
+   * if any, as they follow from all stresses; a sweep goes over all of them. For
    * associated flow it minimises the convex function of eq (63) block by block
    * and converges from anywhere; otherwise it mostly does.
    */
@@ -20,6 +20,10 @@ namespace geocone
   {
     double       tolerance  = 1e-8;   ///< on natural_map_error()
     unsigned int max_sweeps = 100000; ///< before it is given up
+
+    /** Give up where at the rate of the last half of the sweeps the tolerance is not met
+     *  within max_sweeps. */
+    bool stops_if_slow = false;
 
     /**
      * @param[in,out] s in: the start (Pa, 3n); out: the solution

@@ -24,9 +24,10 @@ namespace geocone
    * velocity, and its length is that of line_search() with the directional
    * residual F.(dz - S ds), up to a factor: for associated flow there is always a
    * way down. Otherwise steps are halved until |F|^2 falls. Where it does not,
-   * Gauss-Seidel sweeps lead on, twice as many each time. J is factorised as a
-   * dense matrix where W has more than one nonzero in twenty, and as a sparse one
-   * otherwise.
+   * Gauss-Seidel sweeps lead on, twice as many each time. Where W has factors, the
+   * stresses are eliminated point by point from each linear system, and a sparse one for
+   * the free dofs is left. Otherwise J is factorised as a dense matrix where W has
+   * more than one nonzero in twenty, and as a sparse one where it has less.
    */
   struct ReducedNewton
   {
