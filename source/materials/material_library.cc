@@ -124,6 +124,10 @@ namespace geocone
         for (const std::string &type : material_types())
           documentation += " " + type + ",";
         documentation.back() = '.';
+        documentation +=
+          " Mohr-Coulomb is the cone of the stresses in the plane, the "
+          "Drucker-Prager criterion of Guillet et al. (2025) in plane strain; "
+          "Drucker-Prager is the cone of all principal stresses.";
         enter_subsection(names[i]);
         add_parameter("Type", types[i], documentation);
         leave_subsection();
