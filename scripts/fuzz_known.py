@@ -28,10 +28,9 @@ KNOWN = [
     ("mpm", {}, "Boundary conditions/bottom/Velocity y", 0.),
     ("mpm", {}, "Geometry/Where", 1.),
     ("explicit", {}, "Boundary conditions/floor/Velocity y", 0.),
-    ("explicit", {"Initial velocity/Type": "given", "Initial velocity/Velocity y": "0"},
-     "Initial velocity/Velocity x", 0.1)]
+    ("explicit", {"Initial velocity/Velocity y": "0"}, "Initial velocity/Velocity x", 0.1)]
 # What has the value V, and what has the value zero, of coordinates and t.
-EQUAL = ["V", "({V})", "V + 0*x", "V*(1 + 0*y)", "if(x > 1e9, 1, V)", "if(t < 1e9, V, 7*t)",
+EQUAL = ["V", "(V)", "V + 0*x", "V*(1 + 0*y)", "if(x > 1e9, 1, V)", "if(t < 1e9, V, 7*t)",
          "V/2 + V/2", "2*V - V", "V*cos(0)^2", "V*exp(0)", "V*max(0, 1)", "V*min(1, 2, 3)",
          "V*(sin(x)^2 + cos(x)^2)", "V*abs(-1)", "V*sqrt(4)/2", "V + x - x", "V*(t + 1)/(t + 1)",
          "V*(pi/pi)", "(x > -1e9) * V", "V*(1 == 1)", "V*int(1.2)", "V*log(exp(1))"]
@@ -55,10 +54,12 @@ def formulas_case(rng, tools, folder):
     what = rng.random()
     if what < 0.35:
         scene, beside, path, value = rng.choice(KNOWN)
-        text = rng.choice(EQUAL)
+        equal = [text for text in EQUAL if path != "Geometry/Where" or "t" not in
+                 text.replace("int", "").replace("sqrt", "")]
+        text = rng.choice(equal)
         if rng.random() < 0.3:
-            text = rng.choice(EQUAL).replace("V", f"({text})", 1)
-        text = text.replace("{V}", "V").replace("V", f"({value!r})")
+            text = rng.choice(equal).replace("V", f"({text})", 1)
+        text = text.replace("V", f"({value!r})")
         return set_values(rng, folder, scene, {**beside, path: text}, f"{path} = {text}",
                           like=(scene, {**beside, path: f"{value!r}"}))
     # Any parameter that is a formula by its documentation, whether the run uses it or not.
@@ -180,9 +181,9 @@ def descriptions_case(rng, tools, folder):
         one, other = rng.choice([
             ({}, {"Geometry/Shape": "file", "Geometry/File": "mesh.msh"}),
             ({f"{footing}/Box": "0, -0.1; 0.2, 0.1"},
-             {f"{footing}/Box": "", f"{footing}/Where": "0.2001 - x"}),
+             {f"{footing}/Box": "", f"{footing}/Where": "0.2000000001 - x"}),
             ({f"{footing}/Box": "0, -0.1; 0.2, 0.1"},
-             {f"{footing}/Box": "", f"{footing}/Where": "(x < 0.2001) - 0.5"}),
+             {f"{footing}/Box": "", f"{footing}/Where": "(x < 0.2000000001) - 0.5"}),
             ({f"{footing}/Velocity y": "-0.02"}, {f"{footing}/Velocity y": "-0.02 + 0*x"}),
             ({f"{footing}/Velocity y": "-0.02"}, {f"{footing}/Velocity y": "record v.csv"}),
             ({}, {f"{sides}/Where": "1"}),
@@ -333,11 +334,12 @@ def foreign_case(rng, tools, folder):
                                 "Checkpoint/Every steps": rng.choice(("0", "1"))})
     how = rng.choice(("overwrite", "overwrite", "overwrite", "number", "refuse", "resume", "plot",
                       "defaults"))
-    # What a run before has written is its own, if it is a file.
+    # What a run before has written is its own, if it is a file, and so is what has the name
+    # of its temporary file.
     kept = tuple(str(path.relative_to(folder.parent.parent)) for path in
                  sorted([*elsewhere.rglob("*"), *out.rglob("*")])
                  if "elsewhere/out" not in str(path) and
-                 (path.name not in listed or path.parent == elsewhere or
+                 (path.name.removesuffix(".part") not in listed or path.parent == elsewhere or
                   how in ("number", "refuse")) and not path.is_dir())
     said = f"{how}, {source}, {', '.join(said)}"
     if how == "resume":
