@@ -13,7 +13,8 @@ from matplotlib.ticker import FuncFormatter, NullFormatter
 
 from geocone.plots.load import curve_of, draw_lines
 from geocone.reader import ReadError, Run, leaves
-from geocone.report.schema import FLAG, LINE, list_of, takes
+from geocone.report.schema import FLAG, LINE, NAME, list_of, takes
+from geocone.runner import ROOT
 from geocone.style import BESIDE, COLORS as FEW, Skipped, plain, subplots, unit_for
 
 COLORS = [*FEW, "#8B5A2B", "#6A3D9A", "#000000"]
@@ -50,6 +51,12 @@ def plain_ticks(axis, values, n=5):
     axis.set_ticks(ticks)
     axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:.6g}"))
     axis.set_minor_formatter(NullFormatter())
+
+
+@takes("file", file=NAME)
+def picture(_, options):
+    """A picture of doc/images that no runs are in, by its file name."""
+    return ROOT / "doc" / "images" / options["file"]
 
 
 @takes("columns", columns=list_of(list_of(LINE, 2, 2), 1))

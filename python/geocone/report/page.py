@@ -71,13 +71,18 @@ def rows_of(shown, rows):
 
 
 def figure_data(shown, rows, picture):
-    """A drawn figure as data of the page, also left as a file."""
+    """A drawn figure as data of the page, also left as a file; a picture that is there
+    keeps its name."""
     figure = find(shown["kind"])(rows_of(shown, rows), shown)
-    buffer = io.BytesIO()
-    figure.savefig(buffer, format="png", dpi=130)
-    write_whole(picture, buffer.getvalue())
-    return {"data": base64.b64encode(buffer.getvalue()).decode(), "file": picture.name,
-            "caption": paragraphs(shown.get("caption", "")),
+    if isinstance(figure, Path):
+        picture, drawn = picture.with_name(figure.name), figure.read_bytes()
+    else:
+        buffer = io.BytesIO()
+        figure.savefig(buffer, format="png", dpi=130)
+        drawn = buffer.getvalue()
+    write_whole(picture, drawn)
+    return {"data": base64.b64encode(drawn).decode(), "file": picture.name,
+            "is_there": isinstance(figure, Path), "caption": paragraphs(shown.get("caption", "")),
             "source": shown.get("caption", "")}
 
 
@@ -127,6 +132,8 @@ def write_page(path, part, folder):
     pictures.mkdir(exist_ok=True)
     for section in part["sections"]:
         for figure in section["figures"]:
+            if figure["is_there"] and (pictures / figure["file"]).is_file():
+                continue
             small = io.BytesIO()
             with Image.open(folder / figure["file"]) as picture:
                 picture.convert("P", palette=Image.Palette.ADAPTIVE, colors=128).save(
