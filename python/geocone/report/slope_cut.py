@@ -15,7 +15,7 @@ import itertools
 import numpy as np
 from matplotlib.colors import LogNorm
 
-from geocone.reader import nearest, read_series, read_states, read_table
+from geocone.reader import Run, nearest, read_series, read_states, read_table
 from geocone.report.schema import NUMBER, VALUE, VIEW, list_of, takes, words
 from geocone.style import BLUE, COLORS, ORANGE, STRAINS, disks, plain, subplots
 
@@ -73,10 +73,18 @@ def table(rows, options):
             "numerical loss"], lines
 
 
+def removed_polygons(row):
+    """The polygons that stages of a run take away, their vertices (m)."""
+    return [np.array([[float(x) for x in vertex.split(",")] for vertex in text.split(";")])
+            for path, text in Run(row["folder"]).parameters.items()
+            if path.startswith("Loading/") and path.endswith("/Removed polygon") and text]
+
+
 @takes("cells", "cut", "times", "view", cells=VALUE, cut=NUMBER,
        times=list_of(NUMBER, 1, 20), view=VIEW)
 def points(rows, options):
-    """The points of all soils at some times. Options: times (s), view [x0, y0, x1, y1]."""
+    """The points of all soils at some times, before the cut with the outline of what it
+    takes away. Options: times (s), view [x0, y0, x1, y1]."""
     soils, times = shown(rows, options), options["times"]
     x0, y0, x1, y1 = options["view"]
     figure, grid = subplots(len(times), len(soils), figsize=(5.5 * len(soils), 10.),
@@ -89,6 +97,9 @@ def points(rows, options):
             drawn.set(cmap=STRAINS, norm=LogNorm(1e-2, 10.))
             axes.add_collection(drawn)
             axes.grid(False)
+            if after <= 0.:
+                for polygon in removed_polygons(row):
+                    axes.fill(*polygon.T, fill=False, edgecolor=ORANGE, linewidth=1.5)
             axes.set_title(plain(row["group"]) + (f", t = {after:.2g} s after the cut"
                                                   if after > 0. else ", before the cut"))
             axes.set(xlabel="x (m)", ylabel="y (m)")
