@@ -54,7 +54,8 @@ def formulas_case(rng, tools, folder):
     what = rng.random()
     if what < 0.35:
         scene, beside, path, value = rng.choice(KNOWN)
-        equal = [text for text in EQUAL if path != "Geometry/Where" or "t" not in
+        knows_time = path not in ("Geometry/Where", "Initial velocity/Velocity x")
+        equal = [text for text in EQUAL if knows_time or "t" not in
                  text.replace("int", "").replace("sqrt", "")]
         text = rng.choice(equal)
         if rng.random() < 0.3:
