@@ -26,12 +26,17 @@ namespace geocone
   } // namespace
 
   VectorXd
+  ReducedProblem::nodal(const VectorXd &s) const
+  {
+    return m.cwiseProduct(G.transpose() * s);
+  }
+
+  VectorXd
   ReducedProblem::multiply(const VectorXd &s) const
   {
     if (!has_factors())
       return W * s;
-    const VectorXd of_nodes = m.cwiseProduct(G.transpose() * s);
-    return S.cwiseProduct(s) + G * of_nodes;
+    return S.cwiseProduct(s) + G * nodal(s);
   }
 
   MandelMatrix
@@ -39,8 +44,9 @@ namespace geocone
   {
     if (has_factors())
       {
-        const MatrixXd rows  = G.middleRows(n_mandel * p, n_mandel);
-        MandelMatrix   block = rows * m.asDiagonal() * rows.transpose();
+        const Matrix rows     = G.middleRows(n_mandel * p, n_mandel);
+        const Matrix weighted = rows * m.asDiagonal();
+        MandelMatrix block    = MatrixXd(weighted * rows.transpose());
         block.diagonal() += S.segment<n_mandel>(n_mandel * p);
         return block;
       }

@@ -148,10 +148,11 @@ namespace geocone
   void
   Reduction::recover_velocity(const VectorXd &s, Vector &v) const
   {
-    VectorXd force = -(reduced.G.transpose() * s);
+    VectorXd change = -reduced.nodal(s) / incremental.h;
     if (reduced.n_multipliers() > 0)
-      force += reduced.H.transpose() * reduced.multipliers(s);
-    const VectorXd  change   = reduced.m.cwiseProduct(force) / incremental.h;
+      change +=
+        reduced.m.cwiseProduct(reduced.H.transpose() * reduced.multipliers(s)) /
+        incremental.h;
     const Unknowns &unknowns = incremental.unknowns;
     for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
       v.local_element(i) =

@@ -36,7 +36,7 @@ namespace geocone
         , blocks(problem.n_cones())
       {
         if (problem.has_factors())
-          of_nodes = problem.m.cwiseProduct(problem.G.transpose() * s);
+          of_nodes = problem.nodal(s);
         if (lambda.size() > 0)
           response = problem.L.llt().solve(problem.C.transpose());
         for (unsigned int p = 0; p < blocks.size(); ++p)

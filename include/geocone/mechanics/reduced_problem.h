@@ -65,6 +65,10 @@ namespace geocone
       return m.size() > 0;
     }
 
+    /** diag(m) G's, where W has factors. */
+    Eigen::VectorXd
+    nodal(const Eigen::VectorXd &s) const;
+
     /** W s. */
     Eigen::VectorXd
     multiply(const Eigen::VectorXd &s) const;
