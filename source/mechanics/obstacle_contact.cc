@@ -659,13 +659,12 @@ namespace geocone
     for (unsigned int o = 0; o < displacement.size(); ++o)
       {
         const RigidMotion &solved = contact.motions().velocities()[o];
+        const double       extrapolation = h / solved_h;
         if (moves)
           displacement[o].add({h * solved.centre, h * solved.rotation});
         for (unsigned int k = 0; k < RigidMotion::n_components; ++k)
-          velocity[o][k] =
-            h == solved_h ?
-              solved[k] :
-              h / solved_h * solved[k] - (h / solved_h - 1.) * velocity[o][k];
+          velocity[o][k] = extrapolation * solved[k] -
+                           (extrapolation - 1.) * velocity[o][k];
       }
     if (!moves)
       return;
