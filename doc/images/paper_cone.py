@@ -25,7 +25,7 @@ PHI, COHESION, NU = 30., 10., 0.3  # degrees, kPa
 G = 40.  # kPa: strains of the order of one, to be seen beside stresses
 K = 2. * G / (1. - 2. * NU)  # 2 (lambda + G)
 
-# Reads vectors (x_n, x_t) in cone axes. Tells of each the yield function; the stress s
+# Reads vectors (x_n, x_t) in cone axes. Prints of each the yield function; the stress s
 # to which it returns as a trial stress; z, from s = t + D z; y = Psi(z); the natural
 # map of s and y; and how far x and Psi(x) are outside of the dual cone.
 PROGRAM = r"""
@@ -69,9 +69,9 @@ class Law:
         """{name: array} at points, an array whose last axis has two entries."""
         x = np.asarray(x, dtype=float)
         text = "\n".join(f"{n!r} {t!r}" for n, t in x.reshape(-1, 2).tolist())
-        told = subprocess.run(self.call, input=text, text=True, check=True,
-                              stdout=subprocess.PIPE).stdout
-        v = np.array([line.split() for line in told.splitlines()], dtype=float)
+        output = subprocess.run(self.call, input=text, text=True, check=True,
+                                stdout=subprocess.PIPE).stdout
+        v = np.array([line.split() for line in output.splitlines()], dtype=float)
         shape = x.shape[:-1]
         result = {name: v[:, i:i + 2].reshape(*shape, 2)
                   for name, i in (("s", 1), ("z", 3), ("y", 5))}

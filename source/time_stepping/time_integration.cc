@@ -225,7 +225,7 @@ namespace geocone
                      materials[points.material[p]],
                      points.stress[p],
                      history.data() + std::size_t(points.n_history()) * p));
-    // Increments of the step are told from the histories at its beginning.
+    // Increments of the step follow from the histories at its beginning.
     points.history = std::move(history);
     return ends;
   }
