@@ -1,7 +1,7 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The slope whose toe is cut off (studies/slope_cut.toml): a group is a soil, the axis
-`cells` its cells and points. Options: cells (the runs of a picture), cut (its time, s).
+`cells` its cells and points. Option: cells (the runs of a picture).
 
 Of the influence of its constants (studies/slope_cut_parameters.toml) two groups of runs
 are compared. One at a time: the axis `variant` is `base`, or a factor, `low` or `high`,
@@ -37,13 +37,21 @@ def states_at(row, times):
     return read_states(file, nearest(series, times))
 
 
-def steps_of(row, cut):
-    """The columns of statistics.csv, and the place of the last step before the cut."""
+def before_cut(row):
+    """The columns of statistics.csv, and the place of the last step before soil is taken
+    away. The time of that depends on how long the slope has needed to come to rest."""
     table = read_table(row["folder"] / "statistics.csv")
-    return table, int(np.flatnonzero(table["time (s)"] <= cut + 1e-9)[-1])
+    return table, int(np.flatnonzero(table["removed mass (kg/m)"] == 0.)[-1])
 
 
-@takes("crest", "cut", crest=NUMBER, cut=NUMBER)
+def end_of(row):
+    """The places of the points at the end of a run (m), and which have moved by more than
+    MOVED."""
+    last, = read_states(row["folder"] / "points.pvd")
+    return last.points, np.linalg.norm(last.data["displacement"], axis=1) > MOVED
+
+
+@takes("crest", crest=NUMBER)
 def table(rows, options):
     """A line for each run. Options: crest (m, height of the ground behind the slope)."""
     lines = []
@@ -51,10 +59,9 @@ def table(rows, options):
         if row["status"] != "finished":
             lines.append([row["group"], row["label"], "failed", *["-"] * 9])
             continue
-        steps, before = steps_of(row, options["cut"])
-        last, = read_states(row["folder"] / "points.pvd")
-        x, y = last.points.T
-        moved = np.linalg.norm(last.data["displacement"], axis=1) > MOVED
+        steps, before = before_cut(row)
+        places, moved = end_of(row)
+        x, y = places.T
         weight = 9.81 * steps["mass (kg/m)"][before]
         speed, work = steps["largest speed (m/s)"], steps["gravity work (J/m)"]
         lines.append([
@@ -80,8 +87,7 @@ def removed_polygons(row):
             if path.startswith("Loading/") and path.endswith("/Removed polygon") and text]
 
 
-@takes("cells", "cut", "times", "view", cells=VALUE, cut=NUMBER,
-       times=list_of(NUMBER, 1, 20), view=VIEW)
+@takes("cells", "times", "view", cells=VALUE, times=list_of(NUMBER, 1, 20), view=VIEW)
 def points(rows, options):
     """The points of all soils at some times, before the cut with the outline of what it
     takes away. Options: times (s), view [x0, y0, x1, y1]."""
@@ -90,18 +96,20 @@ def points(rows, options):
     figure, grid = subplots(len(times), len(soils), figsize=(5.5 * len(soils), 10.),
                             sharex=True, sharey=True, squeeze=False)
     for column, row in zip(grid.T, soils):
+        steps, before = before_cut(row)
         for axes, state in zip(column, states_at(row, times)):
-            after = state.time - options["cut"]
+            after = state.time - steps["time (s)"][before]
             axes.set(aspect="equal", xlim=(x0, x1), ylim=(y0, y1))
             drawn = disks(axes, state, state.data["cumulative_plastic_strain"][:, 0])
             drawn.set(cmap=STRAINS, norm=LogNorm(1e-2, 10.))
             axes.add_collection(drawn)
             axes.grid(False)
-            if after <= 0.:
+            is_cut = after > 1e-9
+            if not is_cut:
                 for polygon in removed_polygons(row):
                     axes.fill(*polygon.T, fill=False, edgecolor=ORANGE, linewidth=1.5)
             axes.set_title(plain(row["group"]) + (f", t = {after:.2g} s after the cut"
-                                                  if after > 0. else ", before the cut"))
+                                                  if is_cut else ", before the cut"))
             axes.set(xlabel="x (m)", ylabel="y (m)")
             axes.label_outer()
     figure.colorbar(drawn, ax=grid, extend="both", shrink=0.6,
@@ -109,13 +117,13 @@ def points(rows, options):
     return figure
 
 
-@takes("cells", "cut", cells=VALUE, cut=NUMBER)
+@takes("cells", cells=VALUE)
 def energies(rows, options):
     """Kinetic energy, and where the released energy goes."""
     figure, (kinetic, works) = subplots(1, 2, figsize=(10., 4.))
     for row, color in zip(shown(rows, options), COLORS):
-        steps, cut = steps_of(row, options["cut"])
-        time, soil = steps["time (s)"][cut:] - options["cut"], plain(row["group"])
+        steps, cut = before_cut(row)
+        time, soil = steps["time (s)"][cut:] - steps["time (s)"][cut], plain(row["group"])
         kinetic.plot(time, steps["kinetic energy (J/m)"][cut:] / 1e3, color=color,
                      label=soil)
         for name, style in (("gravity work", "-"), ("stress work", "--")):
@@ -126,13 +134,6 @@ def energies(rows, options):
         axes.set(title=title, xlabel="time after the cut (s)", ylabel="energy (kJ/m)")
         axes.legend(fontsize=9)
     return figure
-
-
-def before_cut(row):
-    """The columns of statistics.csv, and the place of the last step before soil is taken
-    away. The time of that depends on how long the slope has needed to come to rest."""
-    table = read_table(row["folder"] / "statistics.csv")
-    return table, int(np.flatnonzero(table["removed mass (kg/m)"] == 0.)[-1])
 
 
 def failure_time(row, point):
@@ -153,9 +154,8 @@ def failure_time(row, point):
 def run_out(row, toe):
     """How far the farthest point that has moved by more than MOVED is from the toe (m); 0
     if none has."""
-    last, = read_states(row["folder"] / "points.pvd")
-    moved = np.linalg.norm(last.data["displacement"], axis=1) > MOVED
-    return max(0., last.points[moved, 0].max() - toe) if np.any(moved) else 0.
+    places, moved = end_of(row)
+    return max(0., places[moved, 0].max() - toe) if np.any(moved) else 0.
 
 
 def response(row, name, options):
@@ -206,7 +206,7 @@ def signs_of(levels):
 
 def interactions(signs):
     """The columns of two-factor interactions, products of two columns, each once. Those of
-    several pairs may be one: their effects cannot be told from each other (are aliased)."""
+    several pairs may be one: their effects are aliased."""
     products = np.array([signs[:, i] * signs[:, j] for i, j in
                          itertools.combinations(range(signs.shape[1]), 2)])
     return np.unique(products * products[:, :1], axis=0).T
@@ -250,7 +250,7 @@ def compared(rows, options):
     return single, designs
 
 
-def told(value, longest=np.inf, digits=2):
+def shown_value(value, longest=np.inf, digits=2):
     """A response as tables show it."""
     return ("-" if np.isnan(value) else f"> {longest:.0f}" if value > longest else
             f"{value:.{digits}f}")
@@ -274,7 +274,7 @@ def ranking(rows, options):
         level = factors[factor]
         lines.append([
             len(lines) + 1, factor, *(level[side][0] for side in ("low", "high")),
-            *(told(response(level[side][1], name, options), longest)
+            *(shown_value(response(level[side][1], name, options), longest)
               for side in ("low", "high")),
             *(f"{effects[i]:+.2f}" for effects, *_ in found.values()),
             f"{abs(main[i]) / noise:.1f}"])
@@ -283,7 +283,7 @@ def ranking(rows, options):
                           ", ".join(f"{np.sum(stands & (signs[:, i] == sign))}"
                                     for sign in (-1., 1.))]
     lines.append(["-", "none (base)", "-", "-",
-                  *[told(response(base, name, options), longest)] * 2,
+                  *[shown_value(response(base, name, options), longest)] * 2,
                   *["-"] * (len(found) + 1), *["-"] * 3 * is_time])
     lines.append(["-", "two-factor interactions (rms)", *["-"] * 4,
                   *(f"{rms:.2f}" for _, rms, *_ in found.values()), "1.0",
@@ -311,7 +311,7 @@ def responses(rows, options):
             row["group"], row["axes"]["points"], what,
             f"{steps['largest speed (m/s)'][before]:.3f}",
             f"{run_out(row, options['toe']):.2f}",
-            *(told(failure_time(row, point), longest) for point in (1, 2)),
+            *(shown_value(failure_time(row, point), longest) for point in (1, 2)),
             f"{(work[-1] - work[before]) / 1e3:.0f}",
             f"{steps['kinetic energy (J/m)'][-1] / 1e3:.1f}"])
     return ["runs", "points per cell", "constants", "fastest point before (m/s)",
