@@ -3,11 +3,11 @@
 
 #include <geocone/base/files.h>
 #include <geocone/base/parameter_file.h>
-#include <geocone/mechanics/frozen_problem.h>
+#include <geocone/lab/frozen_problem.h>
+#include <geocone/lab/stress_methods.h>
 #include <geocone/replay.h>
 #include <geocone/replay_parts.h>
 #include <geocone/scene/geometry.h>
-#include <geocone/solvers/nonsmooth_newton.h>
 
 #include <deal.II/base/timer.h>
 
@@ -34,7 +34,7 @@ namespace geocone
         ParameterFile::from_text(frozen.materials, file_name, overrides);
       Materials       materials(file);
       const Regions   regions(file); // stand in the same section
-      NonsmoothNewton newton;
+      NonsmoothNewton newton(stress_methods());
       file.parse();
       materials.prepare();
       if (!frozen.points.hoop.empty())

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/parameter_file.h>
-#include <geocone/mechanics/cone_files.h>
+#include <geocone/lab/cone_files.h>
+#include <geocone/lab/stress_methods.h>
 #include <geocone/replay_parts.h>
-#include <geocone/solvers/nonsmooth_newton.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -40,13 +40,13 @@ namespace geocone
       "copy it again, or write it anew");
     const ParameterFile file =
       ParameterFile::from_text("", file_name, overrides);
-    NonsmoothNewton newton;
+    NonsmoothNewton newton(stress_methods());
     file.parse();
     newton.prepare();
     folder.make();
 
     Eigen::VectorXd     s      = Eigen::VectorXd::Zero(3 * problem.n_cones());
-    const ReducedReport report = newton.solve_reduced(problem, s);
+    const ReducedReport report = solve_reduced(newton, problem, s);
 
     double non_associativity = 0.;
     for (const FlowCone &cone : problem.cones)

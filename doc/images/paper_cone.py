@@ -6,7 +6,7 @@ cone with its plastic flow, and the change of variable with the dual cone.
 
 No formula of the law stands here: stresses and plastic strain increments are those of
 return_map(), borders of sets are where yield_function() and dual_violation() change
-sign, and the change of variable is psi(), all of materials/second_order_cone.h, which a
+sign, and the change of variable is psi(), all of cone/second_order_cone.h, which a
 small program includes; CXX compiles it (default: c++), EIGEN is the folder of Eigen."""
 
 import os
@@ -29,7 +29,7 @@ K = 2. * G / (1. - 2. * NU)  # 2 (lambda + G)
 # to which it returns as a trial stress; z, from s = t + D z; y = Psi(z); the natural
 # map of s and y; and how far x and Psi(x) are outside of the dual cone.
 PROGRAM = r"""
-#include <geocone/materials/second_order_cone.h>
+#include <geocone/cone/second_order_cone.h>
 #include <cstdio>
 #include <cstdlib>
 

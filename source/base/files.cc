@@ -294,4 +294,24 @@ namespace geocone
     throw RunError("the table '" + name + "' cannot be written" +
                    cause_and_remedy(cause));
   }
+
+  std::string
+  existing_file(const std::string &name,
+                const std::string &folder_of_parameters,
+                const std::string &parameter,
+                const std::string &allowed)
+  {
+    const std::filesystem::path beside =
+      std::filesystem::path(folder_of_parameters) / name;
+    std::error_code error; // a name that cannot be asked for is no file
+    for (const std::filesystem::path &path :
+         {beside, std::filesystem::path(name)})
+      if (std::filesystem::is_regular_file(path, error))
+        return path.string();
+    throw InputError(parameter,
+                     name,
+                     allowed,
+                     "check the name; it is relative to the folder of the "
+                     "parameter file, or else to that of the call");
+  }
 } // namespace geocone

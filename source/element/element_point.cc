@@ -4,8 +4,8 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/types.h>
 #include <geocone/element/element_point.h>
+#include <geocone/kernels/subloading_curves.h>
 #include <geocone/materials/subloading.h>
-#include <geocone/materials/subloading_curves.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/cone/second_order_cone.h>
 #include <geocone/limit_analysis/bound_problem.h>
-#include <geocone/materials/second_order_cone.h>
 
 #include <algorithm>
 #include <array>
@@ -266,9 +266,8 @@ namespace geocone
                    const unsigned int  first_dof,
                    BoundProblem       &problem)
     {
-      const Obstacles       &obstacles = bound.scene.obstacles;
-      constexpr unsigned int n_motions = RigidMotion::n_components;
-      const double           L         = bound.units.length;
+      const Obstacles &obstacles = bound.scene.obstacles;
+      const double     L         = bound.units.length;
       for (unsigned int o = 0; o < obstacles.list.size(); ++o)
         {
           const Obstacle   &obstacle = *obstacles.list[o];

@@ -3,8 +3,8 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
-#include <geocone/discretisation/empty_regions.h>
 #include <geocone/limit_analysis/bounded_load.h>
+#include <geocone/mesh/empty_regions.h>
 
 #include <deal.II/base/bounding_box.h>
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/log.h>
+#include <geocone/cone/second_order_cone.h>
 #include <geocone/limit_analysis/certificate.h>
 #include <geocone/limit_analysis/point_matrix.h>
-#include <geocone/materials/second_order_cone.h>
 
 #include <algorithm>
 #include <cmath>

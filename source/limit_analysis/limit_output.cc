@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/cone/second_order_cone.h>
 #include <geocone/limit_analysis/limit_output.h>
-#include <geocone/materials/second_order_cone.h>
 
 #include <algorithm>
 #include <cmath>

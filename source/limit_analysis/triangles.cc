@@ -3,8 +3,8 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
-#include <geocone/discretisation/fitted_mesh.h>
 #include <geocone/limit_analysis/triangles.h>
+#include <geocone/mesh/fitted_mesh.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/materials/cone_kernel.h>
+#include <geocone/kernels/cone_kernel.h>
 #include <geocone/materials/linear_elastic.h>
 
 #include <limits>

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
-#include <geocone/materials/cone_kernel.h>
+#include <geocone/kernels/cone_kernel.h>
+#include <geocone/kernels/spin.h>
 #include <geocone/materials/material.h>
-#include <geocone/materials/spin.h>
 
 #include <array>
 

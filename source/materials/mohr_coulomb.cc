@@ -1,9 +1,9 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/materials/cone_kernel.h>
+#include <geocone/cone/varying_cone.h>
+#include <geocone/kernels/cone_kernel.h>
 #include <geocone/materials/mohr_coulomb.h>
-#include <geocone/materials/varying_cone.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/materials/pyramid_kernel.h>
+#include <geocone/kernels/pyramid_kernel.h>
 #include <geocone/materials/spatial_mohr_coulomb.h>
 
 #include <algorithm>

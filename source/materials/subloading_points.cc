@@ -5,10 +5,10 @@
 // explicit steps, and what is shown of it. Parameters and initial states:
 // subloading.cc.
 #include <geocone/base/types.h>
-#include <geocone/materials/spin.h>
+#include <geocone/kernels/spin.h>
+#include <geocone/kernels/subloading_curves.h>
+#include <geocone/kernels/subloading_kernel.h>
 #include <geocone/materials/subloading.h>
-#include <geocone/materials/subloading_curves.h>
-#include <geocone/materials/subloading_kernel.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/over_ranks.h>
-#include <geocone/discretisation/quadrature_points.h>
 #include <geocone/output/exact_solution.h>
+#include <geocone/points/quadrature_points.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>

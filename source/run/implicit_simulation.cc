@@ -4,7 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/over_ranks.h>
 #include <geocone/base/stop_request.h>
-#include <geocone/mechanics/held_width.h>
+#include <geocone/conditions/held_width.h>
 #include <geocone/output/run_status.h>
 #include <geocone/run/implicit_simulation.h>
 #include <geocone/run/run_estimate.h>

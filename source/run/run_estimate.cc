@@ -3,8 +3,8 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
-#include <geocone/discretisation/space.h>
 #include <geocone/run/run_estimate.h>
+#include <geocone/space/space.h>
 
 #include <cmath>
 #include <fstream>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/functions/formula.h>
 #include <geocone/scene/boundary_conditions.h>
-#include <geocone/scene/formula.h>
 
 #include <algorithm>
 

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/files.h>
 #include <geocone/base/lexicographic.h>
 #include <geocone/base/log.h>
-#include <geocone/scene/formula.h>
+#include <geocone/functions/formula.h>
 #include <geocone/scene/geometry.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -68,21 +69,6 @@ namespace geocone
       return ok;
     }
   } // namespace
-
-  std::string
-  text_of_place(const Point<dim> &x)
-  {
-    return text_of_vector(x, "%g");
-  }
-
-  std::string
-  text_of_vector(const dealii::Tensor<1, dim> &x, const char *number)
-  {
-    std::string text;
-    for (unsigned int c = 0; c < dim; ++c)
-      text += (c == 0 ? "" : ", ") + format(number, x[c]);
-    return text;
-  }
 
   Polygon
   outline_of_box(const Point<dim> &lower, const Point<dim> &upper)
@@ -235,26 +221,6 @@ namespace geocone
     if (std::abs(signed_area(polygon)) < 1e-9 * size * size)
       throw InputError(
         parameter, text(polygon), allowed, "the vertices lie on one line");
-  }
-
-  std::string
-  existing_file(const std::string &name,
-                const std::string &folder_of_parameters,
-                const std::string &parameter,
-                const std::string &allowed)
-  {
-    const std::filesystem::path beside =
-      std::filesystem::path(folder_of_parameters) / name;
-    std::error_code error; // a name that cannot be asked for is no file
-    for (const std::filesystem::path &path :
-         {beside, std::filesystem::path(name)})
-      if (std::filesystem::is_regular_file(path, error))
-        return path.string();
-    throw InputError(parameter,
-                     name,
-                     allowed,
-                     "check the name; it is relative to the folder of the "
-                     "parameter file, or else to that of the call");
   }
 
   Geometry::Geometry(const ParameterFile &parameter_file)

@@ -3,7 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
-#include <geocone/scene/formula.h>
+#include <geocone/functions/formula.h>
 #include <geocone/scene/initial_state.h>
 #include <geocone/scene/water.h>
 

@@ -4,8 +4,8 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/scene/magnitudes.h>
-#include <geocone/scene/part_in_box.h>
 #include <geocone/scene/scene.h>
+#include <geocone/shapes/part_in_box.h>
 
 #include <deal.II/base/bounding_box.h>
 

@@ -4,10 +4,10 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/base/over_ranks.h>
-#include <geocone/discretisation/cell_record.h>
-#include <geocone/discretisation/history_start.h>
-#include <geocone/discretisation/point_elasticity.h>
-#include <geocone/discretisation/point_record.h>
+#include <geocone/mesh/cell_record.h>
+#include <geocone/points/history_start.h>
+#include <geocone/points/point_elasticity.h>
+#include <geocone/points/point_record.h>
 #include <geocone/time_stepping/time_stepper.h>
 
 #include <deal.II/base/mpi.h>

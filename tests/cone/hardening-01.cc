@@ -7,9 +7,9 @@
 // k + h |z_t|, by the natural map of that cone. Simple shear without friction has the
 // closed form tau = c + (gamma - c/G) G H/(G + H).
 
+#include <geocone/cone/varying_cone.h>
+#include <geocone/kernels/point_block.h>
 #include <geocone/materials/hardening_mohr_coulomb.h>
-#include <geocone/materials/point_block.h>
-#include <geocone/materials/varying_cone.h>
 
 #include <sstream>
 

@@ -7,7 +7,7 @@
 // both sides where it is not, and there the property on which the convergence
 // rests is checked: |P(x+d) - P(x) - J(x+d) d| = O(|d|^2).
 
-#include <geocone/materials/second_order_cone.h>
+#include <geocone/cone/second_order_cone.h>
 
 #include "cone_tests.h"
 

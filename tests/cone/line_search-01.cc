@@ -5,7 +5,7 @@
 // residuals than it counts on, or go on from a state (that of the last
 // evaluation) which does not belong to the length returned.
 
-#include <geocone/solvers/line_search.h>
+#include <geocone/newton/line_search.h>
 
 #include "cone_tests.h"
 #include <functional>

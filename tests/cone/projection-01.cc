@@ -8,7 +8,7 @@
 // (idempotent, nonexpansive, Moreau's decomposition with the dual cone of
 // aperture 1/a), in 3 and 6 components, and the limits.
 
-#include <geocone/materials/second_order_cone.h>
+#include <geocone/cone/second_order_cone.h>
 
 #include "cone_tests.h"
 

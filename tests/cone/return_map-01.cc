@@ -9,7 +9,7 @@
 // law itself, by the measures that judge computed states, and these must also
 // notice states that are wrong.
 
-#include <geocone/materials/second_order_cone.h>
+#include <geocone/cone/second_order_cone.h>
 
 #include "cone_tests.h"
 

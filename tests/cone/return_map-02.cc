@@ -7,7 +7,7 @@
 // one that is rounding: there q = a s_n + k is rounding, too, whose sign means
 // nothing and which must not be divided by |t_t|.
 
-#include <geocone/materials/second_order_cone.h>
+#include <geocone/cone/second_order_cone.h>
 
 #include "cone_tests.h"
 #include <limits>

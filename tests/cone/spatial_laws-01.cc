@@ -8,7 +8,7 @@
 // The natural map vanishes at the stress that is returned, associated or not, and at no
 // other. In plane strain Drucker-Prager matched to it flows at the strength of the plane cone.
 
-#include <geocone/materials/second_order_cone.h>
+#include <geocone/cone/second_order_cone.h>
 
 #include <array>
 #include <sstream>

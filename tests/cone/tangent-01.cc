@@ -7,8 +7,8 @@
 // axes for 3 and 6 components and in Mandel components with Elasticity as the
 // materials use them.
 
-#include <geocone/materials/elasticity.h>
-#include <geocone/materials/second_order_cone.h>
+#include <geocone/cone/second_order_cone.h>
+#include <geocone/kernels/elasticity.h>
 
 #include "cone_tests.h"
 

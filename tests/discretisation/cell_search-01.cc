@@ -8,7 +8,7 @@
 
 #include "setup.h"
 
-#include <geocone/discretisation/cell_search.h>
+#include <geocone/mesh/cell_search.h>
 
 #include <cmath>
 #include <limits>

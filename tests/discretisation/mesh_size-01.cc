@@ -7,8 +7,8 @@
 // gmsh makes.
 
 #include <geocone/base/version.h>
-#include <geocone/discretisation/gmsh_mesh.h>
-#include <geocone/discretisation/structured_mesh.h>
+#include <geocone/mesh/gmsh_mesh.h>
+#include <geocone/mesh/structured_mesh.h>
 #include <geocone/scene/scene.h>
 
 #include <deal.II/base/mpi.h>

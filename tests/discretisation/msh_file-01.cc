@@ -9,7 +9,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/parameter_file.h>
-#include <geocone/discretisation/msh_mesh.h>
+#include <geocone/mesh/msh_mesh.h>
 #include <geocone/scene/scene.h>
 
 #include <deal.II/base/mpi.h>

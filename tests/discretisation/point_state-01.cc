@@ -5,8 +5,8 @@
 // whole, by sorting, by sending to other ranks, and by filling up vectors, a point would
 // get numbers of another one, or lose some.
 
-#include <geocone/discretisation/material_points.h>
-#include <geocone/discretisation/point_arrays.h>
+#include <geocone/points/material_points.h>
+#include <geocone/points/point_arrays.h>
 
 #include "setup.h"
 

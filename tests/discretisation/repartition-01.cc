@@ -7,7 +7,7 @@
 // know, and all cells must be found; nodes must be as many as before, each of one rank, and
 // linear fields exact.
 
-#include <geocone/discretisation/cell_search.h>
+#include <geocone/mesh/cell_search.h>
 
 #include "setup.h"
 

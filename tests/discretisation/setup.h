@@ -5,7 +5,7 @@
 #define tests_discretisation_setup_h
 
 #include <geocone/base/version.h>
-#include <geocone/discretisation/particles.h>
+#include <geocone/points/particles.h>
 
 #include <deal.II/base/mpi.h>
 

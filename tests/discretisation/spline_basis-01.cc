@@ -7,7 +7,7 @@
 // and with one function at each end. The Bernstein polynomials must be the
 // binomial ones, and reproduce x by i/p.
 
-#include <geocone/discretisation/spline_basis.h>
+#include <geocone/space/spline_basis.h>
 
 #include <algorithm>
 #include <cmath>

@@ -10,8 +10,8 @@
 // projection of its volumetric strains that of B-bar, also where particles are too few
 // for all polynomials, and the mass must be that of the particles.
 
-#include <geocone/mechanics/constraints.h>
-#include <geocone/mechanics/incremental_problem.h>
+#include <geocone/conditions/constraints.h>
+#include <geocone/problem/incremental_problem.h>
 
 #include "../discretisation/setup.h"
 

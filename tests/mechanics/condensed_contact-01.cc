@@ -7,7 +7,7 @@
 // in a second run some bear a pull. Nodes have one tangent, as in the plane, or two. The
 // solution must fulfil the laws, one by one: not the root functions that solve() looks at.
 
-#include <geocone/mechanics/condensed_contact.h>
+#include <geocone/contact/condensed_contact.h>
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 // Convex hulls, and the shortest way between two of them: of random points against all
 // directions in turn, of squares, segments, single points, and of sets that meet.
 
-#include <geocone/scene/convex_hull.h>
+#include <geocone/shapes/convex_hull.h>
 
 #include <cmath>
 #include <cstdio>

@@ -6,8 +6,8 @@
 // value is refused by its name.
 
 #include <geocone/base/version.h>
-#include <geocone/mechanics/cone_files.h>
-#include <geocone/mechanics/frozen_problem.h>
+#include <geocone/lab/cone_files.h>
+#include <geocone/lab/frozen_problem.h>
 #include "../damage.h"
 
 #include <deal.II/base/mpi.h>

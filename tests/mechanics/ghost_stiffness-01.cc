@@ -7,8 +7,8 @@
 // the forces. All ranks together must find the same stencils, and none where all
 // functions are full; only towards the material may a function be held.
 
-#include <geocone/mechanics/constraints.h>
-#include <geocone/mechanics/ghost_stiffness.h>
+#include <geocone/conditions/constraints.h>
+#include <geocone/problem/ghost_stiffness.h>
 
 #include "../discretisation/setup.h"
 

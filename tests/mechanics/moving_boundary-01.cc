@@ -7,7 +7,7 @@
 // become lines with the body to the left.
 
 #include <geocone/base/exceptions.h>
-#include <geocone/mechanics/moving_surface.h>
+#include <geocone/surfaces/moving_surface.h>
 
 #include "../discretisation/setup.h"
 

@@ -8,7 +8,7 @@
 // the rows in the metric asked for. All ranks together find the same.
 
 #include <geocone/base/exceptions.h>
-#include <geocone/mechanics/constraints.h>
+#include <geocone/conditions/constraints.h>
 
 #include "../discretisation/setup.h"
 

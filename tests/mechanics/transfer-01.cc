@@ -8,7 +8,7 @@
 // change. APIC must hand affine velocities on. A body that turns must turn its
 // stress with it, and not change it otherwise.
 
-#include <geocone/time_stepping/implicit_mpm.h>
+#include <geocone/implicit/implicit_mpm.h>
 
 #include "../discretisation/setup.h"
 
@@ -42,7 +42,8 @@ struct Run
   void
   step(const double h)
   {
-    report = stepper.advance(kinematics, points, newton, freezer, timer, t, h, 1.);
+    report =
+      stepper.advance(kinematics, points, newton, freezer, timer, t, h, 1.);
     if (!report.converged && speaks())
       std::printf("  failed: %s\n", report.newton.reason.c_str());
     t += h;

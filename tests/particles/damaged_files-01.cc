@@ -4,7 +4,7 @@
 // Files of particles that are damaged: each must be read or refused.
 
 #include <geocone/base/hdf5_file.h>
-#include <geocone/discretisation/particle_file.h>
+#include <geocone/points/particle_file.h>
 
 #include "../damage.h"
 

@@ -8,7 +8,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/hdf5_file.h>
 #include <geocone/base/version.h>
-#include <geocone/discretisation/seeding.h>
+#include <geocone/points/seeding.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -8,9 +8,9 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/version.h>
-#include <geocone/mechanics/cone_files.h>
-#include <geocone/solvers/gauss_seidel.h>
-#include <geocone/solvers/reduced_newton.h>
+#include <geocone/lab/cone_files.h>
+#include <geocone/lab/gauss_seidel.h>
+#include <geocone/lab/reduced_newton.h>
 
 #include "../cone/cone_tests.h"
 

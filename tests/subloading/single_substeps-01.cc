@@ -5,7 +5,7 @@
 // says that it is done the state is the model's, which takes one substep, too; elsewhere
 // it is as it was. Four random walks that load, unload and turn.
 
-#include <geocone/materials/subloading_kernel.h>
+#include <geocone/kernels/subloading_kernel.h>
 
 #include "subloading_tests.h"
 

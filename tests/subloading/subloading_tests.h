@@ -12,7 +12,7 @@
 #define geocone_tests_subloading_tests_h
 
 #include <geocone/base/types.h>
-#include <geocone/materials/subloading_model.h>
+#include <geocone/kernels/subloading_model.h>
 
 #include <cmath>
 #include <iostream>

@@ -5,8 +5,8 @@
 // that any law in closed form takes, update() of the turned stress; random states with
 // all shears. The rotation against that about the axis by twice the arc tangent.
 
+#include <geocone/kernels/spin.h>
 #include <geocone/materials/drucker_prager.h>
-#include <geocone/materials/spin.h>
 
 #include <Eigen/Geometry>
 #include <array>

@@ -7,7 +7,7 @@
 // directions in which they reach (the distance of a convex body is the largest over all unit
 // vectors n of n.x - max n.y); the gradient of the distance is the normal.
 
-#include <geocone/scene/obstacle_shape.h>
+#include <geocone/shapes/obstacle_shape.h>
 
 #include <algorithm>
 #include <cmath>

@@ -98,6 +98,17 @@ namespace geocone
     std::size_t    n_columns = 0;
     std::uintmax_t size      = 0; ///< of the whole lines (bytes)
   };
+
+  /**
+   * The path of a file whose name is relative to the folder of the parameter
+   * file, or else to that of the call.
+   * @throws InputError if there is no such file
+   */
+  std::string
+  existing_file(const std::string &name,
+                const std::string &folder_of_parameters,
+                const std::string &parameter,
+                const std::string &allowed);
 } // namespace geocone
 
 #endif

@@ -4,9 +4,9 @@
 #ifndef geocone_limit_analysis_certified_bounds_h
 #define geocone_limit_analysis_certified_bounds_h
 
-#include <geocone/discretisation/fitted_mesh.h>
 #include <geocone/limit_analysis/bounded_load.h>
 #include <geocone/limit_analysis/certificate.h>
+#include <geocone/mesh/fitted_mesh.h>
 
 #include <array>
 #include <vector>

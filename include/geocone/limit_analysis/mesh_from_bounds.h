@@ -5,7 +5,7 @@
 #define geocone_limit_analysis_mesh_from_bounds_h
 
 #include <geocone/base/log.h>
-#include <geocone/discretisation/fitted_mesh.h>
+#include <geocone/mesh/fitted_mesh.h>
 #include <geocone/output/load_bracket.h>
 
 #include <utility>

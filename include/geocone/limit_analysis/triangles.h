@@ -4,7 +4,7 @@
 #ifndef geocone_limit_analysis_triangles_h
 #define geocone_limit_analysis_triangles_h
 
-#include <geocone/discretisation/coarse_mesh.h>
+#include <geocone/mesh/coarse_mesh.h>
 #include <geocone/scene/boundary_conditions.h>
 
 #include <array>

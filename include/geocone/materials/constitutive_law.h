@@ -5,9 +5,9 @@
 #define geocone_materials_constitutive_law_h
 
 #include <geocone/base/types.h>
+#include <geocone/kernels/point_block.h>
+#include <geocone/kernels/yield_curve.h>
 #include <geocone/materials/frictional_strength.h>
-#include <geocone/materials/point_block.h>
-#include <geocone/materials/yield_curve.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 

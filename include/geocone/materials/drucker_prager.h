@@ -5,7 +5,7 @@
 #define geocone_materials_drucker_prager_h
 
 #include <geocone/base/choice.h>
-#include <geocone/materials/second_order_cone.h>
+#include <geocone/cone/second_order_cone.h>
 #include <geocone/materials/spatial_law.h>
 
 namespace geocone

@@ -5,10 +5,10 @@
 #define geocone_materials_material_h
 
 #include <geocone/base/types.h>
+#include <geocone/cone/flow_check.h>
+#include <geocone/cone/second_order_cone.h>
+#include <geocone/kernels/elasticity.h>
 #include <geocone/materials/constitutive_law.h>
-#include <geocone/materials/elasticity.h>
-#include <geocone/materials/flow_check.h>
-#include <geocone/materials/second_order_cone.h>
 
 #include <deal.II/base/array_view.h>
 #include <optional>

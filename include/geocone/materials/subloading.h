@@ -5,8 +5,8 @@
 #define geocone_materials_subloading_h
 
 #include <geocone/base/choice.h>
+#include <geocone/kernels/subloading_model.h>
 #include <geocone/materials/constitutive_law.h>
-#include <geocone/materials/subloading_model.h>
 
 #include <string>
 #include <vector>

@@ -4,9 +4,9 @@
 #ifndef geocone_output_exact_solution_h
 #define geocone_output_exact_solution_h
 
-#include <geocone/discretisation/material_points.h>
-#include <geocone/discretisation/space.h>
-#include <geocone/scene/expression.h>
+#include <geocone/functions/expression.h>
+#include <geocone/points/material_points.h>
+#include <geocone/space/space.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 

@@ -4,12 +4,12 @@
 #ifndef geocone_output_explicit_output_h
 #define geocone_output_explicit_output_h
 
+#include <geocone/explicit/explicit_mpm.h>
 #include <geocone/output/energy_balance.h>
 #include <geocone/output/field_files.h>
 #include <geocone/output/output_base.h>
 #include <geocone/output/statistics_table.h>
 #include <geocone/scene/scene.h>
-#include <geocone/time_stepping/explicit_mpm.h>
 
 #include <memory>
 #include <string>

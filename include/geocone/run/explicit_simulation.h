@@ -4,9 +4,9 @@
 #ifndef geocone_run_explicit_simulation_h
 #define geocone_run_explicit_simulation_h
 
+#include <geocone/explicit/explicit_mpm.h>
 #include <geocone/output/explicit_output.h>
 #include <geocone/run/scene_simulation.h>
-#include <geocone/time_stepping/explicit_mpm.h>
 
 #include <string>
 

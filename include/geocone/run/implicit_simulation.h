@@ -4,11 +4,12 @@
 #ifndef geocone_run_implicit_simulation_h
 #define geocone_run_implicit_simulation_h
 
+#include <geocone/implicit/implicit_fem.h>
+#include <geocone/implicit/implicit_mpm.h>
+#include <geocone/lab/stress_methods.h>
 #include <geocone/output/exact_solution.h>
 #include <geocone/output/run_output.h>
 #include <geocone/run/scene_simulation.h>
-#include <geocone/time_stepping/implicit_fem.h>
-#include <geocone/time_stepping/implicit_mpm.h>
 
 #include <functional>
 #include <utility>
@@ -134,7 +135,7 @@ namespace geocone
 
     BackgroundMesh  mesh;
     Space           space;
-    NonsmoothNewton newton;
+    NonsmoothNewton newton{stress_methods()};
     ImplicitFEM     implicit_fem;
     ImplicitMPM     implicit_mpm;
     TimeStepper    *stepper = nullptr; ///< the one of the method

@@ -4,9 +4,9 @@
 #ifndef geocone_run_run_estimate_h
 #define geocone_run_run_estimate_h
 
-#include <geocone/discretisation/background_mesh.h>
-#include <geocone/discretisation/seeding.h>
+#include <geocone/mesh/background_mesh.h>
 #include <geocone/output/output_base.h>
+#include <geocone/points/seeding.h>
 #include <geocone/scene/scene.h>
 
 #include <string>

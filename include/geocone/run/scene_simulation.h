@@ -5,8 +5,8 @@
 #define geocone_run_scene_simulation_h
 
 #include <geocone/base/parameter_file.h>
-#include <geocone/discretisation/method.h>
-#include <geocone/discretisation/observed_points.h>
+#include <geocone/mesh/method.h>
+#include <geocone/points/observed_points.h>
 #include <geocone/run/simulation.h>
 #include <geocone/scene/scene.h>
 

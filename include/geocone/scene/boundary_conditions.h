@@ -5,7 +5,7 @@
 #define geocone_scene_boundary_conditions_h
 
 #include <geocone/base/parameter_file.h>
-#include <geocone/scene/expression.h>
+#include <geocone/functions/expression.h>
 #include <geocone/scene/imposition.h>
 
 #include <deal.II/base/parameter_acceptor.h>

@@ -5,9 +5,10 @@
 #define geocone_scene_geometry_h
 
 #include <geocone/base/choice.h>
+#include <geocone/base/text_of_place.h>
 #include <geocone/base/types.h>
+#include <geocone/functions/expression.h>
 #include <geocone/materials/material_library.h>
-#include <geocone/scene/expression.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/point.h>
@@ -39,14 +40,6 @@ namespace geocone
    *  right, y bottom and top, z back and front. */
   std::map<std::string, dealii::types::boundary_id>
   sides_of_box();
-
-  /** The coordinates, e.g. "0.5, -2". */
-  std::string
-  text_of_place(const dealii::Point<dim> &x);
-
-  /** The components, each written by this format. */
-  std::string
-  text_of_vector(const dealii::Tensor<1, dim> &x, const char *number);
 
   /**
    * What double precision resolves with room for a solution: coordinates up to
@@ -92,17 +85,6 @@ namespace geocone
    */
   void
   check_polygon(const Polygon &polygon, const std::string &parameter);
-
-  /**
-   * The path of a file whose name is relative to the folder of the parameter
-   * file, or else to that of the call.
-   * @throws InputError if there is no such file
-   */
-  std::string
-  existing_file(const std::string &name,
-                const std::string &folder_of_parameters,
-                const std::string &parameter,
-                const std::string &allowed);
 
   /**
    * The domain: a box, a polygon, discs, or whatever a .msh file (or a script of

@@ -5,7 +5,7 @@
 #define geocone_scene_initial_state_h
 
 #include <geocone/base/choice.h>
-#include <geocone/scene/expression.h>
+#include <geocone/functions/expression.h>
 #include <geocone/scene/geometry.h>
 #include <geocone/scene/loading.h>
 

@@ -6,7 +6,7 @@
 
 #include <geocone/base/choice.h>
 #include <geocone/base/parameter_file.h>
-#include <geocone/scene/expression.h>
+#include <geocone/functions/expression.h>
 #include <geocone/scene/geometry.h>
 
 #include <deal.II/base/parameter_acceptor.h>

@@ -7,10 +7,10 @@
 #include <geocone/base/choice.h>
 #include <geocone/base/parameter_file.h>
 #include <geocone/base/types.h>
-#include <geocone/scene/expression.h>
+#include <geocone/functions/expression.h>
 #include <geocone/scene/interface_law.h>
-#include <geocone/scene/obstacle_shape.h>
-#include <geocone/scene/rigid_motion.h>
+#include <geocone/shapes/obstacle_shape.h>
+#include <geocone/shapes/rigid_motion.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/point.h>
@@ -246,7 +246,6 @@ namespace geocone
     std::vector<dealii::Point<dim>> vertices;
     std::unique_ptr<ObstacleShape>  body; ///< as prepare() makes it
 
-    static constexpr unsigned int      n_motions = RigidMotion::n_components;
     std::array<std::string, n_motions> velocity_texts, load_texts;
     std::array<Expression, n_motions>  velocities, loads;
     std::array<bool, n_motions>        free = {};

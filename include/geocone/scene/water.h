@@ -5,9 +5,9 @@
 #define geocone_scene_water_h
 
 #include <geocone/base/parameter_file.h>
+#include <geocone/functions/pressure_grid.h>
 #include <geocone/scene/geometry.h>
 #include <geocone/scene/loading.h>
-#include <geocone/scene/pressure_grid.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 

@@ -5,10 +5,10 @@
 #define geocone_time_stepping_time_stepper_h
 
 #include <geocone/base/archive.h>
-#include <geocone/mechanics/obstacle_contact.h>
-#include <geocone/solvers/nonsmooth_newton.h>
+#include <geocone/contact/obstacle_contact.h>
+#include <geocone/lab/freezer.h>
+#include <geocone/newton/nonsmooth_newton.h>
 #include <geocone/time_stepping/energies.h>
-#include <geocone/time_stepping/freezer.h>
 
 #include <deal.II/base/timer.h>
 

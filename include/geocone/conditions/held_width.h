@@ -1,0 +1,24 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_conditions_held_width_h
+#define geocone_conditions_held_width_h
+
+#include <geocone/mesh/background_mesh.h>
+#include <geocone/scene/scene.h>
+#include <geocone/space/space.h>
+
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /** Warnings of conditions on nodes whose nodes do not reach as far as the part of the
+   *  sides that is in their box: the velocity is that of a narrower strip. Collective. */
+  std::vector<std::string>
+  warn_of_held_width(const Scene          &scene,
+                     const BackgroundMesh &mesh,
+                     const Space          &space);
+} // namespace geocone
+
+#endif

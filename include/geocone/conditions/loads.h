@@ -1,0 +1,76 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_conditions_loads_h
+#define geocone_conditions_loads_h
+
+#include <geocone/scene/scene.h>
+#include <geocone/surfaces/face_points.h>
+
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * Nodal integrals of the density over the cells that have points, each stored for
+   * all components:
+   * @param[out] weight_per_g  int rho N_i, which times g is the weight (kg/m)
+   * @param[out] lumped_mass  diagonal mass: the row sums int rho N_i, which are
+   * positive for P1, P3, Q1, Q2, Q3 (vertex, edge, centre of P3: 1/30, 3/40,
+   * 9/20 of the cell); for P2, whose vertices would get nothing, the diagonal
+   * of the consistent mass scaled to the mass of the cell
+   */
+  void
+  integrate_density(const Scene          &scene,
+                    const BackgroundMesh &mesh,
+                    const Space          &space,
+                    const MaterialPoints &points,
+                    Vector               &weight_per_g,
+                    Vector               &lumped_mass);
+
+  /**
+   * External forces F(t): weight, tractions and the force of water at rest, on the cells
+   * that have points. Nothing is stored or computed of what the scene does not have.
+   */
+  class Loads
+  {
+  public:
+    /** @param points in the cells on which they act */
+    Loads(const Scene          &scene,
+          const BackgroundMesh &mesh,
+          const Space          &space,
+          const MaterialPoints &points);
+
+    /**
+     * F at time t (N/m).
+     * @param stage null: of all loads; else of those that it raises, or of the others
+     */
+    void
+    evaluate(Vector       &force,
+             const Vector &weight_per_g,
+             const double  t,
+             const Stage  *stage  = nullptr,
+             const bool    raised = false) const;
+
+    bool
+    exist() const
+    {
+      return scene.gravity.acts() || !scene.tractions.list.empty();
+    }
+
+  private:
+    /** A quadrature point of a loaded face. */
+    struct LoadedPoint
+    {
+      unsigned int condition;
+      FacePoint    point;
+    };
+
+    const Scene             &scene;
+    std::vector<LoadedPoint> loaded;
+    /** Of each of its lines, under the whole gravity (N/m). */
+    std::vector<Vector> of_water;
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,62 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_conditions_prescribed_node_h
+#define geocone_conditions_prescribed_node_h
+
+#include <geocone/base/state_row.h>
+#include <geocone/base/types.h>
+#include <geocone/scene/geometry.h>
+
+#include <deal.II/base/point.h>
+
+namespace geocone
+{
+  /** A component of a node's velocity that a condition prescribes. */
+  struct PrescribedNode
+  {
+    unsigned int       node; ///< by the numbers of whoever has it
+    unsigned int       component;
+    unsigned int       condition; ///< index in Scene::dirichlet
+    dealii::Point<dim> place;
+    bool               mine; ///< whether this rank counts it in sums
+  };
+
+  /** The moment about an axis of n_rotations of a unit force along a component. */
+  inline double
+  lever(const dealii::Tensor<1, dim> &arm,
+        const unsigned int            component,
+        const unsigned int            rotation)
+  {
+    const auto [a, b] = plane_of_rotation[rotation];
+    return component == b ? arm[a] : component == a ? -arm[b] : 0.;
+  }
+
+  /** Of the nodal forces of a support on the body; or of impulses. */
+  struct Reaction
+  {
+    dealii::Tensor<1, dim> force; ///< sum f_i (N/m)
+
+    /** sum (x_i - c) x f_i (N m/m), about the axes of n_rotations. */
+    dealii::Tensor<1, n_rotations> moment;
+
+    /** Adds a component of f_i. @param arm x_i - c */
+    void
+    add(const dealii::Tensor<1, dim> &arm,
+        const unsigned int            component,
+        const double                  f)
+    {
+      force[component] += f;
+      for (unsigned int r = 0; r < n_rotations; ++r)
+        moment[r] += f * lever(arm, component, r);
+    }
+
+    void
+    state(StateRow &row)
+    {
+      row(force, moment);
+    }
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,105 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_cone_flow_check_h
+#define geocone_cone_flow_check_h
+
+#include <geocone/cone/second_order_cone.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace geocone
+{
+  /**
+   * How well the end of a step obeys a law whose change of variable y maps its flow to
+   * the normals of its strength; zero if and only if it does. Of one point or the
+   * largest of many: numbers have their units, and what they are to be compared with
+   * stands beside them.
+   */
+  struct FlowCheck
+  {
+    double natural_map = 0.; ///< |s - P_C(s - 2G y)| (Pa)
+    double violation =
+      0.; ///< by which s is beyond the strength solved for (Pa)
+    double dual          = 0.; ///< by which y is beyond all normals (-)
+    double complementary = 0.; ///< |<y, s - apex>| (J/m^3)
+    double excess        = 0.; ///< beyond the exact strength, without lag (Pa)
+    double exact_map     = 0.; ///< natural_map of the exact law (Pa)
+
+    double stress = 0.; ///< |s| (Pa)
+    double size   = 0.; ///< k, the strength where the normal stress is 0 (Pa)
+    double flow   = 0.; ///< |y| (-)
+    double compliance = 0.; ///< 1/2G (1/Pa)
+
+    /** All of them: what is found of many points or ranks is the largest of each. */
+    static constexpr std::size_t n_numbers = 10;
+    static constexpr std::array<double FlowCheck::*, n_numbers>
+    numbers()
+    {
+      return {{&FlowCheck::natural_map,
+               &FlowCheck::violation,
+               &FlowCheck::dual,
+               &FlowCheck::complementary,
+               &FlowCheck::excess,
+               &FlowCheck::exact_map,
+               &FlowCheck::stress,
+               &FlowCheck::size,
+               &FlowCheck::flow,
+               &FlowCheck::compliance}};
+    }
+
+    void
+    take_worse(const FlowCheck &other)
+    {
+      for (const auto member : numbers())
+        this->*member = std::max(this->*member, other.*member);
+    }
+
+    /**
+     * Of a cone. The complementarity law is that of one without a cut-off: at a cut-off
+     * the strength alone is checked.
+     * @param solved,exact cones at the end of the step
+     * @param z,s less the plastic strain increment, and the stress, in their axes
+     */
+    template <typename Vector>
+    static FlowCheck
+    of_cone(const FlowCone &solved,
+            const FlowCone &exact,
+            const Vector   &z,
+            const Vector   &s,
+            const double    two_G)
+    {
+      const Vector y = solved.psi(z);
+      FlowCheck    here;
+      here.stress     = s.norm();
+      here.size       = exact.k;
+      here.flow       = y.norm();
+      here.compliance = 1. / two_G;
+      here.violation  = solved.yield_function(s);
+      here.excess     = exact.yield_function(s);
+      if (s[0] > -solved.tension + 1e-12 * (here.stress + here.size))
+        {
+          here.natural_map = geocone::natural_map(solved, s, y, two_G).norm();
+          here.exact_map =
+            geocone::natural_map(exact, s, exact.psi(z), two_G).norm();
+          here.dual          = solved.dual_violation(y);
+          here.complementary = std::abs(solved.complementarity_product(y, s));
+        }
+      return here;
+    }
+  };
+
+  /** A step of one point, with whole stresses and strains. */
+  struct PointStep
+  {
+    SpatialMandel strain;    ///< its increment
+    SpatialMandel stress_n;  ///< at t_n (Pa)
+    SpatialMandel stress;    ///< at t_{n+1} (Pa)
+    const double *history_n; ///< of the point at t_n
+  };
+} // namespace geocone
+
+#endif

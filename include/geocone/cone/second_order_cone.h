@@ -1,0 +1,357 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_cone_second_order_cone_h
+#define geocone_cone_second_order_cone_h
+
+#include <geocone/base/types.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace geocone
+{
+  /**
+   * Coordinates in which the yield surface is a circular cone: a vector x is
+   * split into x[0] = x.n along the axis n, which points to compression, and the
+   * tangential part x_t = x[1..]. In plane strain, for a Mandel vector,
+   *   n = -(1, 1, 0)/sqrt2, t1 = (1, -1, 0)/sqrt2, t2 = (0, 0, 1);
+   * in three dimensions they are the spatial ones.
+   * The map is orthogonal: scalar products do not change.
+   */
+  inline Mandel
+  to_cone_axes(const Mandel &s);
+
+  inline Mandel
+  from_cone_axes(const Mandel &x);
+
+  /** Cone axes of spatial vectors by rows: n = -(1, 1, 0, 1)/sqrt3, then (1, -1, 0,
+   *  0)/sqrt2, (0, 0, 1, 0) and (1, 1, 0, -2)/sqrt6; further shears as they are. */
+  inline const SpatialMandelMatrix &
+  spatial_axes()
+  {
+    static const SpatialMandelMatrix axes = [] {
+      const double r2 = 1. / sqrt2, r3 = 1. / std::sqrt(3.), r6 = r2 * r3;
+      SpatialMandelMatrix rows = SpatialMandelMatrix::Identity();
+      rows.topLeftCorner<4, 4>() << -r3, -r3, 0., -r3, //
+        r2, -r2, 0., 0.,                               //
+        0., 0., 1., 0.,                                //
+        r6, r6, 0., -2. * r6;
+      return rows;
+    }();
+    return axes;
+  }
+
+  inline Mandel
+  to_cone_axes(const Mandel &s)
+  {
+    if constexpr (dim == 3)
+      return spatial_axes() * extended(s, 0.);
+    Mandel x = s;
+    x[0]     = -(s[0] + s[1]) / sqrt2;
+    x[1]     = (s[0] - s[1]) / sqrt2;
+    return x;
+  }
+
+  inline Mandel
+  from_cone_axes(const Mandel &x)
+  {
+    if constexpr (dim == 3)
+      return spatial_axes().transpose() * extended(x, 0.);
+    Mandel s = x;
+    s[0]     = (-x[0] + x[1]) / sqrt2;
+    s[1]     = (-x[0] - x[1]) / sqrt2;
+    return s;
+  }
+
+  /** A linear map given in cone axes, written in Mandel components. */
+  inline MandelMatrix
+  from_cone_axes(const MandelMatrix &C)
+  {
+    MandelMatrix columns, result;
+    for (int j = 0; j < n_mandel; ++j)
+      columns.col(j) = from_cone_axes(Mandel(C.col(j)));
+    for (int i = 0; i < n_mandel; ++i)
+      result.row(i) =
+        from_cone_axes(Mandel(columns.row(i).transpose())).transpose();
+    return result;
+  }
+
+  /** In which part of the return map a point ended. */
+  enum class Mode : unsigned char
+  {
+    elastic, ///< inside the cone
+    cone,    ///< on its smooth surface
+    apex     ///< at its tip
+  };
+
+  /** Of a cone that is not cut off. */
+  constexpr double infinite_tension = std::numeric_limits<double>::infinity();
+
+  /**
+   * The admissible set of a cone law and its flow, in cone axes:
+   *   C = { s : |s_t| <= a s_n + k },   a >= 0, k >= 0,
+   * with flow aperture b, 0 <= b <= a (b = a: associated). With
+   * z = -(plastic strain increment), mu = a - b and Psi(z) = z + mu |z_t| n,
+   * the law reads  K* contains Psi(z), orthogonal to s + (k/a) n in K, where
+   * K = {|x_t| <= a x_n} and K* = {a |y_t| <= y_n} (Guillet et al. 2025, eqs 22,
+   * 25-27, 85-91; signs and apertures as in doc/theory.md). For a = 0 the set
+   * is the cylinder |s_t| <= k (Tresca); only the apex divides by a.
+   */
+  struct FlowCone
+  {
+    double a = 0.; ///< aperture of the yield cone, e.g. sin(phi)
+    double b = 0.; ///< aperture of the flow cone, e.g. sin(theta)
+    double k = 0.; ///< radius of the yield surface at s_n = 0 (Pa)
+
+    /** Cut-off: s_n >= -tension also where the apex lies farther out (Pa). */
+    double tension = infinite_tension;
+
+    /** Linear hardening h (Pa): the radius k is that at t_n, and k + h |z_t| at the
+     *  end of the step. */
+    double hardening = 0.;
+
+    /** The cone at the end of a step with |z_t| = slip, which hardens no more. */
+    FlowCone
+    hardened(const double slip) const
+    {
+      return {a, b, k + hardening * slip, tension};
+    }
+
+    template <typename V>
+    double
+    yield_function(const V &s) const
+    {
+      return tangential_norm(s) - a * s[0] - k;
+    }
+
+    /** Psi(z) = z + (a - b) |z_t| n: the change of variable of eq (25). */
+    template <typename V>
+    V
+    psi(const V &z) const
+    {
+      V y = z;
+      y[0] += (a - b) * tangential_norm(z);
+      return y;
+    }
+
+    /** An element of the generalised Jacobian of psi(). */
+    MandelMatrix
+    psi_slope(const Mandel &z) const
+    {
+      MandelMatrix slope = MandelMatrix::Identity();
+      if (const double T = tangential_norm(z); T > 0.)
+        slope.block<1, n_mandel - 1>(0, 1) =
+          ((a - b) / T) * z.tail<n_mandel - 1>().transpose();
+      return slope;
+    }
+
+    /**
+     * The cone with delayed friction: a part lambda of the strength's normal
+     * stress is that of t_n,
+     *   |s_t| <= a ((1 - m) s_n + m s_n^n) + k,   m = lambda (a - b)/a,
+     * with the aperture a - lambda (a - b) >= b, the same flow, and no more
+     * tension than before. lambda = 0 is the exact law; for associated flow
+     * nothing changes. The plastic work stays non-negative, for the radius of
+     * each cross-section does.
+     */
+    FlowCone
+    delayed(const double lambda, const double s_n_at_start) const
+    {
+      const double part = lambda * (a - b);
+      if (part == 0.)
+        return *this;
+      const double limit = k / a;
+      return {a - part,
+              b,
+              k + part * std::max(s_n_at_start, -limit),
+              limit,
+              hardening};
+    }
+
+    /** Violation of y in K*: max(0, a |y_t| - y_n). */
+    template <typename V>
+    double
+    dual_violation(const V &y) const
+    {
+      return std::max(0., a * tangential_norm(y) - y[0]);
+    }
+
+    /**
+     * <y, s + (k/a) n>, written such that a = 0 is its limit for y in the
+     * boundary of K* (there (k/a) y_n = k |y_t|).
+     */
+    template <typename V>
+    double
+    complementarity_product(const V &y, const V &s) const
+    {
+      return y.dot(s) + (a > 0. ? (k / a) * y[0] : k * tangential_norm(y));
+    }
+
+    template <typename V>
+    static double
+    tangential_norm(const V &x)
+    {
+      return x.template tail<V::RowsAtCompileTime - 1>().norm();
+    }
+  };
+
+  /**
+   * Solution of the one-point problem
+   *   s = t + D z with D = diag(K, 2G, ..., 2G),  z from the law of FlowCone
+   * for a trial value t, in closed form (doc/theory.md, section "Return map"):
+   * with T = |t_t|, f = T - a t_n - k, H = 2G + a b K + h, g = f/H = |z_t|,
+   * q = T - 2G g = a s_n + k + h g,
+   *   f <= 0            : s = t                                   (elastic)
+   *   q >= 0 or a = 0   : s_n = t_n + K b g, s_t = q t_t/T        (cone)
+   *   otherwise         : s = (-(k + h T/2G)/a, 0)                (apex).
+   * Where a cut-off comes before the apex, states beyond it go to s_n = -tension,
+   * with s_t shortened to the radius there, that of the end of the step; they
+   * count as apex, too.
+   * For b = a this is the projection of t onto C in the metric of D^{-1}; with
+   * K = 2G it is the Euclidean projection P_C.
+   *
+   * @param[out] tangent an element of the generalised Jacobian ds/dt times D,
+   * i.e. ds/de for t = s^n + D e; untouched if null
+   */
+  template <typename V, typename M>
+  Mode
+  return_map(const FlowCone &cone,
+             const double    K,
+             const double    two_G,
+             const V        &t,
+             V              &s,
+             M              *tangent)
+  {
+    constexpr int n_tangential = V::RowsAtCompileTime - 1;
+    const double  radius       = cone.a * t[0] + cone.k;
+    const double  T2           = t.template tail<n_tangential>().squaredNorm();
+    if (radius >= 0. && T2 <= radius * radius &&
+        t[0] >= -cone.tension) // most points: no root needed
+      {
+        s = t;
+        if (tangent != nullptr)
+          {
+            tangent->setZero();
+            tangent->diagonal().setConstant(two_G);
+            (*tangent)(0, 0) = K;
+          }
+        return Mode::elastic;
+      }
+    const double T = std::sqrt(T2);
+    const double f = std::max(0., T - radius); // 0 where only cut off
+    const double H = two_G + cone.a * cone.b * K + cone.hardening;
+    const double g = f / H;
+    // q = T - 2G g, written such that the cone is met to the last digit also
+    // where the trial value is many orders of magnitude larger. At the tip
+    // either form may be rounding of either sign: then it is the tip.
+    const double s_n = t[0] + K * cone.b * g;
+    const double q   = std::min(cone.a * s_n + cone.k + cone.hardening * g, T);
+    if (s_n < -cone.tension)
+      {
+        // Where it hardens, the radius grows by h (T - |s_t|)/2G.
+        const double r     = cone.hardening / two_G;
+        const double limit = std::max(0., cone.k - cone.a * cone.tension);
+        const double part  = T > limit ? (limit / T + r) / (1. + r) : 1.;
+        s[0]               = -cone.tension;
+        s.template tail<n_tangential>() =
+          part * t.template tail<n_tangential>();
+        if (tangent != nullptr)
+          {
+            tangent->setZero();
+            auto C = tangent->template block<n_tangential, n_tangential>(1, 1);
+            C.diagonal().setConstant(two_G * part);
+            if (T > limit)
+              {
+                const auto u = (t.template tail<n_tangential>() / T).eval();
+                C -= two_G * (part - r / (1. + r)) * u * u.transpose();
+              }
+          }
+        return Mode::apex;
+      }
+    if ((q >= 0. && T - two_G * g >= 0.) || cone.a == 0.)
+      {
+        const auto u = (t.template tail<n_tangential>() / T).eval();
+        s[0]         = s_n;
+        s.template tail<n_tangential>() = q * u;
+        if (tangent != nullptr)
+          {
+            M &C    = *tangent;
+            C(0, 0) = K - cone.a * cone.b * K * K / H;
+            C.template block<1, n_tangential>(0, 1) =
+              (K * cone.b * two_G / H) * u.transpose();
+            C.template block<n_tangential, 1>(1, 0) =
+              (two_G * cone.a * K / H) * u;
+            C.template block<n_tangential, n_tangential>(1, 1) =
+              (two_G - two_G * two_G / H - two_G * q / T) * u * u.transpose();
+            C.template block<n_tangential, n_tangential>(1, 1)
+              .diagonal()
+              .array() += two_G * q / T;
+          }
+        return Mode::cone;
+      }
+    s.setZero();
+    s[0] = -(cone.k + cone.hardening * T / two_G) / cone.a;
+    if (tangent != nullptr)
+      {
+        tangent->setZero();
+        if (cone.hardening > 0. && T > 0.)
+          tangent->template block<1, n_tangential>(0, 1) =
+            (-cone.hardening / (cone.a * T)) *
+            t.template tail<n_tangential>().transpose();
+      }
+    return Mode::apex;
+  }
+
+  /** Euclidean projection onto {|s_t| <= a s_n + k, s_n >= -tension} of a cone,
+   *  whatever its flow. @param[out] jacobian as below */
+  template <typename V,
+            typename M =
+              Eigen::Matrix<double, V::RowsAtCompileTime, V::RowsAtCompileTime>>
+  V
+  project(const FlowCone &cone, const V &x, M *jacobian = nullptr)
+  {
+    V              projected;
+    const FlowCone associated{cone.a, cone.a, cone.k, cone.tension};
+    return_map(associated, 1., 1., x, projected, jacobian);
+    return projected;
+  }
+
+  /**
+   * Euclidean projection onto C = {|s_t| <= a s_n + k}.
+   * @param[out] jacobian an element of Clarke's generalised Jacobian (paper,
+   * appendix C, with the polar cone as the third case), if not null
+   */
+  template <typename V,
+            typename M =
+              Eigen::Matrix<double, V::RowsAtCompileTime, V::RowsAtCompileTime>>
+  V
+  project(const double a, const double k, const V &x, M *jacobian = nullptr)
+  {
+    return project(FlowCone{a, a, k}, x, jacobian);
+  }
+
+  /** The tangential unit vector x_t/|x_t|, or zero. */
+  inline Mandel
+  tangential_direction(const Mandel &x)
+  {
+    const double T = FlowCone::tangential_norm(x);
+    Mandel       u = Mandel::Zero();
+    if (T > 0.)
+      u.tail<n_mandel - 1>() = x.tail<n_mandel - 1>() / T;
+    return u;
+  }
+
+  /**
+   * Natural map F(s, y) = s - P_C(s - rho y), y = Psi(z): zero if and only if
+   * (s, z) satisfies the law, for any rho > 0 (paper, eqs 58, 59).
+   */
+  template <typename V>
+  V
+  natural_map(const FlowCone &cone, const V &s, const V &y, const double rho)
+  {
+    return s - project(cone.a, cone.k, V(s - rho * y));
+  }
+} // namespace geocone
+
+#endif

@@ -1,0 +1,25 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_contact_low_rank_h
+#define geocone_contact_low_rank_h
+
+#include <Eigen/Dense>
+
+namespace geocone
+{
+  /** A part U W' of a Jacobian, by the owned free rows and columns. */
+  struct LowRank
+  {
+    Eigen::MatrixXd U, W;
+
+    /** The same on all ranks. */
+    unsigned int
+    rank() const
+    {
+      return U.cols();
+    }
+  };
+} // namespace geocone
+
+#endif

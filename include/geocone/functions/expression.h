@@ -1,0 +1,59 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_functions_expression_h
+#define geocone_functions_expression_h
+
+#include <geocone/base/types.h>
+#include <geocone/functions/record.h>
+
+#include <deal.II/base/function_parser.h>
+#include <deal.II/base/point.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace geocone
+{
+  /**
+   * A scalar function of (x, y, t) given as text in muParser's language, with
+   * the constant pi; or, where files are allowed, "record FILE.csv", a Record.
+   */
+  class Expression
+  {
+  public:
+    /**
+     * @param text the formula
+     * @param parameter name for messages
+     * @param folder what names of files are relative to; null: formulas only
+     * @throws InputError if the formula cannot be parsed, or the file not be read
+     */
+    void
+    prepare(const std::string &text,
+            const std::string &parameter,
+            const std::string *folder = nullptr);
+
+    double
+    value(const dealii::Point<dim> &x, const double t) const;
+
+    /** Whether it is the number 0. */
+    bool
+    is_zero() const
+    {
+      return number == 0.;
+    }
+
+    /** When a record ends with a value that is not zero, which then stays (s); infinite
+     *  otherwise. */
+    double
+    stays_from() const;
+
+  private:
+    std::optional<double>                        number; ///< formulas are slow
+    std::unique_ptr<dealii::FunctionParser<dim>> function;
+    std::unique_ptr<Record>                      record;
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,36 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_functions_formula_h
+#define geocone_functions_formula_h
+
+#include <string>
+
+namespace geocone
+{
+  /** Variables of a formula. */
+  enum class FormulaOf
+  {
+    place_and_time,
+    place,
+    time
+  };
+
+  /**
+   * Checks a formula by this grammar before muParser reads it, which takes more
+   * ("x = 3" assigns, "0,5" is a list whose last value counts, rand() differs from run
+   * to run) and prints lines of its own where it refuses:
+   *   formula := operand {operator operand} ["?" formula ":" formula]
+   *   operand := ["+" | "-"] (number | name | function "(" formula {"," formula} ")" |
+   *              "(" formula ")")
+   * with the operators + - * / ^ < > <= >= == != & |, the names of the variables, pi,
+   * _pi and _e, and the functions that CONTRIBUTING.md lists.
+   * @throws InputError with where it goes wrong
+   */
+  void
+  check_formula(const std::string &text,
+                const std::string &parameter,
+                const FormulaOf    variables = FormulaOf::place_and_time);
+} // namespace geocone
+
+#endif

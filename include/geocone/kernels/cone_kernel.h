@@ -1,0 +1,41 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_kernels_cone_kernel_h
+#define geocone_kernels_cone_kernel_h
+
+#include <geocone/cone/second_order_cone.h>
+#include <geocone/kernels/elasticity.h>
+#include <geocone/kernels/point_block.h>
+
+namespace geocone
+{
+  /**
+   * An explicit step of a linear elastic material with a cone, for a block of
+   * points: return_map() of the turned stress plus D e, free of branches. With
+   * the mean m = (s_xx + s_yy)/2, the half difference d = (s_xx - s_yy)/2 and
+   * tau = sqrt(d^2 + s_xy^2), the cone is tau <= -a m + k/sqrt2. In three dimensions
+   * it is the same with m = tr(s)/3, tau = |dev s|/sqrt3 and k/sqrt3.
+   * A cut-off of the cone in tension is not looked at.
+   */
+  void
+  advance_cone(const FlowCone   &cone,
+               const Elasticity &elasticity,
+               const PointBlock &block);
+
+  /**
+   * The same with friction that remembers (MohrCoulomb): the cone of each point is
+   * cone.delayed(part, p), with its cut-off, and p becomes part p + (1 - part) s_n.
+   * @param cone with a > 0
+   * @param part lambda
+   * @param place that of p (Pa) in the history
+   */
+  void
+  advance_cone(const FlowCone    &cone,
+               const Elasticity  &elasticity,
+               const PointBlock  &block,
+               const double       part,
+               const unsigned int place);
+} // namespace geocone
+
+#endif

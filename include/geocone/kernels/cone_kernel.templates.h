@@ -1,0 +1,217 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_kernels_cone_kernel_templates_h
+#define geocone_kernels_cone_kernel_templates_h
+
+#include <geocone/base/simd.h>
+#include <geocone/kernels/point_block.h>
+#include <geocone/kernels/spin.h>
+
+namespace geocone
+{
+  /** The numbers of advance_cone(), in d dimensions. */
+  struct ConeNumbers
+  {
+    double a, b;
+    double radius; ///< k/sqrt(d) (Pa)
+    double apex;   ///< mean stress at the apex, k/(sqrt(d) a) (Pa), or infinity
+    double K;      ///< d lambda + 2 G (Pa)
+    double two_G;  ///< (Pa)
+    double wave_modulus;
+
+    /** @name Of friction with memory */
+    /** @{ */
+    double   part  = 0.; ///< lambda of the step
+    unsigned place = 0;  ///< of p in the history; 0: no memory
+    /** @} */
+  };
+
+  /**
+   * The mean stress m and the other components d_i of several points, turned by the
+   * spin, with what the strain increment adds: m to m + K/d trace, d_i to d_i + 2 G
+   * part_i strain_i. The work of the strain is that of m on the trace and of the d_i on
+   * the strain_i; tau^2 = |s_t|^2/d is the sum of weight_i d_i^2. In the plane d is
+   * ((s_xx - s_yy)/2, s_xy), in space the deviator in the order of tensor_component.
+   */
+  template <typename P>
+  struct TurnedStress
+  {
+    static constexpr int    n       = dim == 2 ? 2 : 6;
+    static constexpr double part[6] = {
+      dim == 2 ? 0.5 : 1., dim == 2 ? 0.5 : 1., 0.5, 1., 0.5, 0.5};
+    static constexpr double weight[6] = {
+      1. / 3., 1. / 3., 2. / 3., 1. / 3., 2. / 3., 2. / 3.};
+
+    P m, trace, d[n], strain[n];
+
+    /** Those of the points p, ... of a block. */
+    TurnedStress(const PointBlock &block, const unsigned int p)
+    {
+      if constexpr (dim == 2)
+        {
+          const P half(0.5), quarter(0.25), one(1.);
+          const P xx = P::load(block.l[0] + p), xy = P::load(block.l[1] + p),
+                  yx = P::load(block.l[2] + p), yy = P::load(block.l[3] + p);
+          trace     = xx + yy;
+          strain[0] = xx - yy;
+          strain[1] = xy + yx;
+
+          // Turned by the Cayley transform, tan(angle/2) = spin/2.
+          const P t = quarter * (yx - xy), t2 = t * t;
+          const P q = one + t2, per_q2 = one / (q * q);
+          const P cos2 = (one - t2 * (P(6.) - t2)) * per_q2;
+          const P sin2 = P(4.) * t * (one - t2) * per_q2;
+          const P sxx = P::load(block.s[0] + p), syy = P::load(block.s[1] + p),
+                  sxy        = P::load(block.s[2] + p);
+          m                  = half * (sxx + syy);
+          const P difference = half * (sxx - syy);
+          d[0]               = cos2 * difference - sin2 * sxy;
+          d[1]               = sin2 * difference + cos2 * sxy;
+        }
+      else
+        {
+          const P          third(1. / 3.);
+          std::array<P, 9> l;
+          for (int i = 0; i < 9; ++i)
+            l[i] = P::load(block.l[i] + p);
+          std::array<P, 6> s;
+          for (int i = 0; i < 6; ++i)
+            s[i] = P::load(block.s[i] + p);
+          trace = l[0] + l[4] + l[8];
+          m     = third * (s[0] + s[1] + s[3]);
+          SpatialSpin<P>(l).turn(s);
+          for (int i = 0; i < 3; ++i)
+            {
+              const int place = place_of_normal[i];
+              d[place]        = s[place] - m;
+              strain[place]   = l[4 * i] - third * trace;
+            }
+          for (const auto &[place, a, b] : shears)
+            {
+              d[place]      = s[place];
+              strain[place] = l[3 * a + b] + l[3 * b + a];
+            }
+        }
+    }
+
+    static P
+    norm(const P (&d)[n])
+    {
+      if constexpr (dim == 2)
+        return sqrt(d[0] * d[0] + d[1] * d[1]);
+      else
+        {
+          P sum(0.);
+          for (int i = 0; i < n; ++i)
+            sum += P(weight[i]) * (d[i] * d[i]);
+          return sqrt(sum);
+        }
+    }
+
+    static void
+    store(const P &m,
+          const P (&d)[n],
+          const PointBlock  &block,
+          const unsigned int p)
+    {
+      if constexpr (dim == 2)
+        {
+          (m + d[0]).store(block.s[0] + p);
+          (m - d[0]).store(block.s[1] + p);
+          d[1].store(block.s[2] + p);
+        }
+      else
+        for (int i = 0; i < n; ++i)
+          (part[i] == 1. ? m + d[i] : d[i]).store(block.s[i] + p);
+    }
+  };
+
+  /** advance_cone() for one architecture, with or without memory; see there. */
+  template <typename Arch, bool remembers>
+  void
+  advance_cone_block(const ConeNumbers &cone, const PointBlock &block)
+  {
+    using P = Pack<Arch>;
+    // With memory: a and the radius are those of the delayed cone.
+    const double     lagging  = remembers ? cone.part * (cone.a - cone.b) : 0.;
+    const double     aperture = cone.a - lagging;
+    double *const    memory   = remembers ? block.history[cone.place] : nullptr;
+    const P          one(1.), half(0.5), zero(0.), tiny(1e-300);
+    const P          a(aperture), b(cone.b), k(cone.radius), apex(cone.apex);
+    constexpr double root = dim == 2 ? sqrt2 : 1.73205080756887729353;
+    // s_n = -sqrt2 m, of which lambda mu/sqrt2 counts for the radius.
+    const P least(-root * cone.apex), part_of_p(lagging / root),
+      part(cone.part), kept(root * (1. - cone.part));
+    const P K(cone.K), G2(cone.two_G), K_part(cone.K / dim);
+    const P per_H(1. / (cone.two_G + aperture * cone.b * cone.K));
+    const P per_K(1. / cone.K), per_G2(1. / cone.two_G), M(cone.wave_modulus);
+    const P root_of_dim(root);
+    using Turned = TurnedStress<P>;
+    for (unsigned int p = 0; p < block.n_points; p += PointBlock::lanes)
+      {
+        const Turned turned(block, p);
+        const P      m0 = turned.m, mt = m0 + K_part * turned.trace;
+        P            trial[Turned::n];
+        for (int i = 0; i < Turned::n; ++i)
+          trial[i] =
+            turned.d[i] + P(Turned::part[i] * cone.two_G) * turned.strain[i];
+        const P tau    = Turned::norm(trial);
+        P       radius = k;
+        if constexpr (remembers)
+          radius = k + part_of_p * max(P::load(memory + p), least);
+        P       f = tau - (radius - a * mt);
+        const P g = max(f, zero) * per_H;
+        // On the smooth part; beyond it, at the apex.
+        const P tau_1 = tau - G2 * g;
+        P       m1, tau_2;
+        if constexpr (remembers)
+          {
+            // The cut-off is at the apex of the exact cone.
+            const P m = mt - K * b * g;
+            tau_2     = where_greater(
+              m, apex, min(tau, max(radius - a * apex, zero)), tau_1);
+            m1 = min(m, apex);
+            f  = max(f, mt - apex);
+            (part * P::load(memory + p) - kept * m1).store(memory + p);
+          }
+        else
+          {
+            m1    = where_greater(zero, tau_1, apex, mt - K * b * g);
+            tau_2 = max(tau_1, zero);
+          }
+        const P scale = where_greater(f, zero, tau_2 / max(tau, tiny), one);
+        P       end[Turned::n];
+        P       work = (m0 + m1) * turned.trace;
+        for (int i = 0; i < Turned::n; ++i)
+          {
+            end[i] = scale * trial[i];
+            work += (turned.d[i] + end[i]) * turned.strain[i];
+          }
+        Turned::store(m1, end, block, p);
+
+        const P volumetric = (mt - m1) * per_K;
+        const P deviatoric = (tau - tau_2) * per_G2;
+        const P plastic =
+          root_of_dim * sqrt(volumetric * volumetric + deviatoric * deviatoric);
+        (P::load(block.plastic_strain + p) +
+         where_greater(f, zero, plastic, zero))
+          .store(block.plastic_strain + p);
+        (half * work).store(block.work + p);
+        M.store(block.wave_modulus + p);
+      }
+  }
+
+  /** The one that the numbers ask for. */
+  template <typename Arch>
+  void
+  advance_cone_block(const ConeNumbers &cone, const PointBlock &block)
+  {
+    if (cone.place > 0)
+      advance_cone_block<Arch, true>(cone, block);
+    else
+      advance_cone_block<Arch, false>(cone, block);
+  }
+} // namespace geocone
+
+#endif

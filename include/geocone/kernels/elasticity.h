@@ -1,0 +1,90 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_kernels_elasticity_h
+#define geocone_kernels_elasticity_h
+
+#include <geocone/base/types.h>
+
+namespace geocone
+{
+  /**
+   * Isotropic linear elasticity,
+   *   s = lambda tr(e) I + 2G e,
+   * in plane strain (zero strain along z) or in three dimensions. In cone axes the
+   * stiffness is diagonal: D = diag(K, 2G, ..., 2G), K = normal_stiffness().
+   */
+  class Elasticity
+  {
+  public:
+    Elasticity() = default;
+
+    /**
+     * @param young_modulus E > 0 (Pa)
+     * @param poisson_ratio nu in (-1, 0.5)
+     */
+    Elasticity(const double young_modulus, const double poisson_ratio)
+      : lambda(young_modulus * poisson_ratio /
+               ((1. + poisson_ratio) * (1. - 2. * poisson_ratio)))
+      , two_G(young_modulus / (1. + poisson_ratio))
+    {}
+
+    /** E (Pa). */
+    double
+    young_modulus() const
+    {
+      return two_G * (3. * lambda + two_G) / (2. * lambda + two_G);
+    }
+
+    /** dim times the bulk modulus of motions of the space, dim lambda + 2G: the
+     *  stiffness along the cone's axis (Pa). */
+    double
+    normal_stiffness() const
+    {
+      return dim * lambda + two_G;
+    }
+
+    /** The same of all three directions, 3 lambda + 2G (Pa). */
+    double
+    spatial_normal_stiffness() const
+    {
+      return 3. * lambda + two_G;
+    }
+
+    /** lambda tr(e) I + 2G e. @param strain of the plane, or spatial */
+    template <int n>
+    Eigen::Matrix<double, n, 1>
+    stress(const Eigen::Matrix<double, n, 1> &strain) const
+    {
+      return two_G * strain + (lambda * trace(strain)) * unit_tensor<n>();
+    }
+
+    /** S s: the elastic strain of a stress, of the plane or spatial. */
+    template <int n>
+    Eigen::Matrix<double, n, 1>
+    strain(const Eigen::Matrix<double, n, 1> &stress) const
+    {
+      const double bulk =
+        n == 3 ? 2. * lambda + two_G : spatial_normal_stiffness();
+      return (stress - (lambda / bulk * trace(stress)) * unit_tensor<n>()) /
+             two_G;
+    }
+
+    /** D of stress(), as a matrix (Pa). */
+    template <int n = n_mandel>
+    Eigen::Matrix<double, n, n, Eigen::RowMajor>
+    stiffness() const
+    {
+      using Matrix = Eigen::Matrix<double, n, n, Eigen::RowMajor>;
+      Matrix     D = two_G * Matrix::Identity();
+      const auto I = unit_tensor<n>();
+      D += lambda * I * I.transpose();
+      return D;
+    }
+
+    double lambda = 0.; ///< first Lame modulus (Pa)
+    double two_G  = 0.; ///< twice the shear modulus (Pa)
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,373 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_kernels_pyramid_kernel_templates_h
+#define geocone_kernels_pyramid_kernel_templates_h
+
+#include <geocone/base/simd.h>
+#include <geocone/kernels/pyramid_kernel.h>
+#include <geocone/kernels/spin.h>
+
+namespace geocone
+{
+  /** Principal values in falling order, and what stands for their directions n: the
+   *  components of n n in the plane, those of n in three dimensions. */
+  template <typename P>
+  class PrincipalAxes
+  {
+  public:
+    /** Of a symmetric tensor, by its components in the order of tensor_component. */
+    explicit PrincipalAxes(const std::array<P, n_spatial> &s)
+    {
+      if constexpr (dim == 2)
+        find_in_plane(s);
+      else
+        find_by_rotations(s);
+      sort(0, 1);
+      sort(1, 2);
+      sort(0, 1);
+    }
+
+    /** The tensor with other values y in the same directions. */
+    std::array<P, n_spatial>
+    tensor(const P (&y)[3]) const
+    {
+      std::array<P, n_spatial> s;
+      if constexpr (dim == 2)
+        for (int i = 0; i < n_spatial; ++i)
+          s[i] = y[0] * axis[0][i] + y[1] * axis[1][i] + y[2] * axis[2][i];
+      else
+        for (int i = 0; i < 3; ++i)
+          for (int j = i; j < 3; ++j)
+            s[place_of_component[i][j]] = y[0] * axis[0][i] * axis[0][j] +
+                                          y[1] * axis[1][i] * axis[1][j] +
+                                          y[2] * axis[2][i] * axis[2][j];
+      return s;
+    }
+
+    P value[3];
+
+  private:
+    static constexpr int n_axis = dim == 2 ? n_spatial : 3;
+
+    P axis[3][n_axis];
+
+    /** z is one of them. */
+    void
+    find_in_plane(const std::array<P, n_spatial> &s)
+    {
+      const P half(0.5), zero(0.), one(1.);
+      const P mean = half * (s[0] + s[1]), difference = half * (s[0] - s[1]);
+      const P radius = sqrt(difference * difference + s[2] * s[2]);
+      // Any axes will do where both are equal.
+      const P per_radius = one / max(radius, P(1e-300));
+      const P cos2 = where_greater(radius, zero, difference * per_radius, one);
+      const P sin2 = s[2] * per_radius;
+      value[0]     = mean + radius;
+      value[1]     = mean - radius;
+      value[2]     = s[3];
+      for (int i = 0; i < 2; ++i)
+        {
+          const P sign(i == 0 ? 0.5 : -0.5);
+          axis[i][0] = half + sign * cos2;
+          axis[i][1] = half - sign * cos2;
+          axis[i][2] = sign * sin2;
+          axis[i][3] = zero;
+          axis[2][i] = zero;
+        }
+      axis[2][2] = zero;
+      axis[2][3] = one;
+    }
+
+    /** By Jacobi's rotations, of which each makes one component vanish. */
+    void
+    find_by_rotations(const std::array<P, n_spatial> &s)
+    {
+      // Between the two other directions.
+      P off[3], size(0.);
+      for (int i = 0; i < 3; ++i)
+        {
+          const int j = (i + 1) % 3, k = (i + 2) % 3;
+          value[i] = s[place_of_normal[i]];
+          off[i]   = s[place_of_component[j][k]];
+          size += value[i] * value[i] + off[i] * off[i];
+          for (int d = 0; d < 3; ++d)
+            axis[i][d] = P(d == i ? 1. : 0.);
+        }
+      // Squares of what is beyond rounding; four or five sweeps do.
+      const P    negligible = P(1e-33) * size;
+      const auto is_done    = [&] {
+        const P left = off[0] * off[0] + off[1] * off[1] + off[2] * off[2];
+        return all_between(left, P(0.), negligible);
+      };
+      for (int sweep = 0; sweep < 10 && !is_done(); ++sweep)
+        for (int k = 0; k < 3; ++k)
+          rotate((k + 1) % 3, (k + 2) % 3, k, off);
+    }
+
+    /** Turns i and j about k so that off[k] vanishes. */
+    void
+    rotate(const int i, const int j, const int k, P (&off)[3])
+    {
+      const P zero(0.), one(1.);
+      const P apart = value[j] - value[i], twice = off[k] + off[k];
+      // The tangent of the smaller one of the two angles.
+      const P t =
+        where_greater(zero, apart, zero - twice, twice) /
+        max(abs(apart) + sqrt(apart * apart + twice * twice), P(1e-300));
+      const P c = one / sqrt(one + t * t), sine = t * c;
+      value[i] = value[i] - t * off[k];
+      value[j] = value[j] + t * off[k];
+      off[k]   = zero;
+      // The one of i and k is at j, and that of j and k at i.
+      turn(c, sine, off[j], off[i]);
+      for (int d = 0; d < 3; ++d)
+        turn(c, sine, axis[i][d], axis[j][d]);
+    }
+
+    static void
+    turn(const P &c, const P &sine, P &a, P &b)
+    {
+      const P turned = c * a - sine * b;
+      b              = sine * a + c * b;
+      a              = turned;
+    }
+
+    void
+    sort(const int i, const int j)
+    {
+      const P a = value[i], b = value[j];
+      value[i] = max(a, b);
+      value[j] = min(a, b);
+      for (int d = 0; d < n_axis; ++d)
+        {
+          const P p = axis[i][d], q = axis[j][d];
+          axis[i][d] = where_greater(b, a, q, p);
+          axis[j][d] = where_greater(b, a, p, q);
+        }
+    }
+  };
+
+  /** The return map of SpatialMohrCoulomb in principal stresses, of several points. */
+  template <typename P>
+  class PyramidReturn
+  {
+  public:
+    explicit PyramidReturn(const PyramidNumbers &pyramid)
+      : more(1. + pyramid.sine)
+      , less(pyramid.sine - 1.)
+      , flow_more(1. + pyramid.flow)
+      , flow_less(1. - pyramid.flow)
+    {
+      const double lambda = pyramid.lambda, two_G = pyramid.two_G;
+      const double f[2] = {1. + pyramid.sine, pyramid.sine - 1.};
+      // D g_ij: with g_i at i, g_j at j, and for the third one the same as lambda tr g.
+      const double third = 2. * lambda * pyramid.flow;
+      const double D[2]  = {third + two_G * (1. + pyramid.flow),
+                            third + two_G * (pyramid.flow - 1.)};
+      const double H     = f[0] * D[0] + f[1] * D[1];
+      per_H              = P(1. / H);
+      Dg[0] = Dg_13[0] = P(D[0]);
+      Dg[1] = Dg_13[2] = P(D[1]);
+      Dg_13[1] = Dg_third = P(third);
+      // The edges: f_13 of D g_12 and D g_23, as f_12 and f_23 of D g_13.
+      const double cross[2] = {f[0] * D[0] + f[1] * third,
+                               f[0] * third + f[1] * D[1]};
+      for (int e = 0; e < 2; ++e)
+        {
+          const double determinant = H * H - cross[e] * cross[e];
+          own[e]                   = P(H / determinant);
+          other[e]                 = P(-cross[e] / determinant);
+        }
+    }
+
+    /** @param t trial stresses in order, of which f_13 = f
+     *  @param[out] s where they return to, if f > 0 */
+    void
+    operator()(const P (&t)[3],
+               const P &f,
+               const P &size,
+               const P &apex,
+               P (&s)[3]) const
+    {
+      const P zero(0.), half(0.5);
+      P       plane[3];
+      for (int i = 0; i < 3; ++i)
+        plane[i] = t[i] - (f * per_H) * Dg_13[i];
+      const P in_order = min(plane[0] - plane[1], plane[1] - plane[2]);
+
+      // Edges s_2 = s_3, with f_12, and s_1 = s_2, with f_23.
+      P edge[2][3];
+      for (int e = 0; e < 2; ++e)
+        {
+          const P f_e        = more * t[e] + less * t[e + 1] - size;
+          const P gamma      = own[e] * f + other[e] * f_e,
+                  more_gamma = other[e] * f + own[e] * f_e;
+          for (int i = 0; i < 3; ++i)
+            edge[e][i] = t[i] - gamma * Dg_13[i] -
+                         more_gamma * (i == e       ? Dg[0]
+                                       : i == e + 1 ? Dg[1]
+                                                    : Dg_third);
+          // Equal to the last digit.
+          const P mean   = half * (edge[e][1 - e] + edge[e][2 - e]);
+          edge[e][1 - e] = edge[e][2 - e] = mean;
+        }
+      const P side = flow_less * t[0] - (t[1] + t[1]) + flow_more * t[2];
+      const P end  = where_greater(side, zero, edge[0][0], edge[1][0]) +
+                    where_greater(side, zero, edge[0][2], edge[1][2]);
+      for (int i = 0; i < 3; ++i)
+        {
+          const P at_edge = where_greater(side, zero, edge[0][i], edge[1][i]);
+          s[i]            = where_greater(zero,
+                               in_order,
+                               where_greater(end, apex + apex, apex, at_edge),
+                               plane[i]);
+        }
+    }
+
+  private:
+    P more, less, flow_more, flow_less; ///< 1 + sin(phi), sin(phi) - 1, ...
+    P Dg_13[3], Dg[2], Dg_third, per_H;
+    P own[2], other[2]; ///< of the inverse of F' D G
+  };
+
+  /** The stress of several points, turned by the spin, and the strain with shears
+   *  gamma_ij = 2 e_ij. */
+  template <typename P>
+  struct TurnedTensors
+  {
+    std::array<P, n_spatial> s, strain;
+
+    /** Those of the points p, ... of a block. @param nu for s_zz in the plane, see
+     *  Material */
+    TurnedTensors(const PointBlock &block, const unsigned int p, const P &nu)
+    {
+      std::array<P, dim * dim> l;
+      for (unsigned int i = 0; i < dim * dim; ++i)
+        l[i] = P::load(block.l[i] + p);
+      std::array<P, n_mandel> moved;
+      for (int i = 0; i < n_mandel; ++i)
+        moved[i] = P::load(block.s[i] + p);
+      if constexpr (dim == 2)
+        {
+          s[3] = nu * (moved[0] + moved[1]) + P::load(block.history[0] + p);
+          strain[3] = block.l_zz != nullptr ? P::load(block.l_zz + p) : P(0.);
+          PlaneSpin<P>(l).turn(moved);
+        }
+      else
+        SpatialSpin<P>(l).turn(moved);
+      for (int i = 0; i < n_mandel; ++i)
+        s[i] = moved[i];
+      for (unsigned int d = 0; d < dim; ++d)
+        strain[place_of_normal[d]] = l[(dim + 1) * d];
+      for (int i = 0; i < n_shears; ++i)
+        {
+          const auto [place, a, b] = shears[i];
+          strain[place]            = l[dim * a + b] + l[dim * b + a];
+        }
+    }
+  };
+
+  /** advance_pyramid() for one architecture; see there. */
+  template <typename Arch>
+  void
+  advance_pyramid_block(const PyramidNumbers &pyramid, const PointBlock &block)
+  {
+    using P = Pack<Arch>;
+    using T = std::array<P, n_spatial>;
+    const P zero(0.), half(0.5), third(1. / 3.);
+    const P more(1. + pyramid.sine), less(pyramid.sine - 1.);
+    const P twice_sine(2. * pyramid.sine);
+    const P round(2. * (1. + pyramid.sine * pyramid.sine / 3.));
+    const P lambda(pyramid.lambda), two_G(pyramid.two_G),
+      nu(pyramid.lambda / (2. * pyramid.lambda + pyramid.two_G));
+    const P per_G2(1. / pyramid.two_G);
+    const P bulk(pyramid.lambda /
+                 (pyramid.two_G * (3. * pyramid.lambda + pyramid.two_G)));
+    const P wave_modulus(pyramid.lambda + pyramid.two_G);
+    const P twice_lagging(2. * pyramid.lagging);
+    // Of its size, the stress at the apex of a pyramid.
+    const auto apex_of_size = [](const double sine) {
+      return sine > 0. ? P(0.5 / sine) : P(1e100);
+    };
+    const P apex(apex_of_size(pyramid.sine)),
+      exact_apex(apex_of_size(pyramid.sine + pyramid.lagging));
+    const PyramidReturn<P> returns(pyramid);
+    const auto             history = [&](const unsigned int place) {
+      return place == PyramidNumbers::no_place ? nullptr : block.history[place];
+    };
+    double *const memory = history(pyramid.memory);
+    double *const growth = history(pyramid.growth);
+
+    for (unsigned int p = 0; p < block.n_points; p += PointBlock::lanes)
+      {
+        const auto [s, strain] = TurnedTensors<P>(block, p, nu);
+        const P pressed        = lambda * (strain[0] + strain[1] + strain[3]);
+        T       trial;
+        for (int i = 0; i < n_spatial; ++i)
+          trial[i] = s[i] + (is_shear(i) ? half * (two_G * strain[i])
+                                         : pressed + two_G * strain[i]);
+
+        // The strength of each point.
+        P size(pyramid.size);
+        if (growth != nullptr)
+          size += P(pyramid.size_per_cohesion) * P::load(growth + p);
+        if (memory != nullptr)
+          size = size - twice_lagging *
+                          min(zero - P::load(memory + p), exact_apex * size);
+
+        // Within the round cone nothing is looked for.
+        const P mean = third * (trial[0] + trial[1] + trial[3]);
+        P       squares(0.);
+        for (int i = 0; i < n_spatial; ++i)
+          {
+            const P d = is_shear(i) ? trial[i] : trial[i] - mean;
+            squares += is_shear(i) ? P(2.) * d * d : d * d;
+          }
+        const P room = size - twice_sine * mean;
+        T       end  = trial;
+        if (memory != nullptr || !(room.least() > 0.) ||
+            !((room * room - round * squares).least() >= 0.))
+          {
+            const PrincipalAxes<P> axes(trial);
+            const P f = more * axes.value[0] + less * axes.value[2] - size;
+            P       values[3];
+            returns(axes.value, f, size, apex * size, values);
+            const T back = axes.tensor(values);
+            for (int i = 0; i < n_spatial; ++i)
+              end[i] = where_greater(f, zero, back[i], trial[i]);
+            P change[3], sum(0.);
+            for (int i = 0; i < 3; ++i)
+              {
+                values[i] = where_greater(f, zero, values[i], axes.value[i]);
+                change[i] = axes.value[i] - values[i];
+                sum += change[i];
+              }
+            P plastic(0.);
+            for (int i = 0; i < 3; ++i)
+              {
+                const P e = per_G2 * change[i] - bulk * sum;
+                plastic += e * e;
+              }
+            (P::load(block.plastic_strain + p) + sqrt(plastic))
+              .store(block.plastic_strain + p);
+            if (memory != nullptr)
+              (P(pyramid.part) * P::load(memory + p) -
+               P(0.5 * (1. - pyramid.part)) * (values[0] + values[2]))
+                .store(memory + p);
+          }
+
+        P work(0.);
+        for (int i = 0; i < n_spatial; ++i)
+          work += (s[i] + end[i]) * strain[i];
+        for (int i = 0; i < n_mandel; ++i)
+          end[i].store(block.s[i] + p);
+        if constexpr (dim == 2)
+          (end[3] - nu * (end[0] + end[1])).store(block.history[0] + p);
+        (half * work).store(block.work + p);
+        wave_modulus.store(block.wave_modulus + p);
+      }
+  }
+} // namespace geocone
+
+#endif

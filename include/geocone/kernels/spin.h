@@ -1,0 +1,105 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_kernels_spin_h
+#define geocone_kernels_spin_h
+
+#include <geocone/base/types.h>
+
+#include <array>
+#include <type_traits>
+
+namespace geocone
+{
+  /**
+   * The rotation of a spin increment w = (l_yx - l_xy)/2 by Cayley's transform,
+   * tan(angle/2) = w/2: orthogonal exactly, so that invariants stay.
+   * @tparam T a number, or several at once
+   */
+  template <typename T>
+  class PlaneSpin
+  {
+  public:
+    /** @param l the gradient, l_ij at 2 i + j */
+    explicit PlaneSpin(const std::array<T, 4> &l)
+    {
+      const T one(1.), two(2.);
+      const T tan_half = T(0.25) * (l[2] - l[1]);
+      const T t2       = tan_half * tan_half;
+      const T cosine   = (one - t2) / (one + t2);
+      const T sine     = two * tan_half / (one + t2);
+      cos2             = cosine * cosine - sine * sine;
+      sin2             = two * sine * cosine;
+    }
+
+    /** Turns the in-plane components xx, yy, xy of a symmetric tensor. */
+    void
+    turn(std::array<T, 3> &s) const
+    {
+      auto &[xx, yy, xy] = s;
+      const T half(0.5);
+      const T mean = half * (xx + yy), difference = half * (xx - yy);
+      const T turned = cos2 * difference - sin2 * xy;
+      xy             = sin2 * difference + cos2 * xy;
+      xx             = mean + turned;
+      yy             = mean - turned;
+    }
+
+  private:
+    T cos2, sin2; ///< of the angle, doubled
+  };
+
+  /**
+   * The same in three dimensions: with half the axial vector g of the spin increment,
+   *   Q = c 1 + s (g g' + [g x]),  s = 2/(1 + g.g),  c = 1 - s g.g.
+   */
+  template <typename T>
+  class SpatialSpin
+  {
+  public:
+    /** @param l the gradient, l_ij at 3 i + j */
+    explicit SpatialSpin(const std::array<T, 9> &l)
+    {
+      const T quarter(0.25), one(1.);
+      const T g[3] = {quarter * (l[7] - l[5]),
+                      quarter * (l[2] - l[6]),
+                      quarter * (l[3] - l[1])};
+      const T g2   = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
+      const T s = T(2.) / (one + g2), c = one - s * g2;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          Q[i][j] = s * g[i] * g[j];
+      for (int i = 0; i < 3; ++i)
+        {
+          const int j = (i + 1) % 3, k = (i + 2) % 3;
+          Q[i][i] = Q[i][i] + c;
+          Q[k][j] = Q[k][j] + s * g[i];
+          Q[j][k] = Q[j][k] - s * g[i];
+        }
+    }
+
+    /** Turns the components xx, yy, xy, zz, yz, zx of a symmetric tensor. */
+    void
+    turn(std::array<T, 6> &s) const
+    {
+      constexpr auto &place = place_of_component;
+      T               Qs[3][3];
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          Qs[i][j] = Q[i][0] * s[place[0][j]] + Q[i][1] * s[place[1][j]] +
+                     Q[i][2] * s[place[2][j]];
+      for (int i = 0; i < 3; ++i)
+        for (int j = i; j < 3; ++j)
+          s[place[i][j]] =
+            Qs[i][0] * Q[j][0] + Qs[i][1] * Q[j][1] + Qs[i][2] * Q[j][2];
+    }
+
+  private:
+    T Q[3][3];
+  };
+
+  using Spin =
+    std::conditional_t<dim == 2, PlaneSpin<double>, SpatialSpin<double>>;
+} // namespace geocone
+
+#endif

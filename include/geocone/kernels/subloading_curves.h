@@ -1,0 +1,54 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_kernels_subloading_curves_h
+#define geocone_kernels_subloading_curves_h
+
+#include <geocone/base/types.h>
+#include <geocone/kernels/subloading_model.h>
+#include <geocone/kernels/yield_curve.h>
+
+#include <vector>
+
+namespace geocone
+{
+  /** Mandel vector, compression positive, of a tensor, tension positive. */
+  template <int n>
+  typename SubloadingModel<n>::Vector
+  to_model(const Tensor6 &x)
+  {
+    typename SubloadingModel<n>::Vector y;
+    for (unsigned int i = 0; i < n; ++i)
+      y[i] = -(i < 3 ? 1. : sqrt2) * x[i];
+    return y;
+  }
+
+  /** @param sign -1 turns compression positive into tension positive. */
+  template <int n>
+  Tensor6
+  from_model(const Eigen::Matrix<double, n, 1> &x, const double sign)
+  {
+    Tensor6 y{};
+    for (unsigned int i = 0; i < n; ++i)
+      y[i] = sign * x[i] / (i < 3 ? 1. : sqrt2);
+    return y;
+  }
+
+  /** Sections of the yield surface and, inside it, of the subloading surface. */
+  template <int n>
+  std::vector<YieldCurve>
+  subloading_curves(const SubloadingModel<n> &model,
+                    const SubloadingState<n> &state,
+                    const SectionPlane       &plane);
+
+  extern template std::vector<YieldCurve>
+  subloading_curves(const SubloadingModel<4> &,
+                    const SubloadingState<4> &,
+                    const SectionPlane &);
+  extern template std::vector<YieldCurve>
+  subloading_curves(const SubloadingModel<6> &,
+                    const SubloadingState<6> &,
+                    const SectionPlane &);
+} // namespace geocone
+
+#endif

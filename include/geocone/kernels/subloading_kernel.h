@@ -1,0 +1,70 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_kernels_subloading_kernel_h
+#define geocone_kernels_subloading_kernel_h
+
+#include <geocone/kernels/subloading_constants.h>
+
+namespace geocone
+{
+  /** States of the subloading model at four points, and strain increments: component
+   *  by component in the order of SubloadingState, compression positive. */
+  template <int n>
+  struct SubloadingLanes
+  {
+    static constexpr int size = 4;
+
+    double stress[n][size], a[n][size], beta[n][size], pcb[size], Rb[size];
+    double strain[n][size];
+
+    /** @name Answers */
+    /** @{ */
+    double plastic_strain[size]; ///< of the increment
+    bool   is_done[size];        ///< or else the state is as it was
+    /** @} */
+
+    /** @param y a SubloadingState; templates, for kernels that do not know it */
+    template <typename State, typename Strain>
+    void
+    put(const State &y, const Strain &of_step, const int lane)
+    {
+      for (int i = 0; i < n; ++i)
+        {
+          stress[i][lane] = y.stress[i];
+          a[i][lane]      = y.a[i];
+          beta[i][lane]   = y.beta[i];
+          strain[i][lane] = of_step[i];
+        }
+      pcb[lane] = y.pcb;
+      Rb[lane]  = y.Rb;
+    }
+
+    template <typename State>
+    void
+    take(const int lane, State &y) const
+    {
+      for (int i = 0; i < n; ++i)
+        {
+          y.stress[i] = stress[i][lane];
+          y.a[i]      = a[i][lane];
+          y.beta[i]   = beta[i][lane];
+        }
+      y.pcb = pcb[lane];
+      y.Rb  = Rb[lane];
+    }
+  };
+
+  /**
+   * Carries four points along their strain increments, each by one substep, where that
+   * is all that SubloadingModel::integrate() would do: where the point loads from the
+   * start, the error of the whole increment is within the tolerance, and nothing has to
+   * be limited. This is the rule in explicit steps. The others are left to it.
+   */
+  void
+  take_single_substeps(const SubloadingNumbers &, SubloadingLanes<4> &);
+  void
+  take_single_substeps(const SubloadingNumbers &, SubloadingLanes<6> &);
+} // namespace geocone
+
+#endif

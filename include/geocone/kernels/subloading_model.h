@@ -1,0 +1,181 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_kernels_subloading_model_h
+#define geocone_kernels_subloading_model_h
+
+#include <geocone/kernels/subloading_constants.h>
+
+#include <Eigen/Core>
+
+namespace geocone
+{
+  /**
+   * A state. Vectors have n components: xx, yy, zz, sqrt2 xy, for n = 6 also
+   * sqrt2 yz, sqrt2 zx, so that scalar products are double contractions.
+   */
+  template <int n>
+  struct SubloadingState
+  {
+    using Vector = Eigen::Matrix<double, n, 1>;
+
+    Vector stress = Vector::Zero(); ///< sigma (Pa)
+    Vector a      = Vector::Zero(); ///< similarity centre (Pa)
+    Vector beta   = Vector::Zero(); ///< anisotropy, deviatoric (-)
+    double pcb    = 0.;             ///< size of the structured surface (Pa)
+    double Rb     = 1.;             ///< structure ratio (-)
+  };
+
+  /**
+   * One evaluation of the plastic rates at a state, for a strain increment de;
+   * h_x is dx/dLambda, and m = d gbar/d sy scales Lambda.
+   */
+  template <int n>
+  struct SubloadingRates
+  {
+    using Vector = Eigen::Matrix<double, n, 1>;
+
+    double K = 0., G = 0.;            ///< elastic moduli (25), (26) (Pa)
+    double p_y = 0.;                  ///< p of sy that turns beta in (24) (Pa)
+    Vector sy, st;                    ///< (20) and tilde sy of (38) (Pa)
+    Vector sh;                        ///< sh of (21) at sy (Pa)
+    Vector N, m;                      ///< gradients of fbar and gbar at sy (Pa)
+    double trace_m = 0., norm_m = 0.; ///< (Pa)
+    double U     = 0.;                ///< (31) (-)
+    double lode  = 1.;                ///< Willam and Warnke's h, Mcs = Mc h (-)
+    double eta_b = 0.;                ///< eta_beta,cs (-)
+    Vector h_a, h_beta;               ///< (38), (32)
+    double h_pc = 0., h_Rb = 0.;      ///< (37), (36)
+    double H          = 0.;           ///< plastic modulus
+    double N_D_m      = 0.;           ///< N:D:m
+    double N_D_strain = 0.;           ///< N:D:de
+    double d_lambda   = 0.;   ///< N:D:de/(N:D:m + H), 0 where it is negative
+    bool   stable     = true; ///< N:D:m + H > 0
+    /** The increments of the state for de. */
+    SubloadingState<n> increment;
+  };
+
+  /** What an integration has cost. */
+  struct SubloadingReport
+  {
+    unsigned int substeps       = 0;     ///< plastic passes and elastic parts
+    unsigned int forced         = 0;     ///< of them, against the error control
+    bool         limited        = false; ///< p or pcb was kept from its limit
+    double       plastic_strain = 0.;    ///< integral of ||d eps_p|| (-)
+  };
+
+  /**
+   * The subloading model with anisotropy, moving similarity centre, structure
+   * and non-associated flow, at one point with n = 4 (plane strain) or n = 6
+   * components; compression positive. See doc/theory.md.
+   */
+  template <int n>
+  class SubloadingModel
+  {
+  public:
+    using Vector = Eigen::Matrix<double, n, 1>;
+    using State  = SubloadingState<n>;
+
+    SubloadingModel() = default;
+    explicit SubloadingModel(const SubloadingConstants &constants)
+      : c(constants)
+    {}
+
+    const SubloadingNumbers &
+    constants() const
+    {
+      return c;
+    }
+
+    /**
+     * R, the similarity ratio of the subloading surface through the stress: the
+     * positive root of fbar(a + (sigma - a)/R) = 0, (20), (21).
+     */
+    double
+    ratio(const State &state) const;
+
+    /** fbar(S; beta, pcb) (21) (Pa^2), negative inside. */
+    double
+    yield_function(const Vector &S, const Vector &beta, const double pcb) const;
+
+    /**
+     * The size pc of the yield surface with inclination beta that passes through
+     * the stress; not positive if there is none (Pa).
+     */
+    double
+    size_through(const Vector &stress, const Vector &beta) const;
+
+    /** The plastic rates at a state with the ratio R. */
+    SubloadingRates<n>
+    rates(const State &state, const double R, const Vector &strain) const;
+
+    /** Carries a state along a strain increment (compression positive). */
+    SubloadingReport
+    integrate(State &state, const Vector &strain) const;
+
+    /** K + 4G/3 at the pressure p (Pa). */
+    double
+    wave_modulus(const double p) const
+    {
+      return (1. + 4. / 3. * c.shear_ratio) * (p + c.pe) / c.kappa;
+    }
+
+    /** G/K = 3(1-2nu)/(2(1+nu)) (25) (-). */
+    double
+    g_over_k() const
+    {
+      return c.shear_ratio;
+    }
+
+  private:
+    /** fbar(a + x (sigma - a)) = C + B x + A x^2, and what it is made of. */
+    struct Quadratic;
+
+    Quadratic
+    quadratic(const State &state) const;
+
+    /** Whether R > Rmin and N:D:de > 0. */
+    bool
+    loads(const State     &state,
+          const Quadratic &f,
+          const double     R,
+          const Vector    &strain) const;
+
+    /** @name The elastic path of the stress: u e, u from 0 to the length, which
+     *  is the integral of K; e = tr(de) I + 2 G/K dev(de) */
+    /** @{ */
+    Vector
+    elastic_direction(const Vector &strain) const;
+    double
+    elastic_length(const double p, const Vector &strain) const;
+
+    /** Moves the stress to where the point loads; the part of the increment, 0
+     *  to 1, that this takes. */
+    double
+    elastic_part(State           &state,
+                 const Quadratic &f,
+                 const double     R,
+                 const Vector    &strain) const;
+    /** @} */
+
+    /** A substep of the modified Euler method and its error. */
+    struct Substep;
+    Substep
+    substep(const State &state, const double R, const Vector &strain) const;
+
+    /** eta_beta,cs for the deviator s of norm norm_s, and h. */
+    double
+    critical_ratio(const Vector &s, const double norm_s, double &lode) const;
+
+    /** Keeps p + pe above the lowest pressure. */
+    void
+    limit(State &state, SubloadingReport &report) const;
+
+    SubloadingNumbers c;
+  };
+
+  extern template class SubloadingModel<4>;
+  extern template class SubloadingModel<6>;
+} // namespace geocone
+
+#endif

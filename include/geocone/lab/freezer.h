@@ -1,0 +1,64 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_lab_freezer_h
+#define geocone_lab_freezer_h
+
+#include <geocone/lab/frozen_problem.h>
+#include <geocone/scene/loading.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * Writes incremental problems as data into the folder of the run: those of
+   * chosen steps, and those that were not solved.
+   */
+  class Freezer : public dealii::ParameterAcceptor
+  {
+  public:
+    Freezer();
+
+    /** @throws InputError for steps that the programme does not have */
+    void
+    check(const LoadingProgramme &loading) const;
+
+    /** @param folder of the run, which exists */
+    void
+    prepare(const std::string &folder);
+
+    /** Whether any problem may be written. */
+    bool
+    is_used() const
+    {
+      return failures || !steps.empty();
+    }
+
+    /** The step of the programme whose problems come next. */
+    void
+    set_step(const unsigned int number);
+
+    /**
+     * Takes a problem that a solver has tried. Collective.
+     * @param start where it began
+     */
+    void
+    take(const IncrementalProblem &problem,
+         const Vector             &start,
+         const bool                particles,
+         const bool                converged);
+
+  private:
+    std::vector<unsigned int> steps;
+    bool                      failures = false;
+
+    std::string  path;
+    unsigned int step = 0, n_taken = 0, n_failures = 0;
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,89 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_lab_frozen_problem_h
+#define geocone_lab_frozen_problem_h
+
+#include <geocone/problem/incremental_problem.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * An incremental problem as data: what a step asked of its solver, without the
+   * scene, the mesh and the method. It can be written, read and solved again
+   * with other options.
+   */
+  struct FrozenProblem
+  {
+    /** Section `Materials` of the parameter file. */
+    std::string materials;
+
+    bool   particles       = false; ///< whether the points moved
+    double h               = 0.;    ///< step (s)
+    double consistent_part = 0.;    ///< of the mass
+
+    /** Only what an incremental problem takes of them. */
+    MaterialPoints points;
+
+    /** @name By dof, dim per node */
+    /** @{ */
+    /** 0, Unknowns::prescribed_row or Unknowns::massless_row. */
+    std::vector<int>    kind;
+    std::vector<double> mass;       ///< lumped (kg/m); empty without inertia
+    std::vector<double> force;      ///< F (N/m); empty without loads
+    std::vector<double> velocity_L; ///< vL (m/s)
+    std::vector<double> prescribed; ///< where the kind says so (m/s)
+    std::vector<double> start;      ///< where the solver began (m/s)
+    /** @} */
+
+    /** GhostStencil by stencil: three nodes; three coefficients and k. */
+    std::vector<int>    ghost_nodes;
+    std::vector<double> ghost_values;
+
+    /** Rows H v = q over these dofs. */
+    std::vector<int> constrained_dofs;
+    Eigen::MatrixXd  H;
+    Eigen::VectorXd  q;
+
+    /** Writes an HDF5 file. @throws RunError */
+    void
+    write(const std::string &file_name) const;
+
+    /** Reads one. @throws RunError naming the file and what is wrong in it */
+    static FrozenProblem
+    read(const std::string &file_name);
+  };
+
+  /** A frozen problem that can be solved, on one rank. */
+  class ThawedProblem
+  {
+  public:
+    /** @param materials as read from the section that was frozen */
+    ThawedProblem(const FrozenProblem &frozen, const Materials &materials);
+
+    IncrementalProblem &
+    problem()
+    {
+      return *incremental_problem;
+    }
+
+    /** Where the solver began. */
+    const Vector &
+    start() const
+    {
+      return v_start;
+    }
+
+  private:
+    const MaterialPoints                points;
+    Unknowns                            unknowns;
+    Vector                              mass, force, v_start;
+    std::unique_ptr<IncrementalProblem> incremental_problem;
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,49 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_lab_one_cone_h
+#define geocone_lab_one_cone_h
+
+#include <geocone/cone/second_order_cone.h>
+
+namespace geocone
+{
+  /** Stresses (Pa) in the columns; at most one inside, the apex, four more. */
+  using OneConeSolutions = Eigen::
+    Matrix<double, n_mandel, Eigen::Dynamic, Eigen::ColMajor, n_mandel, 6>;
+
+  /**
+   * All solutions s of the problem of one cone,
+   *   z = W s + q,   (s, z) fulfils the law of FlowCone,
+   * up to rounding. They are of three kinds:
+   *  - inside: z = 0;
+   *  - apex: s = (-k/a, 0), b |z_t| <= z_n;
+   *  - surface: s = s_n e_n + (a s_n + k) u and z = g d, d = b e_n - u, g >= 0,
+   *    with a tangential unit vector u = (0, cos x, sin x). The three equations
+   *      s_n W (e_n + a u) + k W u + q = g d
+   *    for s_n, g and x leave, without s_n and g and divided by a,
+   *      f(x) = det(d, W (e_n + a u), q) + k det(d, W e_n, W u) = 0,
+   *    a trigonometric polynomial of degree 2: up to four angles.
+   * There always is a solution, and for b = a only one.
+   *
+   * @param W symmetric positive definite 3 x 3 matrix, in cone axes
+   */
+  OneConeSolutions
+  one_cone_solutions(const FlowCone     &cone,
+                     const MandelMatrix &W,
+                     const Mandel       &q);
+
+  /**
+   * One of one_cone_solutions(): where there is one of the same kind as the
+   * guess (and, on the surface, Newton's method for f leads there from the angle
+   * of the guess), that one; otherwise the nearest to the guess. The first is
+   * many times faster.
+   */
+  Mandel
+  solve_one_cone(const FlowCone     &cone,
+                 const MandelMatrix &W,
+                 const Mandel       &q,
+                 const Mandel       &guess);
+} // namespace geocone
+
+#endif

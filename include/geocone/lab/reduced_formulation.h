@@ -1,0 +1,37 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_lab_reduced_formulation_h
+#define geocone_lab_reduced_formulation_h
+
+#include <geocone/newton/step_workspace.h>
+
+namespace geocone
+{
+  /**
+   * Solves a step for its stresses alone (Reduction), and then evaluates R(v) of
+   * the return map at the velocities that belong to them, by which it is judged.
+   * The error of the reduced problem that R(v) needs depends on the step size:
+   * while R(v) is too large it is divided by ten.
+   */
+  struct ReducedFormulation
+  {
+    enum class Solver
+    {
+      newton,                  ///< ReducedNewton, H v = q eliminated (eq 75)
+      newton_with_multipliers, ///< ReducedNewton, H v = q with multipliers
+      gauss_seidel             ///< GaussSeidel, H v = q eliminated
+    };
+
+    Solver       solver             = Solver::newton;
+    double       tolerance          = 1e-10; ///< on |R_free|, relative
+    double       absolute_tolerance = 1e-12; ///< on |R_free| (N/m)
+    unsigned int max_iterations     = 60;    ///< or sweeps
+
+    /** From the stress at t_n. @throws InputError as Reduction does */
+    void
+    solve(const StepWorkspace &work) const;
+  };
+} // namespace geocone
+
+#endif

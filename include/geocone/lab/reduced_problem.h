@@ -1,0 +1,124 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_lab_reduced_problem_h
+#define geocone_lab_reduced_problem_h
+
+#include <geocone/cone/second_order_cone.h>
+
+#include <Eigen/Dense>
+#include <Eigen/SparseCore>
+
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * An incremental problem of which only the stresses are left (Guillet et al.
+   * 2025, eqs 61, 74), as data: find s, lambda such that
+   *   z = W s - C lambda + q,   0 = -C' s + L lambda + d,
+   * and (s_p, z_p) fulfils the law of cone p (FlowCone), in cone axes, for each
+   * of the n cones. With M, B, S, H of eq (71) and a time step h,
+   *   W = S + h^2 B M^-1 B',  q = -q_sigma - h B M^-1 q_v,
+   *   C = h B M^-1 H',  L = H M^-1 H',  d = H M^-1 q_v - q_BC.
+   * Without constraints C, L and d are empty. s is a stress (Pa); z may be a
+   * strain increment or, with the volumes of the points in W and q, a multiple
+   * of it.
+   *
+   * W is given as a matrix, or where the mass is lumped by its factors,
+   *   W = S + G diag(m) G',  C = G diag(m) H',  L = H diag(m) H',
+   * which couple two points only where they share a node: the matrix would have a
+   * hundred times as many entries.
+   */
+  struct ReducedProblem
+  {
+    using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+    std::vector<FlowCone> cones; ///< n
+    Matrix                W; ///< 3n x 3n, symmetric positive definite, or empty
+    Eigen::VectorXd       q; ///< 3n
+    Eigen::VectorXd       S; ///< 3n, diagonal part of W, or empty: unknown
+    Matrix                G; ///< 3n x f, or empty
+    Matrix                H; ///< m x f, or empty
+    Eigen::VectorXd       m; ///< f, positive
+    Eigen::MatrixXd       C; ///< 3n x m, or empty
+    Eigen::MatrixXd       L; ///< m x m, symmetric positive definite
+    Eigen::VectorXd       d; ///< m
+
+    unsigned int
+    n_cones() const
+    {
+      return cones.size();
+    }
+
+    unsigned int
+    n_multipliers() const
+    {
+      return d.size();
+    }
+
+    /** Whether W is given by its factors. */
+    bool
+    has_factors() const
+    {
+      return m.size() > 0;
+    }
+
+    /** diag(m) G's, where W has factors. */
+    Eigen::VectorXd
+    nodal(const Eigen::VectorXd &s) const;
+
+    /** W s. */
+    Eigen::VectorXd
+    multiply(const Eigen::VectorXd &s) const;
+
+    /** The 3 x 3 block of W on the diagonal of a cone. */
+    MandelMatrix
+    diagonal_block(const unsigned int p) const;
+
+    /** z = W s - C lambda + q. */
+    Eigen::VectorXd
+    z(const Eigen::VectorXd &s, const Eigen::VectorXd &lambda) const;
+
+    /** lambda that fulfils the constraints for a given s: L^-1 (C' s - d). */
+    Eigen::VectorXd
+    multipliers(const Eigen::VectorXd &s) const;
+
+    /**
+     * The same problem without lambda (eqs 74, 75): W - C L^-1 C' and
+     * q + C L^-1 d, with W as a matrix. It is dense where C is.
+     * @throws RunError if L is not positive definite (redundant constraints)
+     */
+    ReducedProblem
+    projected() const;
+
+    /**
+     * Error of a state, whatever solver it comes from (eq 59):
+     *   max_p |s_p - P_C(s_p - rho_p Psi(z_p))| / (max_p |s_p| + max_p k_p),
+     * with rho_p = 3/trace(W_pp) and lambda = multipliers(s). Without unit;
+     * infinite for s = 0 without cohesion, unless that is the solution.
+     */
+    double
+    natural_map_error(const Eigen::VectorXd &s) const;
+  };
+
+  /** rho = 3/trace(W_pp): the scale of s/z in the natural map of one cone. */
+  inline double
+  natural_scale(const MandelMatrix &W)
+  {
+    return 3. / W.trace();
+  }
+
+  /** |s - P_C(s - rho Psi(z))| of one cone (Pa). */
+  inline double
+  natural_map_norm(const FlowCone &cone,
+                   const Mandel   &s,
+                   const Mandel   &z,
+                   const double    rho)
+  {
+    return natural_map(cone, s, Mandel(cone.psi(z)), rho).norm();
+  }
+} // namespace geocone
+
+#endif

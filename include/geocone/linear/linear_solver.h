@@ -1,0 +1,156 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_linear_linear_solver_h
+#define geocone_linear_linear_solver_h
+
+#include <geocone/base/choice.h>
+#include <geocone/base/sparse_matrix.h>
+#include <geocone/linear/nodal_rows.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * A solver of sparse linear systems. analyse() once per pattern, factorise() once
+   * per matrix, which is kept until the last solve() with it.
+   */
+  class LinearSolver
+  {
+  public:
+    virtual ~LinearSolver() = default;
+
+    /** Orders the unknowns and plans the factorisation of this pattern. */
+    virtual void
+    analyse(const SparseMatrix &matrix) = 0;
+
+    /**
+     * Factorises the values of a matrix with the analysed pattern.
+     * @return false if the matrix is singular or, for a Cholesky
+     * factorisation, not positive definite; the same on all ranks
+     */
+    [[nodiscard]] virtual bool
+    factorise(const SparseMatrix &matrix) = 0;
+
+    /**
+     * Replaces the owned rows of right-hand sides by the solutions.
+     * @param x the columns one after another
+     */
+    virtual void
+    solve(std::vector<double> &x, const unsigned int n_columns = 1) = 0;
+
+    /** Whether it wants set_nodal_rows() before analyse(). */
+    virtual bool
+    wants_nodal_rows() const
+    {
+      return false;
+    }
+
+    virtual void
+    set_nodal_rows(NodalRows)
+    {}
+
+    /** Whether it takes the lower triangle of a symmetric matrix only. */
+    virtual bool
+    wants_one_triangle() const = 0;
+
+    virtual std::string
+    name() const = 0;
+
+    /** Ends the run where a solver cannot do its part. @throws RunError */
+    [[noreturn]] static void
+    fail(const std::string &why);
+  };
+
+  /** Which solver, and what it keeps where. */
+  class LinearSolverParameters : public dealii::ParameterAcceptor
+  {
+  public:
+    LinearSolverParameters();
+
+    enum class Name
+    {
+      automatic,
+      cholmod,
+      umfpack,
+      mumps,
+      multigrid
+    };
+    Choice<Name> name = {{{"automatic", Name::automatic},
+                          {"Cholmod", Name::cholmod},
+                          {"Umfpack", Name::umfpack},
+                          {"Mumps", Name::mumps},
+                          {"multigrid", Name::multigrid}}};
+
+    /** Of the integers that count the entries of Cholmod's factors. */
+    enum class IndexSize
+    {
+      automatic,
+      bits_32,
+      bits_64
+    };
+    Choice<IndexSize> index_size = {{{"automatic", IndexSize::automatic},
+                                     {"32", IndexSize::bits_32},
+                                     {"64", IndexSize::bits_64}}};
+
+    /** Whether Mumps keeps factors on disk, and where. */
+    bool        out_of_core = false;
+    std::string folder      = "/tmp";
+
+    /** Of multigrid: the residual over the right-hand side, and how many
+     *  iterations it may take to get there. */
+    double       tolerance      = 1e-6;
+    unsigned int max_iterations = 200;
+
+    /**
+     * The solver for a kind of matrices:
+     *  - Cholmod: supernodal Cholesky of SuiteSparse; one rank, symmetric
+     *    positive definite matrices (associated flow);
+     *  - Umfpack: unsymmetric multifrontal LU of SuiteSparse; one rank;
+     *  - Mumps: distributed multifrontal LU, or Cholesky where symmetric;
+     *  - multigrid: Krylov's method with smoothed aggregation of Trilinos' ML, and
+     *    the direct solver of 'automatic' where it does not converge;
+     *  - automatic: Cholmod for symmetric matrices on one rank that are kept in
+     *    memory, otherwise Mumps, which is faster than Umfpack (doc/performance.md).
+     * @throws InputError for what it cannot do
+     */
+    std::unique_ptr<LinearSolver>
+    make(const MPI_Comm comm, const bool symmetric) const;
+
+  private:
+    std::unique_ptr<LinearSolver>
+    make_direct(Name chosen, const MPI_Comm comm, const bool symmetric) const;
+  };
+
+  /** @name The solvers */
+  /** @{ */
+
+  /** @param size of integers; automatic: the smallest that hold the factors */
+  std::unique_ptr<LinearSolver>
+  make_cholmod(const LinearSolverParameters::IndexSize size);
+
+  std::unique_ptr<LinearSolver>
+  make_umfpack();
+
+  /** @param folder for factors on disk; empty: in memory */
+  std::unique_ptr<LinearSolver>
+  make_mumps(const MPI_Comm     comm,
+             const bool         symmetric,
+             const std::string &folder);
+
+  /** @param direct solves what takes too many iterations */
+  std::unique_ptr<LinearSolver>
+  make_multigrid(const MPI_Comm                comm,
+                 const bool                    symmetric,
+                 const double                  tolerance,
+                 const unsigned int            max_iterations,
+                 std::unique_ptr<LinearSolver> direct);
+  /** @} */
+} // namespace geocone
+
+#endif

@@ -1,0 +1,80 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mesh_cell_record_h
+#define geocone_mesh_cell_record_h
+
+#include <geocone/base/exceptions.h>
+#include <geocone/mesh/background_mesh.h>
+
+#include <deal.II/grid/cell_id.h>
+
+#include <array>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * Which of the records of a checkpoint belong to which cell: cells have names
+   * (CellId) that do not depend on the number of ranks.
+   */
+  class CellRecord
+  {
+  public:
+    /** To be filled. */
+    CellRecord() = default;
+
+    /** To be read. @throws RunError if it does not fit to the records */
+    CellRecord(const std::vector<double> &numbers, const std::size_t n_records)
+    {
+      std::size_t begin = 0;
+      for (std::size_t i = 0; i + 5 <= numbers.size(); i += 5)
+        {
+          Name name;
+          for (unsigned int k = 0; k < 4; ++k)
+            name[k] = static_cast<unsigned int>(numbers[i + k]);
+          const auto n = static_cast<std::size_t>(numbers[i + 4]);
+          ranges[name] = {begin, begin + n};
+          begin += n;
+        }
+      if (begin != n_records)
+        throw RunError("the cells of the checkpoint have other numbers of "
+                       "records than it holds");
+    }
+
+    /** The next n records are of this cell. */
+    void
+    add(const BackgroundMesh::Cell &cell, const std::size_t n)
+    {
+      for (const unsigned int part : cell->id().to_binary<dim>())
+        numbers.push_back(part);
+      numbers.push_back(n);
+    }
+
+    bool
+    has(const BackgroundMesh::Cell &cell) const
+    {
+      return ranges.count(cell->id().to_binary<dim>()) > 0;
+    }
+
+    /** The records of a cell. @throws RunError if it is not known */
+    std::pair<std::size_t, std::size_t>
+    range(const BackgroundMesh::Cell &cell) const
+    {
+      const auto found = ranges.find(cell->id().to_binary<dim>());
+      if (found == ranges.end())
+        throw RunError("the checkpoint is of another mesh");
+      return found->second;
+    }
+
+    std::vector<double> numbers; ///< five for each cell: its name, and n
+
+  private:
+    using Name = dealii::CellId::binary_type;
+    std::map<Name, std::pair<std::size_t, std::size_t>> ranges;
+  };
+} // namespace geocone
+
+#endif

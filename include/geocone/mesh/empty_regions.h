@@ -1,0 +1,20 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mesh_empty_regions_h
+#define geocone_mesh_empty_regions_h
+
+#include <geocone/scene/scene.h>
+
+#include <vector>
+
+namespace geocone
+{
+  /** @throws InputError if a material that must have a part of the body has no cell
+   *  @param n_cells by material, of all ranks */
+  void
+  refuse_empty_regions(const Scene                     &scene,
+                       const std::vector<unsigned int> &n_cells);
+} // namespace geocone
+
+#endif

@@ -1,0 +1,44 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mesh_fitted_mesh_h
+#define geocone_mesh_fitted_mesh_h
+
+#include <geocone/mesh/gmsh_mesh.h>
+#include <geocone/scene/scene.h>
+
+#include <array>
+#include <set>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * The mesh of a scene, with the materials of its cells and the sides of its
+   * boundary. Collective.
+   * @param parameters prepared for the scene and the method
+   * @param sizes instead of those of the parameters; then gmsh makes the mesh
+   * @param parts_bodies whether it may be parted where bodies touch, as it is not for
+   * particles
+   * @throws InputError
+   */
+  CoarseMesh
+  fitted_mesh(const MeshParameters &parameters,
+              const Scene          &scene,
+              const MPI_Comm        comm,
+              const CellSizes      *sizes        = nullptr,
+              const bool            parts_bodies = true);
+
+  /**
+   * The numbers of the sides of a condition.
+   * @param sides their names
+   * @param all all that the boundary has, for "all"
+   * @throws InputError for a name that no side has
+   */
+  std::set<dealii::types::boundary_id>
+  side_ids(const BoundaryCondition                                 &condition,
+           const std::map<std::string, dealii::types::boundary_id> &sides,
+           const std::vector<dealii::types::boundary_id>           &all);
+} // namespace geocone
+
+#endif

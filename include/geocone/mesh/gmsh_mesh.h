@@ -1,0 +1,65 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mesh_gmsh_mesh_h
+#define geocone_mesh_gmsh_mesh_h
+
+#include <geocone/mesh/coarse_mesh.h>
+#include <geocone/mesh/mesh_parameters.h>
+#include <geocone/scene/contacts.h>
+
+#include <array>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * The number of cells to be expected of an unstructured mesh with the size
+   * field h: triangles are nearly equilateral, so that there are
+   *   4/sqrt(3) times the integral of 1/h^2 over the domain
+   * of them; each pair of triangles becomes four quadrilaterals. Within a factor
+   * of 2 of what gmsh makes, unless edges of materials force small cells.
+   */
+  double
+  unstructured_size(const MeshParameters &parameters);
+
+  /** Straight lines on which a mesh is to have edges, where they cross it. */
+  using MeshLines = std::vector<std::array<dealii::Point<dim>, 2>>;
+
+  /** Unstructured mesh of a box or polygon, by gmsh. Collective. */
+  CoarseMesh
+  unstructured_mesh(const MeshParameters &parameters,
+                    const Regions        &regions,
+                    const MeshLines      &lines,
+                    const MPI_Comm        comm);
+
+  /** Sizes that an unstructured mesh is to have, linear on triangles that cover
+   *  the domain (m). */
+  struct CellSizes
+  {
+    std::vector<std::array<dealii::Point<dim>, 3>> triangles;
+    std::vector<std::array<double, 3>>             sizes; ///< at the corners
+  };
+
+  /** As unstructured_mesh(), with these sizes. Collective. */
+  CoarseMesh
+  mesh_with_sizes(const MeshParameters &parameters,
+                  const Regions        &regions,
+                  const MeshLines      &lines,
+                  const CellSizes      &sizes,
+                  const MPI_Comm        comm);
+
+  /**
+   * The mesh of a .msh file (see msh_file.h), or of a geo script if the geometry
+   * says that it may be run. Collective: the first rank reads or runs it.
+   * @param contacts along which bodies may have nodes of their own, or null
+   * @throws InputError if it is neither, or no mesh of ours
+   */
+  CoarseMesh
+  mesh_of_file(const Geometry &geometry,
+               const Regions  &regions,
+               const Contacts *contacts,
+               const MPI_Comm  comm);
+} // namespace geocone
+
+#endif

@@ -1,0 +1,33 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_mesh_msh_mesh_h
+#define geocone_mesh_msh_mesh_h
+
+#include <geocone/mesh/coarse_mesh.h>
+#include <geocone/mesh/msh_file.h>
+#include <geocone/scene/contacts.h>
+#include <geocone/scene/geometry.h>
+
+#include <string>
+
+namespace geocone
+{
+  /**
+   * The mesh of the cells: vertices in the order in which the cells use them,
+   * cells in the order of their surfaces, and of each surface first the
+   * triangles; the edges of physical curves are the sides.
+   * @param contacts between bodies, which may have nodes of their own where they touch,
+   * or null for none
+   * @throws InputError if nodes are missing, not finite, not in the plane z = 0,
+   * or too close together for their coordinates; if there are no cells, or some
+   * are inverted, overlap, or have hanging nodes
+   */
+  CoarseMesh
+  coarse_mesh(const MshData     &data,
+              const std::string &what,
+              const Regions     &regions,
+              const Contacts    *contacts = nullptr);
+} // namespace geocone
+
+#endif

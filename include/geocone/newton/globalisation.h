@@ -1,0 +1,135 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_newton_globalisation_h
+#define geocone_newton_globalisation_h
+
+#include <geocone/newton/contact_direction.h>
+#include <geocone/newton/step_workspace.h>
+
+namespace geocone
+{
+  /** A line v + x d from an iterate along a Newton direction. */
+  class NewtonLine
+  {
+  public:
+    NewtonLine(const StepWorkspace &work, const LocalLaw &law);
+
+    /** Starts at the present iterate. */
+    void
+    begin()
+    {
+      start = work.v;
+    }
+
+    /** Moves the iterate to v + x d, and evaluates the residual there. */
+    void
+    move(const double x);
+
+    /** R.d at the iterate: for associated flow the slope of a convex function. Of a
+     *  ContactDirection its own. */
+    double
+    slope() const
+    {
+      return contact != nullptr
+               ? contact->slope(direction)
+               : work.problem.free_dot(work.residual, direction);
+    }
+
+    /** sum R_i^2 / D_i at the iterate, D the diagonal of the elastic Jacobian. */
+    double
+    merit() const
+    {
+      return work.problem.merit(work.residual);
+    }
+
+    Vector                  direction;         ///< d
+    const ContactDirection *contact = nullptr; ///< that made it, if one did
+    ResidualReport          state;             ///< at the iterate
+
+  private:
+    const StepWorkspace &work;
+    const LocalLaw      &law;
+    Vector               start;
+  };
+
+  /**
+   * What makes Newton's method converge from afar: how far it goes along its
+   * directions, and how much of the elastic stiffness is blended into its tangent.
+   * This one takes full steps with the tangent as it is.
+   */
+  class Globalisation
+  {
+  public:
+    virtual ~Globalisation() = default;
+
+    /**
+     * The part w of the elastic stiffness in the tangent (1 - w) C + w D of the
+     * next direction.
+     * @param residual relative to the forces
+     */
+    virtual double
+    blend(const double residual) const;
+
+    /** Moves the iterate. @return the length x of the step */
+    virtual double
+    move(NewtonLine &line);
+
+    /** Whether directions have to lead downhill, NewtonLine::slope() < 0. */
+    virtual bool
+    needs_descent() const
+    {
+      return false;
+    }
+  };
+
+  /** The line search of line_search.h. */
+  class LineSearch : public Globalisation
+  {
+  public:
+    double
+    move(NewtonLine &line) override;
+
+    bool
+    needs_descent() const override
+    {
+      return true;
+    }
+  };
+
+  /** Full steps with w = min(1/2, c |R_free| / |B'V s|), which vanishes with the
+   *  residual. */
+  class ElasticBlend : public Globalisation
+  {
+  public:
+    /** Values of c that were found to be good. */
+    static constexpr double with_return_map = 0.3, with_natural_map = 0.05;
+
+    /** @param factor c */
+    explicit ElasticBlend(const double factor)
+      : factor(factor)
+    {}
+
+    double
+    blend(const double residual) const override;
+
+  private:
+    double factor;
+  };
+
+  /** Steps are halved until the merit falls; where that stalls the tangent is
+   *  blended, w = max(0.02, 3 w), until it works again. */
+  class MeritSearch : public Globalisation
+  {
+  public:
+    double
+    blend(const double residual) const override;
+    double
+    move(NewtonLine &line) override;
+
+  private:
+    double damping = 0.; ///< w
+  };
+} // namespace geocone
+
+#endif

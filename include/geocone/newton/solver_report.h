@@ -1,0 +1,70 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_newton_solver_report_h
+#define geocone_newton_solver_report_h
+
+#include <geocone/base/state_row.h>
+
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /** A line of the Newton table: a state and how it was reached. */
+  struct NewtonIteration
+  {
+    double       relative_residual = 0.; ///< norm / force norm
+    double       step_length       = 0.; ///< of the step that led here
+    double       elastic_blend     = 0.; ///< w in its tangent
+    double       friction_lag      = 0.; ///< of the law that was linearised
+    unsigned int n_cone            = 0;
+    unsigned int n_apex            = 0;
+    unsigned int n_switched        = 0;
+  };
+
+  /** What a solve came to. */
+  struct SolverReport
+  {
+    bool         converged      = false;
+    unsigned int iterations     = 0; ///< linear systems solved, or sweeps
+    unsigned int factorisations = 0;
+    unsigned int regularised    = 0;  ///< systems made regular by a blend
+    double       residual       = 0.; ///< relative, at the end
+    double       friction_lag   = 0.; ///< of the law that was solved; 0: exact
+
+    /** InternalForces::excess_share() of what was solved, where friction lags. */
+    double excess_share = 0.;
+
+    /** Whether it was solved, but by a law that differs too much from the exact one. */
+    bool exceeds = false;
+
+    /** Solved up to rounding, which is above the tolerance. */
+    bool at_rounding_floor = false;
+
+    std::vector<NewtonIteration> table;
+    std::string                  reason; ///< why it did not converge
+    std::string                  remedy; ///< what may help, if it is known
+
+    /** All but the table, for checkpoints. */
+    void
+    state(StateRow &row)
+    {
+      row(converged,
+          iterations,
+          factorisations,
+          regularised,
+          residual,
+          friction_lag,
+          excess_share,
+          exceeds,
+          at_rounding_floor);
+    }
+
+    /** Puts what was tried before in front. */
+    void
+    add_earlier(const SolverReport &earlier);
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,110 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_points_material_points_h
+#define geocone_points_material_points_h
+
+#include <geocone/points/point_state.h>
+
+#include <deal.II/grid/tria.h>
+
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * Where the continuum lives, on this rank: contiguous arrays over points that
+   * are sorted by cell, with the functions there. This is all that the incremental
+   * problem knows of FEM or MPM. Everything here belongs to t_n and is const during a
+   * step.
+   */
+  struct MaterialPoints : PointState<PointValues>
+  {
+    unsigned int
+    n_points() const
+    {
+      return volume.size();
+    }
+    unsigned int
+    n_cells() const
+    {
+      return first_point.size() - 1;
+    }
+
+    /** Nodes per cell. */
+    unsigned int n_nodes = 0;
+
+    /** The cells that have points. */
+    std::vector<dealii::Triangulation<dim>::active_cell_iterator> cells;
+
+    /** The points of cell c are first_point[c] ... first_point[c + 1] - 1. */
+    std::vector<unsigned int> first_point = {0};
+
+    /** Weight of a point in integrals over the body (m^2; around an axis m^3): its volume,
+     *  unless make_consistent() has changed it. */
+    std::vector<double> weight;
+
+    /** Local numbers of the nodes of a cell: n_nodes per cell. */
+    std::vector<unsigned int> nodes;
+
+    /** grad N at a point: n_nodes values of d/dx, then n_nodes of d/dy (1/m). */
+    std::vector<double> gradients;
+
+    /** N/r at a point, which makes the hoop strain of v_x: n_nodes values (1/m).
+     *  Empty in plane strain. */
+    std::vector<double> hoop;
+
+    /** N at a point: n_nodes values. Empty where points do not move. */
+    std::vector<double> values;
+
+    /**
+     * What the volumetric strain at a point comes from in place of grad N, laid out as
+     * gradients (B-bar); of round bodies with the hoop strain. Empty without B-bar.
+     */
+    std::vector<double> volumetric_gradients;
+    /** Number of the polynomials in a cell that they are projected onto; 0 where they
+     *  are not, the same on all ranks. */
+    unsigned int n_volumetric_modes = 0;
+    /** The values at a point of a basis of them, with sum_p V_p M_i M_j = delta_ij in
+     *  each cell. M_j is 0 at all points of a cell that cannot tell it from those
+     *  before it. */
+    std::vector<double> volumetric_modes;
+
+    /** Those of a point, or null where there are none. */
+    const double *
+    history_of(const unsigned int point) const
+    {
+      return history.data() + static_cast<std::size_t>(n_history()) * point;
+    }
+    double *
+    history_of(const unsigned int point)
+    {
+      return history.data() + static_cast<std::size_t>(n_history()) * point;
+    }
+
+    /** Excess pore pressure p (Pa), the last history variable where there is
+     *  undrained soil (Materials::are_undrained()). */
+    double
+    excess_pressure(const unsigned int point) const
+    {
+      return history_of(point + 1)[-1];
+    }
+
+    /** The variables in use from now on: points that stay have neither mass nor
+     *  velocity, nor what follows from them. */
+    void
+    use(const bool moving, const unsigned int n_history);
+
+    /** Adds a point with the numbers of a row. */
+    void
+    append(const double *row);
+  };
+
+  /** Fills the volumetric gradients: in each cell the projection of grad N (of d/dr + 1/r
+   *  around an axis), weighted by volume, onto the polynomials of x of a degree, 0 being
+   *  the mean. With no more points than polynomials nothing changes in a cell. */
+  void
+  project_gradients(const unsigned int degree, MaterialPoints &points);
+} // namespace geocone
+
+#endif

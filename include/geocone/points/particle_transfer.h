@@ -1,0 +1,99 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_points_particle_transfer_h
+#define geocone_points_particle_transfer_h
+
+#include <geocone/base/choice.h>
+#include <geocone/base/types.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+#include <deal.II/base/tensor.h>
+
+namespace geocone
+{
+  /**
+   * A rule by which particles take their velocities from the nodes:
+   *   v_p := alpha (v_p + sum_i N_i (v_i - vL_i)) + (1 - alpha) sum_i N_i v_i,
+   * and, if it is affine, C of the velocity field v_p + C (x - x_p), with which they
+   * give momentum to the nodes (affine_velocity()).
+   */
+  struct TransferRule
+  {
+    bool is_affine;
+    bool flips; ///< alpha is 'FLIP part'; otherwise 0
+  };
+
+  /**
+   * How particles take their velocities from the nodes, in implicit and in explicit
+   * steps alike: parameters of "Material point method". A new rule is a line of
+   * its list.
+   */
+  class ParticleTransfer : public dealii::ParameterAcceptor
+  {
+  public:
+    ParticleTransfer();
+
+    /** Whether a particle has an affine velocity field, v + C (x - x_p). */
+    bool
+    is_affine() const
+    {
+      return present().is_affine;
+    }
+
+    /** Part of the change that a particle takes, v_p + dv; the rest is that of the
+     *  interpolated velocity. */
+    double
+    flip_part() const
+    {
+      return present().flips ? part : 0.;
+    }
+
+    /** What the file calls the rule. */
+    std::string
+    name() const
+    {
+      return rule.word();
+    }
+
+    /** "Material point method/Transfer", for messages. */
+    static const char *const parameter;
+
+  private:
+    const TransferRule &
+    present() const
+    {
+      return *static_cast<const TransferRule *>(rule);
+    }
+
+    static constexpr TransferRule flip  = {false, true};
+    static constexpr TransferRule apic  = {true, false};
+    static constexpr TransferRule aflip = {true, true};
+    static constexpr TransferRule pic   = {false, false};
+
+    Choice<const TransferRule *> rule = {
+      {{"FLIP", &flip}, {"APIC", &apic}, {"AFLIP", &aflip}, {"PIC", &pic}}};
+
+    double part = 1.;
+  };
+
+  /**
+   * C of the affine rules (APIC), by the moments of a particle's nodes,
+   *   B = sum_i N_i v_i r_i',  D = sum_i N_i r_i r_i',  r_i = x_i - x_p:
+   * C e = B e/d for the eigenvectors e of D with the eigenvalues d. At a side of
+   * the mesh only the functions of the side are left: across it, where d vanishes,
+   * the limit is the gradient.
+   * @param gradient sum_i v_i (grad N_i)'
+   * @param size of the cell (m), to compare sqrt(d) with
+   */
+  dealii::Tensor<2, dim>
+  affine_velocity(const dealii::Tensor<2, dim> &B,
+                  const dealii::Tensor<2, dim> &D,
+                  const dealii::Tensor<2, dim> &gradient,
+                  const double                  size);
+
+  /** d/size^2 below which a moment counts as none in affine_velocity(). */
+  constexpr double vanishing_moment = 1e-10;
+} // namespace geocone
+
+#endif

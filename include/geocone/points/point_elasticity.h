@@ -1,0 +1,23 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_points_point_elasticity_h
+#define geocone_points_point_elasticity_h
+
+#include <geocone/materials/material_library.h>
+#include <geocone/points/material_points.h>
+
+namespace geocone
+{
+  /** Elasticity of a point at t_n. */
+  inline Elasticity
+  elasticity_at_start(const Materials      &materials,
+                      const MaterialPoints &points,
+                      const unsigned int    p)
+  {
+    return materials[points.material[p]].elasticity_at(points.stress[p],
+                                                       points.history_of(p));
+  }
+} // namespace geocone
+
+#endif

@@ -1,0 +1,149 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_points_point_functions_h
+#define geocone_points_point_functions_h
+
+#include <geocone/points/material_points.h>
+#include <geocone/points/particle_transfer.h>
+
+#include <deal.II/base/point.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * The functions that are not zero at a point of any mesh, and what goes over
+   * between the point and its nodes (P2G, G2P), in implicit and in explicit steps
+   * alike; TransferKernels does the same for many points of a Cartesian grid.
+   * Arrays at the nodes have m values per local node, one node after another.
+   */
+  struct PointFunctions
+  {
+    unsigned int        n;     ///< number of functions
+    const unsigned int *nodes; ///< local numbers of their nodes
+    const double       *N;
+    /** dN/dx of all functions, dN/dy, ... (1/m). */
+    std::array<const double *, dim> slopes;
+
+    using Positions = std::vector<dealii::Point<dim>>; ///< of the local nodes
+
+    /** G2P. @param[out] at_point sum N_i f_i of the m values, then, with gradients,
+     *  sum f_i dN_i/dx, sum f_i dN_i/dy, ...
+     *  @tparam stride values per node, of which there can be more than these */
+    template <unsigned int m, bool with_gradients, unsigned int stride = m>
+    void
+    gather(const double *at_nodes, double *at_point) const
+    {
+      std::fill_n(at_point, with_gradients ? (1 + dim) * m : m, 0.);
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          const double *f = at_nodes + stride * nodes[i];
+          for (unsigned int c = 0; c < m; ++c)
+            {
+              at_point[c] += N[i] * f[c];
+              if (with_gradients)
+                for (unsigned int d = 0; d < dim; ++d)
+                  at_point[(1 + d) * m + c] += slopes[d][i] * f[c];
+            }
+        }
+    }
+
+    /** P2G, its transpose: adds to the nodes. */
+    template <unsigned int m, bool with_gradients, unsigned int stride = m>
+    void
+    scatter(const double *at_point, double *at_nodes) const
+    {
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          double *f = at_nodes + stride * nodes[i];
+          for (unsigned int c = 0; c < m; ++c)
+            {
+              f[c] += N[i] * at_point[c];
+              if (with_gradients)
+                for (unsigned int d = 0; d < dim; ++d)
+                  f[c] += slopes[d][i] * at_point[(1 + d) * m + c];
+            }
+        }
+    }
+
+    /** P2G of the affine momentum of APIC: adds mass N_i C (x_i - x) to the first
+     *  dim of m values. */
+    template <unsigned int m>
+    void
+    scatter_affine(const double                  mass,
+                   const dealii::Tensor<2, dim> &C,
+                   const dealii::Point<dim>     &x,
+                   const Positions              &positions,
+                   double                       *at_nodes) const
+    {
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          const dealii::Tensor<1, dim> v = C * (positions[nodes[i]] - x);
+          for (unsigned int d = 0; d < dim; ++d)
+            at_nodes[m * nodes[i] + d] += mass * N[i] * v[d];
+        }
+    }
+
+    /** G2P of APIC: C of a point at x by the first dim of m values, its velocities.
+     *  @param size of the cell (m), as in affine_velocity() */
+    template <unsigned int m>
+    dealii::Tensor<2, dim>
+    gather_affine(const double             *at_nodes,
+                  const dealii::Point<dim> &x,
+                  const Positions          &positions,
+                  const double              size) const
+    {
+      dealii::Tensor<2, dim> B, gradient;
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          const double                *v = at_nodes + m * nodes[i];
+          const dealii::Tensor<1, dim> r = positions[nodes[i]] - x;
+          for (unsigned int d = 0; d < dim; ++d)
+            for (unsigned int e = 0; e < dim; ++e)
+              {
+                B[d][e] += N[i] * v[d] * r[e];
+                gradient[d][e] += slopes[e][i] * v[d];
+              }
+        }
+      return affine_velocity(B, moment(x, positions), gradient, size);
+    }
+
+    /** D = sum_i N_i (x_i - x)(x_i - x)' of APIC (m^2). */
+    dealii::Tensor<2, dim>
+    moment(const dealii::Point<dim> &x, const Positions &positions) const
+    {
+      dealii::Tensor<2, dim> D;
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          const dealii::Tensor<1, dim> r = positions[nodes[i]] - x;
+          D += N[i] * outer_product(r, r);
+        }
+      return D;
+    }
+  };
+
+  /** Calls f(p, c, its functions) for each point p of each cell c. */
+  template <typename Function>
+  void
+  for_each_point(const MaterialPoints &points, const Function &f)
+  {
+    const unsigned int n = points.n_nodes;
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      for (unsigned int p = points.first_point[c];
+           p < points.first_point[c + 1];
+           ++p)
+        {
+          PointFunctions at = {
+            n, &points.nodes[n * c], &points.values[n * p], {}};
+          for (unsigned int d = 0; d < dim; ++d)
+            at.slopes[d] = &points.gradients[n * (dim * p + d)];
+          f(p, c, at);
+        }
+  }
+} // namespace geocone
+
+#endif

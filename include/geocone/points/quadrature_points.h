@@ -1,0 +1,82 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_points_quadrature_points_h
+#define geocone_points_quadrature_points_h
+
+#include <geocone/points/material_points.h>
+#include <geocone/space/space.h>
+
+#include <deal.II/base/quadrature.h>
+
+#include <functional>
+
+namespace geocone
+{
+  /**
+   * The rule that integrates B'DB exactly on affine cells: on triangles of
+   * degree p polynomials of degree 2p - 2 (1, 3, 7 points), on quadrilaterals
+   * (p + 1)^2 Gauss points.
+   */
+  dealii::Quadrature<dim>
+  stress_quadrature(const Space &space, const BackgroundMesh &mesh);
+
+  /** Geometry and N at the points of a rule in one cell. */
+  struct CellValues
+  {
+    CellValues(const Space                   &space,
+               const BackgroundMesh          &mesh,
+               const dealii::Quadrature<dim> &quadrature);
+    ~CellValues();
+
+    void
+    reinit(const Space::Cell &cell);
+
+    const dealii::Quadrature<dim>   quadrature;
+    std::vector<dealii::Point<dim>> position;
+    std::vector<double>             weight; ///< JxW times measure() (m^2, m^3)
+
+    /** N_i at point q. */
+    double
+    value(const unsigned int i, const unsigned int q) const
+    {
+      return reference_value[q * n_nodes + i];
+    }
+
+    /** grad N_i at point q (1/m). */
+    dealii::Tensor<1, dim>
+    gradient(const unsigned int i, const unsigned int q) const;
+
+  private:
+    const BackgroundMesh               &mesh;
+    const Space                        &space;
+    const unsigned int                  n_nodes;
+    bool                                is_evaluated = false;
+    std::vector<double>                 reference_value;
+    std::vector<dealii::Tensor<1, dim>> reference_gradient;
+    struct Geometry;
+    std::unique_ptr<Geometry> geometry;
+  };
+
+  /**
+   * Points of the finite element method: the points of a quadrature rule in
+   * each cell, which never move.
+   * @throws InputError if a material has no cell
+   */
+  MaterialPoints
+  make_quadrature_points(const Scene          &scene,
+                         const BackgroundMesh &mesh,
+                         const Space          &space);
+
+  /** Those of some of the cells, in the order of the mesh, with the state that some of
+   *  them have. */
+  MaterialPoints
+  quadrature_points_of(
+    const Scene                                             &scene,
+    const BackgroundMesh                                    &mesh,
+    const Space                                             &space,
+    const MaterialPoints                                    &known,
+    const std::function<bool(const BackgroundMesh::Cell &)> &is_there);
+} // namespace geocone
+
+#endif

@@ -1,0 +1,42 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_problem_external_forces_h
+#define geocone_problem_external_forces_h
+
+#include <geocone/problem/term.h>
+
+namespace geocone
+{
+  /** The external forces of a step, -F: weight and tractions. */
+  class ExternalForces : public Term
+  {
+  public:
+    /** @param forces F at the end of the step, or null for none */
+    void
+    begin_step(const Vector *forces)
+    {
+      force = forces;
+    }
+
+    void
+    residual(Vector &part, const Vector &, const LocalLaw &) override
+    {
+      part = 0.;
+      if (force != nullptr)
+        part.add(-1., *force);
+    }
+
+    /** F, or null. */
+    const Vector *
+    vector() const
+    {
+      return force;
+    }
+
+  private:
+    const Vector *force = nullptr;
+  };
+} // namespace geocone
+
+#endif

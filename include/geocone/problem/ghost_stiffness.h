@@ -1,0 +1,141 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_problem_ghost_stiffness_h
+#define geocone_problem_ghost_stiffness_h
+
+#include <geocone/problem/term.h>
+
+#include <array>
+#include <vector>
+
+namespace geocone
+{
+  /** Three functions of a row or a column of splines, of which the last one has
+   *  hardly any material. */
+  struct GhostStencil
+  {
+    std::array<unsigned int, 3> node;        ///< local
+    std::array<double, 3>       coefficient; ///< c
+    double                      stiffness;   ///< k (Pa)
+  };
+
+  /**
+   * A viscous force that keeps light functions with their neighbours. A function
+   * that only the tail of a few particles reaches has next to no mass and
+   * stiffness: a load on it is taken by velocities a thousand times those around,
+   * at no cost ("jets"). With the two functions next to it towards the material, at
+   * Greville abscissae x0, x1, x2, x2 its own,
+   *   g = v2 - (1 + a) v1 + a v0 = c.v,   a = (x2 - x1)/(x1 - x0),
+   * which is zero for linear fields, and a step h has the force and the work
+   *   R += k h c g,   k = gamma E (1 - fill/0.2),   W = h^2 sum k g^2 >= 0.
+   * It has no memory; forces and moments of a stencil add up to nothing, so those
+   * of supports remain the load.
+   */
+  class GhostStiffness : public Term
+  {
+  public:
+    GhostStiffness(std::vector<GhostStencil> stencils,
+                   const Unknowns           &unknowns);
+
+    void
+    begin_step(const double step)
+    {
+      h = step;
+    }
+
+    void
+    residual(Vector &part, const Vector &v, const LocalLaw &law) override;
+
+    void
+    linearise(const JacobianPattern &pattern,
+              const double           elastic_blend,
+              SparseMatrix          &matrix) const override;
+
+    void
+    apply_tangent(Vector &dst, const Vector &dv) const override;
+
+    void
+    add_elastic_diagonal(Vector &dst) const override;
+
+    /** W of a step with the velocities v (J/m), of all ranks. Collective. */
+    double
+    work(const Vector &v) const;
+
+    const std::vector<GhostStencil> &
+    stencils() const
+    {
+      return all;
+    }
+
+    /** The nodes that meet in its matrix. */
+    std::vector<std::array<unsigned int, 3>>
+    node_groups() const;
+
+  private:
+    /** g of a stencil along a component. */
+    static double
+    bend(const GhostStencil &stencil,
+         const Vector       &v,
+         const unsigned int  component);
+
+    /** part += k h c g(v), in ghosts, too. */
+    void
+    add_forces(Vector &part, const Vector &v) const;
+
+    const std::vector<GhostStencil> all;
+    const Unknowns                 &unknowns;
+    double                          h = 0.;
+  };
+
+  /**
+   * Where a space of splines may need ghost stiffness: all triples of functions side
+   * by side, each on the rank of one cell that all three reach.
+   */
+  class GhostPlaces
+  {
+  public:
+    GhostPlaces(const BackgroundMesh &mesh, const Space &space);
+
+    /** Functions with a smaller part of their integral in the material are light. */
+    static constexpr double least_fill = 0.2;
+
+    /** sum_p V_p N_i(x_p)/int N_i of a local node.
+     *  @param volume see stencils() */
+    double
+    fill(const Vector &volume, const unsigned int node) const
+    {
+      return volume.local_element(dim * node) / integral[node];
+    }
+
+    /**
+     * Stencils of the light functions with mass, in all directions in which the
+     * functions next to them are fuller.
+     * @param volume at the dofs of each node sum_p V_p N_i (m^2) and
+     * sum_p V_p E_p N_i (N), with ghosts
+     * @param is_wanted by local node; empty: all
+     * @param gamma of the stiffness
+     */
+    std::vector<GhostStencil>
+    stencils(const Vector            &volume,
+             const Unknowns          &unknowns,
+             const std::vector<bool> &is_wanted,
+             const double             gamma) const;
+
+    /** Light functions with mass, of all ranks. Collective. */
+    unsigned int
+    n_light(const Vector &volume, const Unknowns &unknowns) const;
+
+  private:
+    struct Triple
+    {
+      std::array<unsigned int, 3> node;
+      double                      a;
+    };
+    std::vector<Triple> triples;
+    std::vector<double> integral; ///< int N_i (m^2), by local node
+    unsigned int        n_owned = 0;
+  };
+} // namespace geocone
+
+#endif

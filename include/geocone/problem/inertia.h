@@ -1,0 +1,76 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_problem_inertia_h
+#define geocone_problem_inertia_h
+
+#include <geocone/problem/term.h>
+
+namespace geocone
+{
+  /**
+   * The inertia of a step, M (v - vL)/h. The mass is M = (1 - c) diag(m) + c M_c,
+   * with M_c the sum of m_p N_p' N_p over the points.
+   */
+  class Inertia : public Term
+  {
+  public:
+    /**
+     * @param lumped_mass m
+     * @param consistent_part c, not zero only for points with N and mass
+     */
+    Inertia(const MaterialPoints &points,
+            const Unknowns       &unknowns,
+            const Vector         &lumped_mass,
+            const double          consistent_part);
+
+    /** @param step h (s) @param velocity_n vL, which has to stay */
+    void
+    begin_step(const double step, const Vector &velocity_n);
+
+    void
+    residual(Vector &part, const Vector &v, const LocalLaw &law) override;
+
+    /** Also 1e-6 of |M vL/h|^2: a body in free flight has nothing else. */
+    void
+    add_sizes(const Vector &part, std::vector<double> &sizes) const override;
+
+    void
+    linearise(const JacobianPattern &pattern,
+              const double           elastic_blend,
+              SparseMatrix          &matrix) const override;
+
+    void
+    apply_tangent(Vector &dst, const Vector &dv) const override;
+
+    void
+    add_elastic_diagonal(Vector &dst) const override;
+
+    /** dst = M x in all rows. @p x needs its ghosts. */
+    void
+    apply_mass(Vector &dst, const Vector &x) const;
+
+    const Vector &
+    lumped_mass() const
+    {
+      return mass;
+    }
+
+    /** c. */
+    double
+    consistent_part() const
+    {
+      return consistent;
+    }
+
+  private:
+    const MaterialPoints &points;
+    const Unknowns       &unknowns;
+    const Vector         &mass;
+    const double          consistent;
+    double                h          = 0.;
+    const Vector         *velocity_L = nullptr;
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,85 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_problem_natural_map_h
+#define geocone_problem_natural_map_h
+
+#include <geocone/materials/material_library.h>
+#include <geocone/points/material_points.h>
+
+#include <optional>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * The local part of the incremental problem in (v, s, z) with the natural map
+   * (Guillet et al. 2025, eq 60). At each point
+   *   z = S (s - s_n) - e,   R = s - P_C(s - rho Psi(z)),   e = h B v,
+   * where s is an unknown of its own, and a Newton step from (v, s) has
+   *   A ds = rho J Psi' de - R,   A = I - J + rho J Psi' S,
+   * J and Psi' the generalised Jacobians of P_C and Psi. Eliminated point by
+   * point, this leaves the momentum balance of the stress s - A^-1 R with the
+   * tangent T = A^-1 rho J Psi' for v alone. z is always that of (v, s), and the
+   * momentum balance of s is fulfilled after each full step. Where |z_t| hardens the
+   * cone, rho J Psi' has the further term - dP_C/d|z_t| (z_t/|z_t|)'. Points of
+   * materials without a cone have s = s_n + D e.
+   */
+  class NaturalMap
+  {
+  public:
+    /**
+     * @param step whose cones the points have (Material::step_cone())
+     * @param rho in units of 2G of each point
+     * @param start where the iteration for s starts, by point (Pa)
+     */
+    NaturalMap(const MaterialPoints      &points,
+               const Materials           &materials,
+               const StepLaw             &step,
+               const double               rho,
+               const std::vector<Mandel> &start);
+
+    /** |R| of the worst point and the stress to compare it with (Pa). */
+    struct Error
+    {
+      double largest_residual = 0.;
+      double stress_scale     = 0.; ///< max |s| + max k
+    };
+
+    /**
+     * Moves s with the strain increments e since the last call, and linearises
+     * there.
+     * @param[out] mode where s - rho Psi(z) lies: in C, beside it, or at its tip
+     */
+    Error
+    update(const std::vector<Mandel> &strain, std::vector<Mode> &mode);
+
+    /** s - A^-1 R of the last update(), by point (Pa); before it the start. */
+    const std::vector<Mandel> &
+    stress() const
+    {
+      return iterate;
+    }
+
+    /** T of the last update(), by point (Pa). */
+    const std::vector<MandelMatrix> &
+    tangent() const
+    {
+      return slope;
+    }
+
+  private:
+    const MaterialPoints                &points;
+    const Materials                     &materials;
+    const StepLaw                        step;
+    const double                         rho;
+    std::vector<std::optional<FlowCone>> cones;      ///< by material
+    std::vector<char>                    varies;     ///< whether by point, too
+    std::vector<MandelMatrix>            compliance; ///< by material
+    std::vector<Mandel>                  iterate;
+    std::vector<MandelMatrix>            slope;
+    std::vector<Mandel>                  last_strain; ///< or empty
+  };
+} // namespace geocone
+
+#endif

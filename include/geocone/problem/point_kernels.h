@@ -1,0 +1,362 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_problem_point_kernels_h
+#define geocone_problem_point_kernels_h
+
+#include <geocone/base/types.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <algorithm>
+#include <cstring>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+/**
+ * What is done at each point, for a number n of nodes that the compiler knows:
+ * g holds grad N as n values d/dx, n values d/dy and so on; cell vectors are
+ * interleaved (v_x, v_y, ... per node).
+ */
+namespace geocone::kernels
+{
+  /** n to the power of the dimension. */
+  template <int n>
+  constexpr int power = dim == 2 ? n *n : n *n *n;
+
+  /** Those of simplices with the degree p. */
+  template <int p>
+  constexpr int simplex = dim == 2 ? (p + 1) * (p + 2) / 2
+                                   : (p + 1) * (p + 2) * (p + 3) / 6;
+
+  template <typename F>
+  void
+  with_n_nodes_of_simplex(const unsigned int n, const F &f)
+  {
+    switch (n)
+      {
+        case simplex<1>:
+          return f(std::integral_constant<int, simplex<1>>());
+        case simplex<2>:
+          return f(std::integral_constant<int, simplex<2>>());
+        case simplex<3>:
+          return f(std::integral_constant<int, simplex<3>>());
+        default:
+          AssertThrow(false, dealii::ExcInternalError());
+      }
+  }
+
+  /** Calls f with the number of nodes as a compile-time constant. */
+  template <typename F>
+  void
+  with_n_nodes(const unsigned int n, const F &f)
+  {
+    switch (n)
+      {
+        case power<2>: // Q1
+          return f(std::integral_constant<int, power<2>>());
+        case power<3>: // Q2, B-spline 2
+          return f(std::integral_constant<int, power<3>>());
+        case power<4>: // Q3, B-spline 3
+          return f(std::integral_constant<int, power<4>>());
+        default:
+          return with_n_nodes_of_simplex(n, f);
+      }
+  }
+
+  /** B v: the Mandel strain rate of a cell vector v. */
+  template <int n>
+  inline Mandel
+  strain(const double *g, const double *v)
+  {
+    double normal[dim] = {}, shear[n_shears] = {};
+    for (int i = 0; i < n; ++i)
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          normal[d] += g[n * d + i] * v[dim * i + d];
+        for (int k = 0; k < n_shears; ++k)
+          {
+            const auto [place, a, b] = shears[k];
+            shear[k] +=
+              g[n * b + i] * v[dim * i + a] + g[n * a + i] * v[dim * i + b];
+          }
+      }
+    Mandel e;
+    for (unsigned int d = 0; d < dim; ++d)
+      e[place_of_normal[d]] = normal[d];
+    for (int k = 0; k < n_shears; ++k)
+      e[shears[k].place] = shear[k] / sqrt2;
+    return e;
+  }
+
+  /** f += B' s. */
+  template <int n>
+  inline void
+  add_force(const double *g, const Mandel &s, double *f)
+  {
+    // The stress tensor; its rows along the gradient are the forces.
+    double t[dim][dim];
+    for (unsigned int d = 0; d < dim; ++d)
+      t[d][d] = s[place_of_normal[d]];
+    for (int k = 0; k < n_shears; ++k)
+      t[shears[k].first][shears[k].second] =
+        t[shears[k].second][shears[k].first] = s[shears[k].place] / sqrt2;
+    for (int i = 0; i < n; ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int c = 0; c < dim; ++c)
+          f[dim * i + d] += g[n * ((d + c) % dim) + i] * t[d][(d + c) % dim];
+  }
+
+  /** The places of the entries of a tensor in a Mandel vector. */
+  struct PlacesOfTensor
+  {
+    constexpr PlacesOfTensor()
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        of[d][d] = place_of_normal[d];
+      for (int k = 0; k < n_shears; ++k)
+        of[shears[k].first][shears[k].second] =
+          of[shears[k].second][shears[k].first] = shears[k].place;
+    }
+    int of[dim][dim] = {};
+  };
+  constexpr PlacesOfTensor place;
+
+  /** Calls f with each direction as a compile-time constant. */
+  template <typename F>
+  [[gnu::always_inline]] inline void
+  for_each_direction(const F &f)
+  {
+    f(std::integral_constant<unsigned int, 0>());
+    f(std::integral_constant<unsigned int, 1>());
+    if constexpr (dim == 3)
+      f(std::integral_constant<unsigned int, 2>());
+  }
+
+  /** The entry d of t g, of a tensor of which at(r) is the value in the place r of a
+   *  Mandel vector, shears over sqrt2, with a gradient whose entries are n apart. */
+  template <int n, unsigned int d, typename F, std::size_t... k>
+  [[gnu::always_inline]] inline auto
+  along(const double *g, const F &at, std::index_sequence<k...>)
+  {
+    return (... + (g[n * ((d + k) % dim)] * at(place.of[d][(d + k) % dim])));
+  }
+
+  /** Columns of a stiffness matrix that are summed up at once. */
+  constexpr int block = 4;
+
+  /** Values that stiffness() needs for its own use. */
+  inline std::size_t
+  scratch_size(const unsigned int n_points, const unsigned int n_nodes)
+  {
+    const std::size_t n_blocks = (dim * n_nodes + block - 1) / block;
+    return n_points * n_mandel * n_blocks * block;
+  }
+
+  /**
+   * K = sum_q B_q' C_q B_q of a cell, row-major (dim n)^2, in blocks of a node's rows and
+   * a few columns whose sums over the points stay in registers.
+   * @tparam upper whether only the blocks of nodes i <= j are needed
+   * @param g gradients of the points one after another, dim n each
+   * @param C tangents times weights
+   * @param scratch scratch_size() values
+   */
+  template <int n, bool upper>
+  [[gnu::always_inline]] inline void
+  stiffness_of_points(const double       *g,
+                      const MandelMatrix *C,
+                      const unsigned int  n_points,
+                      double             *scratch,
+                      double             *K)
+  {
+    constexpr int  m = dim * n, stride = (m + block - 1) / block * block;
+    constexpr auto directions = std::make_index_sequence<dim>();
+    // The rows of C B, those of shears over sqrt2, for B' picks them so.
+    for (unsigned int q = 0; q < n_points; ++q)
+      for (int r = 0; r < int(n_mandel); ++r)
+        {
+          double t[n_mandel], part = 1. / sqrt2;
+          for (int k = 0; k < int(n_mandel); ++k)
+            t[k] = C[q](r, k) / sqrt2;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              t[place_of_normal[d]] = C[q](r, place_of_normal[d]);
+              if (r == place_of_normal[d])
+                part = 1.;
+            }
+          const auto at = [&](const int k) __attribute__((always_inline))
+          {
+            return t[k];
+          };
+          double *row = scratch + (q * n_mandel + r) * stride;
+          for (int j = 0; j < n; ++j)
+            for_each_direction([&](
+              const auto d) __attribute__((always_inline)) {
+              row[dim * j + d] =
+                part * along<n, d>(g + q * m + j, at, directions);
+            });
+        }
+    using Pack [[gnu::vector_size(block * sizeof(double))]] = double;
+    for (int first = 0; first < m; first += block)
+      {
+        const int last = std::min(first + block, m) - 1;
+        const int end  = upper ? last / int(dim) + 1 : n;
+        for (int i = 0; i < end; ++i)
+          {
+            Pack sum[dim] = {};
+            for (unsigned int q = 0; q < n_points; ++q)
+              {
+                const auto at = [&](const int r) __attribute__((always_inline))
+                {
+                  Pack t;
+                  std::memcpy(&t,
+                              scratch + (q * n_mandel + r) * stride + first,
+                              sizeof(Pack));
+                  return t;
+                };
+                for_each_direction([&](
+                  const auto d) __attribute__((always_inline)) {
+                  sum[d] += along<n, d>(g + q * m + i, at, directions);
+                });
+              }
+            for_each_direction([&](
+              const auto d) __attribute__((always_inline)) {
+              const Pack of_row = sum[d]; // so that sums need no address
+              double    *to     = K + (dim * i + d) * m + first;
+              if (first + block <= m)
+                std::memcpy(to, &of_row, sizeof(Pack));
+              else
+                std::memcpy(to, &of_row, sizeof(double) * (m % block));
+            });
+          }
+      }
+  }
+
+  /** a = other gradients of the volumetric strain (B-bar) less those of a point, which
+   *  around an axis has N/r, too. @param hoop N/r, or null */
+  template <int n>
+  inline void
+  volumetric_change(const double *g,
+                    const double *hoop,
+                    const double *volumetric,
+                    double       *a)
+  {
+    for (int i = 0; i < n; ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        a[dim * i + d] = volumetric[n * d + i] - g[n * d + i];
+    if (hoop != nullptr)
+      for (int i = 0; i < n; ++i)
+        a[dim * i] -= hoop[i];
+  }
+
+  /**
+   * What other gradients of the volumetric strain change of K (B-bar). With I the unit
+   * tensor the strain is B + I a'/dim, a their volumetric_change(), so that with
+   * w = C I/dim
+   * K += sum_q a_q (C_q' I/dim)' B_q + (B_q' w_q) a_q' + (I' w_q/dim) a_q a_q'.
+   * @param hoop N/r around an axis, which the volumetric strain has, too; or null
+   * @param volumetric those gradients, laid out as g
+   */
+  template <int n, bool upper>
+  [[gnu::always_inline]] inline void
+  add_volumetric_stiffness(const double       *g,
+                           const double       *hoop,
+                           const double       *volumetric,
+                           const MandelMatrix *C,
+                           const unsigned int  n_points,
+                           double             *K)
+  {
+    constexpr int m = dim * n;
+    const Mandel  I = unit_tensor<n_mandel>() / dim;
+    for (unsigned int q = 0; q < n_points; ++q, g += m, volumetric += m)
+      {
+        const Mandel w = C[q] * I;
+        double       a[m], left[m] = {}, right[m] = {};
+        volumetric_change<n>(
+          g, hoop == nullptr ? hoop : hoop + n * q, volumetric, a);
+        add_force<n>(g, w, left);
+        add_force<n>(g, C[q].transpose() * I, right);
+        const double square = I.dot(w);
+        for (int j = 0; j < m; ++j)
+          right[j] += square * a[j];
+        for (int i = 0; i < m; ++i)
+          for (int j = upper ? i - i % int(dim) : 0; j < m; ++j)
+            K[i * m + j] += a[i] * right[j] + left[i] * a[j];
+      }
+  }
+
+  template <int n, bool upper>
+  [[gnu::always_inline]] inline void
+  stiffness_body(const double       *g,
+                 const double       *hoop,
+                 const double       *volumetric,
+                 const MandelMatrix *C,
+                 const unsigned int  n_points,
+                 double             *scratch,
+                 double             *K)
+  {
+    stiffness_of_points<n, upper>(g, C, n_points, scratch, K);
+    if (volumetric != nullptr)
+      add_volumetric_stiffness<n, upper>(g, hoop, volumetric, C, n_points, K);
+  }
+
+#if defined(__x86_64__)
+  /** The same for processors with AVX2 and fused multiply-add. */
+  template <int n, bool upper>
+  [[gnu::target("avx2,fma")]] void
+  stiffness_avx2(const double       *g,
+                 const double       *hoop,
+                 const double       *volumetric,
+                 const MandelMatrix *C,
+                 const unsigned int  n_points,
+                 double             *scratch,
+                 double             *K)
+  {
+    stiffness_body<n, upper>(g, hoop, volumetric, C, n_points, scratch, K);
+  }
+#endif
+
+  /** K by the fastest variant that the processor has, without what is out of the plane.
+   *  @param volumetric those of B-bar, or null */
+  template <int n, bool upper>
+  void
+  stiffness(const double       *g,
+            const double       *hoop,
+            const double       *volumetric,
+            const MandelMatrix *C,
+            const unsigned int  n_points,
+            double             *scratch,
+            double             *K)
+  {
+#if defined(__x86_64__)
+    static const bool avx2 =
+      __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    if (avx2)
+      return stiffness_avx2<n, upper>(
+        g, hoop, volumetric, C, n_points, scratch, K);
+#endif
+    stiffness_body<n, upper>(g, hoop, volumetric, C, n_points, scratch, K);
+  }
+
+  /** Copies the entries of a cell's nodes between a cell vector and a vector. */
+  template <int n>
+  inline void
+  gather(const double *vector, const unsigned int *nodes, double *cell)
+  {
+    for (int i = 0; i < n; ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        cell[dim * i + d] = vector[dim * nodes[i] + d];
+  }
+
+  template <int n>
+  inline void
+  scatter_add(const double *cell, const unsigned int *nodes, double *vector)
+  {
+    for (int i = 0; i < n; ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        vector[dim * nodes[i] + d] += cell[dim * i + d];
+  }
+} // namespace geocone::kernels
+
+#endif

@@ -1,0 +1,88 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_surfaces_face_points_h
+#define geocone_surfaces_face_points_h
+
+#include <geocone/scene/boundary_conditions.h>
+#include <geocone/space/space.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /** A quadrature point of a face of a cell. */
+  struct FacePoint
+  {
+    dealii::Point<dim>        position;
+    dealii::Tensor<1, dim>    normal; ///< outward from the cell
+    double                    weight; ///< JxW times measure() (m, m^2)
+    std::vector<unsigned int> nodes;  ///< local, of the cell
+    std::vector<double>       values; ///< N at the point, per node
+  };
+
+  /** A part of a face, in its unit coordinates: all of it, or between two corners. */
+  struct FacePart
+  {
+    dealii::Point<dim - 1> lower, upper;
+
+    static FacePart
+    whole();
+  };
+
+  /** Gauss points of a face, or of a part of it, exact for degree 2p + 3. */
+  std::vector<FacePoint>
+  points_on_face(const BackgroundMesh       &mesh,
+                 const Space                &space,
+                 const BackgroundMesh::Cell &cell,
+                 const unsigned int          face,
+                 const FacePart             &part = FacePart::whole());
+
+  /** What of a face the Box of a condition holds; nothing, or its part, which ends in
+   *  the face. Where a formula selects, faces are whole.
+   *  @throws InputError for a part of a face in space that is not along the axes */
+  std::optional<FacePart>
+  part_of_face(const BoundaryCondition    &condition,
+               const BackgroundMesh       &mesh,
+               const BackgroundMesh::Cell &cell,
+               const unsigned int          face);
+
+  /**
+   * Calls f(cell, point) for each of these points of the faces, of cells of this rank,
+   * that a condition at the boundary holds.
+   * @return the number of these faces
+   */
+  template <typename Function>
+  unsigned int
+  for_each_face_point(const BackgroundMesh    &mesh,
+                      const Space             &space,
+                      const BoundaryCondition &condition,
+                      const Function          &f)
+  {
+    const auto   ids     = mesh.side_ids(condition);
+    unsigned int n_faces = 0;
+    for (const auto &cell : mesh.own_cells())
+      for (const unsigned int face : cell->face_indices())
+        if (cell->face(face)->at_boundary() &&
+            ids.count(cell->face(face)->boundary_id()) > 0)
+          if (const auto part = part_of_face(condition, mesh, cell, face))
+            {
+              ++n_faces;
+              for (const FacePoint &point :
+                   points_on_face(mesh, space, cell, face, *part))
+                f(cell, point);
+            }
+    return n_faces;
+  }
+
+  /** @throws InputError where no rank has a face @param what that means. Collective. */
+  void
+  refuse_no_face(const BoundaryCondition &condition,
+                 const unsigned int       n_faces,
+                 const MPI_Comm           comm,
+                 const std::string       &what);
+} // namespace geocone
+
+#endif

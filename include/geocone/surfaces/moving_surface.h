@@ -1,0 +1,65 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_surfaces_moving_surface_h
+#define geocone_surfaces_moving_surface_h
+
+#include <geocone/base/state_row.h>
+#include <geocone/surfaces/panel.h>
+
+#include <array>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * Sides of a body, or their parts in a box, that move with it: facets whose corners are
+   * carried by the velocity of the nodes.
+   */
+  class MovingSurface
+  {
+  public:
+    /**
+     * @param panels of the body
+     * @param longest part of an edge of a panel that is one of a facet, in space of a
+     * parallelogram that is halved into two (m)
+     */
+    MovingSurface(const std::vector<Panel> &panels, const double longest);
+
+    /** The facets as they are. */
+    std::vector<Facet>
+    facets() const;
+
+    /** Of a facet at the start (m, or m^2). */
+    double
+    size_at_start(const std::size_t facet) const
+    {
+      return parts[facet].size;
+    }
+
+    /** Moves the corners over a step h, within the box of a grid. Collective. */
+    void
+    move(const BackgroundMesh &mesh,
+         const Space          &space,
+         const Vector         &v,
+         const double          h);
+
+    void
+    state(StateRow &row)
+    {
+      row(places);
+    }
+
+  private:
+    /** A facet. */
+    struct Part
+    {
+      std::array<unsigned int, dim> corners;
+      double                        size; ///< at the start
+    };
+    std::vector<Part>               parts;
+    std::vector<dealii::Point<dim>> places; ///< of the corners
+  };
+} // namespace geocone
+
+#endif

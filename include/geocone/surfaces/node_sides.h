@@ -1,0 +1,54 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_surfaces_node_sides_h
+#define geocone_surfaces_node_sides_h
+
+#include <geocone/space/space.h>
+#include <geocone/surfaces/face_points.h>
+
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * The sides of a body at its nodes: of each face the integral of N_i (m, m^2) and the
+   * outward normal. A node at the end of a side that touches stands for half a cell there,
+   * whatever the other sides are that end in it.
+   */
+  class NodeSides
+  {
+  public:
+    explicit NodeSides(const Space &space);
+
+    /** Adds a face of the boundary. @param points all of them */
+    void
+    add(const std::vector<FacePoint> &points);
+
+    /** Ends adding: owned nodes get what other ranks have of them. Collective. */
+    void
+    exchange();
+
+    /**
+     * The integral of N_i over the sides that face an obstacle: those of which the
+     * normals are nearest to its, and the others that are hardly less so (a corner that
+     * stands on its tip has two).
+     * @param node an owned one
+     * @param normal out of the obstacle
+     */
+    double
+    facing(const unsigned int node, const dealii::Tensor<1, dim> &normal) const;
+
+  private:
+    struct Side
+    {
+      dealii::Tensor<1, dim> normal; ///< outward
+      double                 integral;
+    };
+
+    const Space                   &space;
+    std::vector<std::vector<Side>> sides; ///< by local node
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,177 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_transfer_mesh_transfer_h
+#define geocone_transfer_mesh_transfer_h
+
+#include <geocone/mesh/cell_search.h>
+#include <geocone/points/point_functions.h>
+#include <geocone/points/rank_balance.h>
+#include <geocone/space/space.h>
+#include <geocone/transfer/grid_transfer.h>
+
+namespace geocone
+{
+  class Constraints;
+
+  /**
+   * The transfer on any mesh: each step looks for the cell of
+   * each point, first in the cell where it was, then in those that share a vertex
+   * with it, then everywhere, and evaluates the functions there once. Where ranks have
+   * too unequal numbers of points they hand over cells.
+   */
+  class MeshTransfer : public GridTransfer
+  {
+  public:
+    /** @throws InputError for sides that the mesh has not */
+    MeshTransfer(const Scene    &scene,
+                 BackgroundMesh &mesh,
+                 Space          &space,
+                 RankBalance    &balance);
+
+    void
+    sort(std::vector<PointArrays> &groups) override;
+    bool
+    must_sort(const PassSums &) const override
+    {
+      return true;
+    }
+    bool
+    takes_any_point() const override
+    {
+      return false;
+    }
+    bool
+    owns(const dealii::Point<dim> &x) const override;
+
+    unsigned int
+    n_repartitions() const override
+    {
+      return balance.n_repartitions();
+    }
+
+    bool
+    moves_each_step() const override
+    {
+      return true;
+    }
+    bool
+    keeps_cells() const override
+    {
+      return true;
+    }
+
+    void
+    gather(const TransferBlock &points, BlockScratch &scratch) override;
+    void
+    gather_values(const TransferBlock &points, BlockScratch &scratch) override;
+    void
+    gather_affine(const TransferBlock &points, BlockScratch &scratch) override;
+    void
+    scatter(const TransferBlock &points,
+            BlockScratch        &scratch,
+            const bool           with_mass) override;
+    void
+    scatter_values(const TransferBlock &points,
+                   BlockScratch        &scratch,
+                   const bool           with_mass) override;
+    void
+    scatter_affine(const TransferBlock &points, BlockScratch &scratch) override;
+    void
+    find_cells(const TransferBlock &points, unsigned int *cells) const override;
+    std::size_t
+    n_stored_cells() const override;
+
+    void
+    exchange(const bool with_mass) override;
+
+    /** Points may be anywhere until the next sort() finds them. */
+    bool
+    reaches(const dealii::Point<dim> &) const override
+    {
+      return true;
+    }
+    dealii::Point<dim>
+    nearest_in_domain(const dealii::Point<dim> &x) const override
+    {
+      return x;
+    }
+    dealii::Point<dim>
+    stored_place() const override;
+
+    double
+    cell_size() const override
+    {
+      return search.smallest_cell();
+    }
+    unsigned long
+    n_all_nodes() const override
+    {
+      return space.n_nodes();
+    }
+    unsigned long
+    n_cells() const override
+    {
+      return mesh.triangulation().n_global_active_cells();
+    }
+    std::size_t
+    memory() const override;
+    std::string
+    description() const override
+    {
+      return "general transfer";
+    }
+
+  private:
+    using Cell = BackgroundMesh::Cell;
+
+    /** The functions at a point: local nodes, values, gradients. */
+    struct Functions
+    {
+      std::vector<unsigned int> nodes;
+      std::vector<double>       N;
+      /** dN/dx, dN/dy, ... (1/m) */
+      std::array<std::vector<double>, dim> slopes;
+    };
+
+    /** Makes room for the nodes of this rank, and finds what conditions prescribe. */
+    void
+    store_nodes(const Constraints &constraints);
+
+    /** Hands over cells between ranks. @param groups of points that know their cells,
+     *  or have none. Collective. */
+    void
+    hand_over(const std::vector<PointArrays> &groups);
+
+    /** Evaluates the functions of all points of a group, and its padding. */
+    void
+    evaluate(const PointArrays &group, Functions &functions) const;
+
+    /** Those of a point of a block. */
+    PointFunctions
+    functions_at(const TransferBlock &points, const unsigned int k) const;
+
+    template <bool with_gradients>
+    void
+    gather_any(const TransferBlock &points, BlockScratch &scratch) const;
+    template <bool with_gradients>
+    void
+    scatter_any(const TransferBlock &points,
+                const BlockScratch  &scratch,
+                const bool           with_mass);
+
+    const Scene       &scene;
+    BackgroundMesh    &mesh;
+    Space             &space;
+    RankBalance       &balance;
+    const MPI_Comm     comm;
+    const unsigned int n; ///< nodes per cell
+    const CellSearch   search;
+
+    std::vector<unsigned int> cell_nodes; ///< n per active cell index
+    std::vector<Functions>    functions;  ///< per group
+    Vector                    exchanged;
+  };
+} // namespace geocone
+
+#endif

@@ -1,0 +1,177 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_transfer_nodes_of_four_templates_h
+#define geocone_transfer_nodes_of_four_templates_h
+
+#include <geocone/base/simd.h>
+#include <geocone/transfer/transfer_kernels.h>
+
+/*
+ * Where four points are on a grid, and the values there of the functions that reach
+ * them: what every kernel of a transfer begins with. P: Pack of an architecture.
+ */
+namespace geocone
+{
+  /** A value of each function of each direction, at four points. */
+  template <int p>
+  using ValuesAtFour = double[dim][p + 1][4];
+
+  /** What a direction of a grid has for all points. */
+  template <typename P, int p>
+  struct PackedAxis
+  {
+    P origin, inverse_size, last, first, stride;
+
+    /** Of the intervals p - 1 ... n_intervals - p, which are of one type. */
+    P inner_first, inner_last, inner[2 * p + 1][p + 1];
+  };
+
+  /** A grid as functions of degree p are found on it; a copy, which stores to
+   *  points and nodes cannot change. */
+  template <typename P, int p>
+  struct PackedGrid : GridView
+  {
+    PackedAxis<P, p> at[dim];
+
+    explicit PackedGrid(const GridView &view)
+      : GridView(view)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const GridAxis &axis = axes[d];
+          const int       n    = axis.n_intervals;
+          at[d].origin         = P(axis.origin);
+          at[d].inverse_size   = P(axis.inverse_size);
+          at[d].last           = P(n - 1);
+          at[d].first          = P(axis.first);
+          at[d].stride         = P(stride[d]);
+          at[d].inner_first    = P(p - 1);
+          at[d].inner_last     = P(n - p); // there are none if n < 2 p - 1
+          const double *inner =
+            coefficients(axis, axis.type[p - 1 < n ? p - 1 : 0]);
+          for (int power = 0; power <= 2 * p; ++power)
+            for (int f = 0; f <= p; ++f)
+              at[d].inner[power][f] = P(inner[4 * power + f]);
+        }
+    }
+
+    static const double *
+    coefficients(const GridAxis &axis, const int type)
+    {
+      return axis.coefficients + 4 * (2 * p + 1) * type;
+    }
+  };
+
+  /** The (p + 1)^dim functions that live at four points, k, k + 1, ... of a block. */
+  template <typename P, int p>
+  struct NodesOfFour
+  {
+    int             first[4];       ///< of them, among those that are stored
+    int             lowest[dim][4]; ///< functions of the directions, among all
+    ValuesAtFour<p> N, dN;
+
+    NodesOfFour(const PackedGrid<P, p> &grid,
+                const TransferBlock    &points,
+                const unsigned int      k)
+    {
+      P    place(0.), xi[dim];
+      bool inner = true;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const PackedAxis<P, p> &axis = grid.at[d];
+          const P                 u =
+            (P::load(points.x[d] + k) - axis.origin) * axis.inverse_size;
+          // Zero comes second, so that it is taken for what is not a number.
+          const P interval =
+            whole_part(min(max(u, P(0.)), axis.last), lowest[d]);
+          xi[d] = u - interval;
+          place += (interval - axis.first) * axis.stride;
+          inner =
+            inner && all_between(interval, axis.inner_first, axis.inner_last);
+        }
+      whole_part(place, first);
+      for (unsigned int d = 0; d < dim; ++d)
+        if (inner)
+          find(grid.at[d].inner, xi[d], N[d], dN[d]);
+        else
+          find_each(grid.axes[d], lowest[d], xi[d], N[d], dN[d]);
+    }
+
+    /** Where the first node of a point has its doubles. */
+    const double *
+    read(const GridView &grid, const int m) const
+    {
+      return grid.read + node_size * static_cast<long>(first[m]);
+    }
+    double *
+    write(const GridView &grid, const int m) const
+    {
+      return grid.write + node_size * static_cast<long>(first[m]);
+    }
+
+  private:
+    /** Value and slope at xi, of the polynomials with coefficients c(0), ... of one
+     *  and then of the other. */
+    template <typename Coefficients>
+    static void
+    evaluate(const Coefficients &c, const P &xi, P &value, P &slope)
+    {
+      value = c(p);
+      slope = c(2 * p);
+      for (int power = p - 1; power >= 0; --power)
+        value = value * xi + c(power);
+      for (int power = 2 * p - 1; power >= p + 1; --power)
+        slope = slope * xi + c(power);
+    }
+
+    /** Of points on intervals with the same coefficients: one function after the
+     *  other. */
+    static void
+    find(const P (&c)[2 * p + 1][p + 1],
+         const P &xi,
+         double (&N)[p + 1][4],
+         double (&dN)[p + 1][4])
+    {
+      for (int f = 0; f <= p; ++f)
+        {
+          P value, slope;
+          evaluate([&](const int k) { return c[k][f]; }, xi, value, slope);
+          value.store(N[f]);
+          slope.store(dN[f]);
+        }
+    }
+
+    /** Of points of which some are near an end of the grid: one point after the
+     *  other. */
+    static void
+    find_each(const GridAxis &axis,
+              const int (&interval)[4],
+              const P &places,
+              double (&N)[p + 1][4],
+              double (&dN)[p + 1][4])
+    {
+      double xi[4];
+      places.store(xi);
+      P value[4], slope[4];
+      for (int m = 0; m < 4; ++m)
+        {
+          const double *c =
+            PackedGrid<P, p>::coefficients(axis, axis.type[interval[m]]);
+          evaluate([c](const int k) { return P::load(c + 4 * k); },
+                   P(xi[m]),
+                   value[m],
+                   slope[m]);
+        }
+      transpose(value[0], value[1], value[2], value[3]);
+      transpose(slope[0], slope[1], slope[2], slope[3]);
+      for (int f = 0; f <= p; ++f)
+        {
+          value[f].store(N[f]);
+          slope[f].store(dN[f]);
+        }
+    }
+  };
+} // namespace geocone
+
+#endif

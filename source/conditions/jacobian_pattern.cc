@@ -1,0 +1,108 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/conditions/jacobian_pattern.h>
+
+#include <algorithm>
+
+namespace geocone
+{
+  JacobianPattern::JacobianPattern(
+    const MaterialPoints                           &points,
+    const Unknowns                                 &unknowns,
+    const MPI_Comm                                  comm,
+    const std::vector<std::array<unsigned int, 3>> &groups,
+    const std::vector<std::vector<unsigned int>>   &links,
+    const bool                                      one_triangle,
+    SparseMatrix                                   &matrix)
+    : one_triangle(one_triangle)
+  {
+    const unsigned int      n      = points.n_nodes;
+    const unsigned int      n_dofs = dim * n;
+    const std::vector<int> &row_of = unknowns.free_row;
+
+    matrix              = SparseMatrix();
+    matrix.comm         = comm;
+    matrix.symmetric    = one_triangle;
+    matrix.n_global     = unknowns.n_rows;
+    matrix.n_owned      = unknowns.n_owned_rows;
+    matrix.global_index = unknowns.global_row;
+
+    // Which cells a node has, then which nodes it meets there.
+    const unsigned int                     n_local_nodes = row_of.size() / dim;
+    std::vector<std::vector<unsigned int>> neighbours(n_local_nodes);
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          auto &list = neighbours[points.nodes[c * n + i]];
+          list.insert(
+            list.end(), &points.nodes[c * n], &points.nodes[c * n] + n);
+        }
+    for (const auto &group : groups)
+      for (const unsigned int node : group)
+        neighbours[node].insert(
+          neighbours[node].end(), group.begin(), group.end());
+    for (unsigned int node = 0; node < n_local_nodes; ++node)
+      // Of an owned node all points may be on other ranks.
+      neighbours[node].push_back(node);
+    for (const auto &link : links)
+      for (auto other = link.begin() + 1; other != link.end(); ++other)
+        {
+          const auto &of_node = neighbours[link.front()];
+          auto       &list    = neighbours[*other];
+          list.insert(list.end(), of_node.begin(), of_node.end());
+          list.insert(list.end(), link.begin(), link.end());
+        }
+    for (const auto &link : links)
+      neighbours[link.front()].insert(
+        neighbours[link.front()].end(), link.begin(), link.end());
+    for (unsigned int node = 0; node < n_local_nodes; ++node)
+      {
+        auto &list = neighbours[node];
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+        for (unsigned int c = 0; c < dim; ++c)
+          if (row_of[dim * node + c] >= 0)
+            {
+              for (const unsigned int other : list)
+                for (unsigned int d = 0; d < dim; ++d)
+                  if (row_of[dim * other + d] >= 0 &&
+                      (!one_triangle ||
+                       row_of[dim * other + d] <= row_of[dim * node + c]))
+                    matrix.column.push_back(row_of[dim * other + d]);
+              matrix.row_start.push_back(matrix.column.size());
+            }
+      }
+    matrix.value.assign(matrix.column.size(), 0.);
+
+    // The columns of a node's components stand side by side: one search finds
+    // both.
+    places_of_cell =
+      std::size_t(n_dofs) * (one_triangle ? n_dofs + 1 : 2 * n_dofs) / 2;
+    places.reserve(points.n_cells() * places_of_cell);
+    std::vector<int> rows(n_dofs);
+    const auto place_of = [&](const unsigned int i, const unsigned int j) {
+      return rows[i] < 0 || rows[j] < 0 ? -1
+             : one_triangle && rows[i] < rows[j]
+               ? matrix.entry(rows[j], rows[i])
+               : matrix.entry(rows[i], rows[j]);
+    };
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      {
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int d = 0; d < dim; ++d)
+            rows[dim * i + d] = row_of[dim * points.nodes[c * n + i] + d];
+        for (unsigned int i = 0; i < n_dofs; ++i)
+          for (unsigned int j = one_triangle ? i : 0; j < n_dofs; ++j)
+            {
+              const bool second =
+                j % dim == 1 && rows[i] >= 0 && rows[j - 1] >= 0 &&
+                rows[j] >= 0 && (!one_triangle || (j > i && rows[j] < rows[i]));
+              places.push_back(second ? places.back() + 1 : place_of(i, j));
+            }
+      }
+    diagonal.resize(matrix.n_rows());
+    for (int row = 0; row < matrix.n_rows(); ++row)
+      diagonal[row] = matrix.entry(row, row);
+  }
+} // namespace geocone

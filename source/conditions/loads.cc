@@ -1,0 +1,173 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/conditions/loads.h>
+#include <geocone/points/quadrature_points.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  void
+  integrate_density(const Scene          &scene,
+                    const BackgroundMesh &mesh,
+                    const Space          &space,
+                    const MaterialPoints &points,
+                    Vector               &weight_per_g,
+                    Vector               &lumped_mass)
+  {
+    // Degree 2p of N_i^2 on triangles up to P2, p of N_i for P3.
+    CellValues values(space,
+                      mesh,
+                      mesh.is_simplicial()
+                        ? Quadrature<dim>(QWitherdenVincentSimplex<dim>(3))
+                        : Quadrature<dim>(QGauss<dim>(space.degree() + 1)));
+    const bool scaled_diagonal = mesh.is_simplicial() && space.degree() == 2;
+    weight_per_g.reinit(space.partitioner());
+    lumped_mass.reinit(space.partitioner());
+    std::vector<types::global_dof_index> nodes;
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      {
+        values.reinit(points.cells[c]);
+        space.cell_nodes(points.cells[c], nodes);
+        const double rho =
+          scene.materials[points.material[points.first_point[c]]].density();
+        std::vector<double> row_sum(nodes.size(), 0.);
+        std::vector<double> diagonal(nodes.size(), 0.);
+        double              total = 0., trace = 0.;
+        for (unsigned int i = 0; i < nodes.size(); ++i)
+          {
+            for (unsigned int q = 0; q < values.weight.size(); ++q)
+              {
+                const double N = values.value(i, q);
+                row_sum[i] += rho * N * values.weight[q];
+                diagonal[i] += rho * N * N * values.weight[q];
+              }
+            total += row_sum[i];
+            trace += diagonal[i];
+          }
+        for (unsigned int i = 0; i < nodes.size(); ++i)
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              const unsigned int dof = dim * space.local_node(nodes[i]) + d;
+              weight_per_g.local_element(dof) += row_sum[i];
+              lumped_mass.local_element(dof) +=
+                scaled_diagonal ? diagonal[i] * total / trace : row_sum[i];
+            }
+      }
+    weight_per_g.compress(VectorOperation::add);
+    lumped_mass.compress(VectorOperation::add);
+  }
+
+  Loads::Loads(const Scene          &scene,
+               const BackgroundMesh &mesh,
+               const Space          &space,
+               const MaterialPoints &points)
+    : scene(scene)
+  {
+    if (scene.water.acts())
+      {
+        CellValues values(space,
+                          mesh,
+                          mesh.is_simplicial()
+                            ? Quadrature<dim>(QWitherdenVincentSimplex<dim>(3))
+                            : Quadrature<dim>(QGauss<dim>(space.degree() + 1)));
+        of_water.resize(scene.water.parts(0.).size());
+        for (Vector &of_line : of_water)
+          of_line.reinit(space.partitioner());
+        std::vector<types::global_dof_index> nodes;
+        for (const auto &cell : points.cells)
+          {
+            values.reinit(cell);
+            space.cell_nodes(cell, nodes);
+            for (unsigned int q = 0; q < values.weight.size(); ++q)
+              for (unsigned int line = 0; line < of_water.size(); ++line)
+                {
+                  const Tensor<1, dim> f =
+                    values.weight[q] *
+                    scene.water.force(values.position[q], line);
+                  for (unsigned int i = 0; i < nodes.size(); ++i)
+                    for (unsigned int d = 0; d < dim; ++d)
+                      of_water[line].local_element(
+                        dim * space.local_node(nodes[i]) + d) +=
+                        f[d] * values.value(i, q);
+                }
+          }
+        for (Vector &of_line : of_water)
+          of_line.compress(VectorOperation::add);
+      }
+    const std::vector<bool> is_there = mesh.is_among(points.cells);
+    for (unsigned int c = 0; c < scene.tractions.list.size(); ++c)
+      {
+        const BoundaryCondition &condition = *scene.tractions.list[c];
+        const unsigned int       n_faces   = for_each_face_point(
+          mesh,
+          space,
+          condition,
+          [&](const BackgroundMesh::Cell &cell, const FacePoint &point) {
+            if (is_there[cell->active_cell_index()])
+              loaded.push_back({c, point});
+          });
+        refuse_no_face(condition,
+                       n_faces,
+                       mesh.triangulation().get_communicator(),
+                       "this traction acts on no face");
+      }
+  }
+
+  void
+  Loads::evaluate(Vector       &force,
+                  const Vector &weight_per_g,
+                  const double  t,
+                  const Stage  *stage,
+                  const bool    raised) const
+  {
+    const auto counts = [&](const std::string &load) {
+      return stage == nullptr || stage->raises(load) == raised;
+    };
+    std::vector<bool> acts;
+    for (const auto &condition : scene.tractions.list)
+      acts.push_back(counts(condition->name));
+    force = 0.;
+    for (const auto &[c, point] : loaded)
+      {
+        if (!acts[c])
+          continue;
+        const BoundaryCondition &condition = *scene.tractions.list[c];
+        Tensor<1, dim>           traction;
+        for (unsigned int d = 0; d < dim; ++d)
+          if (condition.components[d])
+            traction[d] = condition.components[d]->value(point.position, t);
+        if (condition.normal || condition.tangential)
+          traction = condition.vector_on_side(point.position, point.normal, t);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            if (traction[d] == 0.)
+              continue;
+            const double f = traction[d] * point.weight;
+            for (unsigned int i = 0; i < point.nodes.size(); ++i)
+              force.local_element(dim * point.nodes[i] + d) +=
+                f * point.values[i];
+          }
+      }
+    force.compress(VectorOperation::add);
+    if (scene.gravity.acts())
+      {
+        const Tensor<1, dim> g = scene.gravity.at(t);
+        if (counts("weight"))
+          for (unsigned int dof = 0; dof < force.locally_owned_size(); ++dof)
+            force.local_element(dof) +=
+              g[dof % dim] * weight_per_g.local_element(dof);
+        if (scene.water.acts() && !raised)
+          {
+            const std::vector<double> parts = scene.water.parts(t);
+            for (unsigned int line = 0; line < of_water.size(); ++line)
+              if (parts[line] != 0.)
+                force.add(parts[line] * g[1] / scene.gravity.at(1e300)[1],
+                          of_water[line]);
+          }
+      }
+  }
+} // namespace geocone

@@ -1,0 +1,577 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/base/over_ranks.h>
+#include <geocone/conditions/moving_conditions.h>
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** A place as seen from a panel of the body's border. */
+    struct Seen
+    {
+      std::array<double, dim - 1> along;  ///< from 0 to 1 beside the panel
+      double                      beyond; ///< outside the body (m)
+      double                      length; ///< of its shortest edge (m)
+
+      /** Not far behind: there another part of the body may be. */
+      bool
+      is_close_behind() const
+      {
+        constexpr double rounding = 1e-9;
+        return std::all_of(along.begin(),
+                           along.end(),
+                           [](const double s) {
+                             return s > rounding && s < 1. - rounding;
+                           }) &&
+               beyond > rounding * length && beyond < length;
+      }
+    };
+
+    Seen
+    seen_from(const Panel &panel, const Point<dim> &x)
+    {
+      const Tensor<1, dim> to = x - panel.corner, area = panel.area();
+      Seen                 seen;
+      seen.beyond = area * to / area.norm();
+      seen.length = 1e300;
+      // In the plane of a parallelogram, by the reciprocals of its edges.
+      for (unsigned int k = 0; k + 1 < dim; ++k)
+        {
+          const Tensor<1, dim> &edge = panel.edges[k];
+          Tensor<1, dim>        dual = edge;
+          if (dim == 3)
+            {
+              const Tensor<1, dim> &other = panel.edges[dim - 2 - k];
+              dual -= (edge * other) / other.norm_square() * other;
+            }
+          seen.along[k] = (to * dual) / (edge * dual);
+          seen.length   = std::min(seen.length, edge.norm());
+        }
+      return seen;
+    }
+
+    /** Whether a condition gives the velocity across a panel. */
+    bool
+    holds_normal(const BoundaryCondition &condition, const Panel &panel)
+    {
+      const Tensor<1, dim> area = panel.area();
+      for (unsigned int d = 0; d < dim; ++d)
+        if (!condition.components[d] && std::abs(area[d]) > 1e-6 * area.norm())
+          return false;
+      return true;
+    }
+  } // namespace
+
+  MovingConditions::MovingConditions(const Scene          &scene,
+                                     const BackgroundMesh &mesh,
+                                     const Space          &space)
+    : scene(scene)
+    , mesh(mesh)
+    , space(space)
+  {
+    const auto &list = scene.dirichlet.list;
+    for (unsigned int c = 0; c < list.size(); ++c)
+      if (list[c]->moves())
+        {
+          std::vector<Panel> panels = // checks the names, too
+            panels_of_body(*list[c], scene.geometry);
+          if (list[c]->holds() != Imposition::On::side)
+            continue;
+          shorten(*list[c], panels);
+          supports.push_back({c, panels});
+        }
+    const auto &tractions = scene.tractions.list;
+    for (unsigned int c = 0; c < tractions.size(); ++c)
+      {
+        const std::vector<Panel> panels =
+          panels_of_body(*tractions[c], scene.geometry);
+        double size = 0.;
+        for (const Panel &panel : panels)
+          for (unsigned int k = 0; k + 1 < dim; ++k)
+            size = std::max(size, cell_size_along(mesh, panel, k));
+        loads.push_back({c, MovingSurface(panels, size)});
+      }
+  }
+
+  void
+  MovingConditions::shorten(const BoundaryCondition &condition,
+                            std::vector<Panel>      &panels) const
+  {
+    if (condition.shortening == 0.)
+      return;
+    for (Panel &panel : panels)
+      for (unsigned int k = 0; k + 1 < dim; ++k)
+        {
+          Tensor<1, dim> &along = panel.edges[k];
+          const double    part  = condition.shortening / 2. *
+                              cell_size_along(mesh, panel, k) / along.norm();
+          if (2. * part >= 1.)
+            throw InputError(condition.parameter("Segment shortening"),
+                             condition.shortening,
+                             "less than the side has cells",
+                             "take smaller cells or a smaller number");
+          panel.corner += part * along;
+          along *= 1. - 2. * part;
+        }
+  }
+
+  std::vector<double>
+  MovingConditions::sum_held(const MaterialPoints &points) const
+  {
+    std::vector<double> sum(scene.dirichlet.list.size());
+    for (unsigned int p = 0; p < points.held_by.size(); ++p)
+      if (const unsigned int held = points.held_by[p]; held > 0)
+        sum[held - 1] += mesh.measure(points.position[p]);
+    sum_over_ranks(sum, mesh.triangulation().get_communicator());
+    return sum;
+  }
+
+  void
+  MovingConditions::check_held_particles(const MaterialPoints &points) const
+  {
+    const std::vector<double> of_conditions = sum_held(points);
+    for (unsigned int c = 0; c < of_conditions.size(); ++c)
+      if (const BoundaryCondition &condition = *scene.dirichlet.list[c];
+          condition.holds() == Imposition::On::particles &&
+          of_conditions[c] == 0.)
+        throw InputError(condition.parameter("Box"),
+                         condition.part(),
+                         "a part of a side with particles under it",
+                         "this condition holds no particle: check its sides "
+                         "and its box");
+  }
+
+  void
+  MovingConditions::add_traction(const BoundaryCondition &load,
+                                 const double             size,
+                                 const Tensor<1, dim>    &area,
+                                 const BoundaryPoint     &point,
+                                 const double             t,
+                                 Vector                  &force) const
+  {
+    // Dead loads are per size at the start.
+    Tensor<1, dim> f;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (const auto &traction = load.components[d])
+        f[d] = traction->value(point.position, t) * size;
+    // Pressure acts on the side as it is now.
+    if (load.normal || load.tangential)
+      f += area.norm() *
+           load.vector_on_side(point.position, area / area.norm(), t);
+    f *= mesh.measure(point.position); // around an axis that of now
+    for (unsigned int i = 0; i < point.nodes.size(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        force.local_element(dim * space.local_node(point.nodes[i]) + d) +=
+          point.weight * point.values[i] * f[d];
+  }
+
+  void
+  MovingConditions::add_tractions(Vector      &force,
+                                  const double t,
+                                  const Stage *stage,
+                                  const bool   raised) const
+  {
+    for (const auto &[condition, surface] : loads)
+      {
+        const BoundaryCondition &load = *scene.tractions.list[condition];
+        const bool               acts =
+          stage == nullptr || stage->raises(load.name) == raised;
+        const std::vector<Facet>  facets = surface.facets();
+        const std::vector<double> parts =
+          for_each_point(mesh,
+                         space,
+                         facets,
+                         [&, &surface = surface](const std::size_t    number,
+                                                 const BoundaryPoint &point) {
+                           if (acts)
+                             add_traction(load,
+                                          surface.size_at_start(number),
+                                          area_of(facets[number]),
+                                          point,
+                                          t,
+                                          force);
+                         });
+        std::vector<Point<dim>> middles;
+        for (const Facet &facet : facets)
+          {
+            Point<dim> &middle = middles.emplace_back();
+            for (const Point<dim> &corner : facet)
+              middle += corner / dim;
+          }
+        check_in_mesh(load, middles, parts);
+      }
+    if (!loads.empty())
+      force.compress(VectorOperation::add);
+  }
+
+  void
+  MovingConditions::check_in_mesh(const BoundaryCondition       &condition,
+                                  const std::vector<Point<dim>> &middles,
+                                  std::vector<double>            in_mesh) const
+  {
+    sum_over_ranks(in_mesh, mesh.triangulation().get_communicator());
+    const auto least = std::min_element(in_mesh.begin(), in_mesh.end());
+    if (*least < 1. - 1e-6)
+      throw StepFailure(
+        format("the side of '%s' has left the background mesh: %.3g %% of its "
+               "part around (%s) is outside\n"
+               "  remedy:  a larger Mesh/Box, so that the side stays in it",
+               condition.name.c_str(),
+               100. * (1. - *least),
+               text_of_place(middles[least - in_mesh.begin()]).c_str()));
+  }
+
+  void
+  MovingConditions::add_rows_of_sides(const double t, Multipliers &rows) const
+  {
+    for (const HeldSide &side : supports)
+      {
+        const BoundaryCondition &condition =
+          *scene.dirichlet.list[side.condition];
+        std::array<unsigned int, dim - 1> n;
+        n.fill(condition.n_segments);
+        std::vector<double>     part_in_mesh;
+        std::vector<Point<dim>> middles;
+        unsigned int            number = 0;
+        for (const Panel &panel : side.panels)
+          for (const Panel &segment : panel.parts(n))
+            {
+              part_in_mesh.push_back(0.);
+              // Of a round body the mean is that over the area; on the axis there is
+              // none.
+              Point<dim - 1> middle;
+              for (unsigned int k = 0; k + 1 < dim; ++k)
+                middle[k] = 0.5;
+              middles.push_back(segment.at(middle));
+              const double mean_measure = mesh.measure(middles.back());
+              for (const BoundaryPoint &point :
+                   points_on_panel(mesh, space, segment))
+                {
+                  part_in_mesh.back() += point.weight;
+                  const double relative =
+                    mean_measure > 0.
+                      ? mesh.measure(point.position) / mean_measure
+                      : 1.;
+                  add_to_row(side.condition,
+                             {number, point.weight * relative},
+                             point.position,
+                             t,
+                             point.nodes,
+                             point.values.data(),
+                             rows);
+                }
+              ++number;
+            }
+        check_in_mesh(condition, middles, part_in_mesh);
+      }
+  }
+
+  void
+  MovingConditions::add_rows_of_particles(const MaterialPoints &points,
+                                          const double          t,
+                                          const Transfer       &transfer,
+                                          Multipliers          &rows) const
+  {
+    const auto &conditions = scene.dirichlet.list;
+    if (std::none_of(
+          conditions.begin(), conditions.end(), [](const auto &condition) {
+            return condition->holds() == Imposition::On::particles;
+          }))
+      return;
+    const std::vector<double>            of_conditions = sum_held(points);
+    std::vector<types::global_dof_index> nodes;
+    std::vector<double>                  of_cell(conditions.size());
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      {
+        std::fill(of_cell.begin(), of_cell.end(), 0.);
+        for (unsigned int p = points.first_point[c];
+             p < points.first_point[c + 1];
+             ++p)
+          if (const unsigned int held = points.held_by[p]; held > 0)
+            of_cell[held - 1] += mesh.measure(points.position[p]);
+        for (unsigned int p = points.first_point[c];
+             p < points.first_point[c + 1];
+             ++p)
+          if (const unsigned int held = points.held_by[p]; held > 0)
+            {
+              const double            size = mesh.measure(points.position[p]);
+              const Imposition::Share share =
+                conditions[held - 1]->imposition.get()->share(
+                  {points.id[p],
+                   static_cast<unsigned int>(
+                     points.cells[c]->global_active_cell_index()),
+                   size / of_cell[held - 1],
+                   size / of_conditions[held - 1]});
+              space.cell_nodes(points.cells[c], nodes);
+              const bool through_flip =
+                conditions[held - 1]->imposition.get()->through_flip;
+              add_to_row(held - 1,
+                         share,
+                         points.position[p],
+                         through_flip ? transfer.t_end : t,
+                         nodes,
+                         &points.values[p * points.n_nodes],
+                         rows);
+              if (through_flip)
+                add_flip_offsets(points, p, share, nodes, transfer, rows);
+            }
+      }
+  }
+
+  void
+  MovingConditions::add_to_row(
+    const unsigned int                          c,
+    const Imposition::Share                    &share,
+    const Point<dim>                           &x,
+    const double                                t,
+    const std::vector<types::global_dof_index> &nodes,
+    const double                               *values,
+    Multipliers                                &rows) const
+  {
+    const BoundaryCondition &condition = *scene.dirichlet.list[c];
+    for (unsigned int d = 0; d < dim; ++d)
+      if (condition.components[d])
+        {
+          const Multipliers::Key key{c, d, share.row};
+          for (unsigned int i = 0; i < nodes.size(); ++i)
+            rows.add_coefficient(key, nodes[i], share.weight * values[i]);
+          rows.add_target(key,
+                          share.weight * condition.components[d]->value(x, t));
+        }
+  }
+
+  void
+  MovingConditions::add_flip_offsets(
+    const MaterialPoints                       &points,
+    const unsigned int                          p,
+    const Imposition::Share                    &share,
+    const std::vector<types::global_dof_index> &nodes,
+    const Transfer                             &transfer,
+    Multipliers                                &rows) const
+  {
+    const double *const N = &points.values[p * points.n_nodes];
+    Tensor<1, dim>      L; // N v^L
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        L[d] += N[i] * transfer.velocity_L.local_element(
+                         dim * space.local_node(nodes[i]) + d);
+    const unsigned int       c         = points.held_by[p] - 1;
+    const BoundaryCondition &condition = *scene.dirichlet.list[c];
+    for (unsigned int d = 0; d < dim; ++d)
+      if (condition.components[d])
+        {
+          const double prescribed =
+            condition.components[d]->value(points.position[p], transfer.t_end);
+          const double end = // N v_end
+            prescribed - transfer.flip_part * (points.velocity[p][d] - L[d]);
+          rows.add_offset({c, d, share.row},
+                          share.weight *
+                            (L[d] + transfer.part * (end - L[d]) - prescribed));
+        }
+  }
+
+  void
+  MovingConditions::make_rows(const MaterialPoints &points,
+                              const Vector         &prescribed,
+                              const double          t,
+                              const Transfer       &transfer,
+                              Constraints          &constraints) const
+  {
+    Multipliers &rows = constraints.multipliers;
+    rows.clear();
+    add_rows_of_sides(t, rows);
+    add_rows_of_particles(points, t, transfer, rows);
+    const auto refusal = rows.assemble(space, constraints, prescribed);
+    if (!refusal)
+      return;
+    const BoundaryCondition &condition =
+      *scene.dirichlet.list[refusal->key.condition];
+    if (!refusal->is_supported)
+      throw InputError(
+        condition.parameter("Box"),
+        condition.part(),
+        "a part of a side with particles near it",
+        "no function with mass supports the constraint: check "
+        "its sides and its box, or whether the body has left it");
+    const unsigned int component = refusal->key.component;
+    throw InputError(
+      condition.parameter(std::string("Velocity ") + coordinate[component]),
+      condition.formula(component),
+      "velocities that the functions of the space can take",
+      format("its rows depend on each other but contradict: %g "
+             "m/s is asked where the others leave %g m/s; impose "
+             "segments or cell averages, or a velocity that is "
+             "the same for all its points",
+             refusal->asked,
+             refusal->left));
+  }
+
+  void
+  MovingConditions::move(const Vector &v, const double h, const double t)
+  {
+    for (HeldSide &side : supports)
+      {
+        side.before = side.panels;
+        for (Panel &panel : side.panels)
+          {
+            auto ends = panel.ends();
+            for (Point<dim> &x : ends)
+              for (unsigned int d = 0; d < dim; ++d)
+                if (const auto &q =
+                      scene.dirichlet.list[side.condition]->components[d])
+                  x[d] += h * q->value(x, t);
+            panel.span(ends);
+          }
+      }
+    for (LoadedSide &side : loads)
+      side.surface.move(mesh, space, v, h);
+  }
+
+  std::vector<bool>
+  MovingConditions::loaded_nodes() const
+  {
+    if (supports.empty() && loads.empty())
+      return {};
+    Vector     mark(space.partitioner());
+    const auto mark_nodes = [&](const BoundaryPoint &point) {
+      for (unsigned int i = 0; i < point.nodes.size(); ++i)
+        if (point.values[i] > 0.)
+          mark.local_element(dim * space.local_node(point.nodes[i])) += 1.;
+    };
+    for (const HeldSide &side : supports)
+      for (const Panel &panel : side.panels)
+        for (const BoundaryPoint &point : points_on_panel(mesh, space, panel))
+          mark_nodes(point);
+    for (const LoadedSide &side : loads)
+      for_each_point(mesh,
+                     space,
+                     side.surface.facets(),
+                     [&](const std::size_t, const BoundaryPoint &point) {
+                       mark_nodes(point);
+                     });
+    mark.compress(VectorOperation::add);
+    mark.update_ghost_values();
+    std::vector<bool> is_loaded(space.n_local_nodes());
+    for (unsigned int node = 0; node < is_loaded.size(); ++node)
+      is_loaded[node] = mark.local_element(dim * node) > 0.;
+    return is_loaded;
+  }
+
+  std::optional<Point<dim>>
+  MovingConditions::put_back(const Point<dim> &before,
+                             const Point<dim> &after) const
+  {
+    std::optional<Point<dim>> place;
+    for (const HeldSide &side : supports)
+      for (unsigned int l = 0; l < side.panels.size(); ++l)
+        {
+          const Panel &panel = side.panels[l];
+          const Seen   now   = seen_from(panel, after);
+          if (!now.is_close_behind() ||
+              !holds_normal(*scene.dirichlet.list[side.condition], panel))
+            continue;
+          const Seen was = seen_from(side.before[l], before);
+          if (was.is_close_behind())
+            continue;
+          Point<dim> here        = after;
+          bool       from_beside = false;
+          for (unsigned int k = 0; k + 1 < dim; ++k)
+            if (was.along[k] <= 0. || was.along[k] >= 1.)
+              {
+                const double end = was.along[k] <= 0. ? 0. : 1.;
+                here += (end - now.along[k]) * panel.edges[k];
+                from_beside = true;
+              }
+          if (!from_beside)
+            {
+              const Tensor<1, dim> area = panel.area();
+              here -= now.beyond / area.norm() * area;
+            }
+          if (!place || here.distance(after) < place->distance(after))
+            place = here;
+        }
+    return place;
+  }
+
+  unsigned int
+  MovingConditions::n_behind(const MaterialPoints &points) const
+  {
+    if (supports.empty())
+      return 0;
+    unsigned int n = 0;
+    for (unsigned int p = 0; p < points.n_points(); ++p)
+      {
+        bool behind = false;
+        for (const HeldSide &side : supports)
+          for (const Panel &panel : side.panels)
+            {
+              const Seen seen = seen_from(panel, points.position[p]);
+              behind =
+                behind ||
+                (seen.is_close_behind() &&
+                 seen.beyond > 0.1 * scene.geometry.size_of_point(
+                                       points.position[p], points.volume[p]) &&
+                 holds_normal(*scene.dirichlet.list[side.condition], panel));
+            }
+        n += behind;
+      }
+    return Utilities::MPI::sum(n, mesh.triangulation().get_communicator());
+  }
+
+  std::vector<SoilLimit>
+  MovingConditions::soil_limits() const
+  {
+    std::vector<SoilLimit> limits;
+    for (const HeldSide &side : supports)
+      for (const Panel &panel : side.panels)
+        {
+          const Tensor<1, dim> area = panel.area();
+          for (unsigned int d = 0; d < dim; ++d)
+            if (std::abs(area[d]) > (1. - 1e-9) * area.norm() &&
+                holds_normal(*scene.dirichlet.list[side.condition], panel))
+              limits.push_back({d,
+                                panel.corner[d],
+                                area[d] > 0.,
+                                BoundingBox<dim>(panel.corners())});
+        }
+    return limits;
+  }
+
+  void
+  MovingConditions::state(StateRow &row)
+  {
+    for (HeldSide &side : supports)
+      for (Panel &panel : side.panels)
+        {
+          auto ends = panel.ends();
+          for (Point<dim> &x : ends)
+            row(x);
+          panel.span(ends);
+        }
+    for (LoadedSide &side : loads)
+      side.surface.state(row);
+  }
+
+  std::pair<Point<dim>, Point<dim>>
+  MovingConditions::box_of(const BoundaryCondition &condition) const
+  {
+    std::vector<Point<dim>> corners;
+    for (const HeldSide &side : supports)
+      if (scene.dirichlet.list[side.condition].get() == &condition)
+        for (const Panel &panel : side.panels)
+          for (const Point<dim> &x : panel.corners())
+            corners.push_back(x);
+    return BoundingBox<dim>(corners).get_boundary_points();
+  }
+} // namespace geocone

@@ -1,0 +1,428 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/contact/particle_contact.h>
+#include <geocone/points/point_functions.h>
+#include <geocone/shapes/convex_hull.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Functions that are smaller at a particle do not count as moved by it. */
+    constexpr double least_function = 1e-12;
+
+    /** Squares side by side are farther apart than this part of the sum of both halves,
+     *  Gauss points, too. */
+    constexpr double beside = 0.4;
+
+    /** Surfaces that differ by less than this part of half a particle are one. */
+    constexpr double flush = 0.2;
+
+    /**
+     * How far a particle is from obstacles that go on where another one ends, whose node
+     * moves the particle, too; infinite without any.
+     * @param near from the particle, by obstacle @param own the obstacle of the node
+     * @param of_node from the node to it @param arm from the node to the particle
+     * @param tolerance by which both surfaces may differ there
+     */
+    double
+    along_others(const std::vector<Obstacle::Nearest> &near,
+                 const unsigned int                    own,
+                 const Obstacle::Nearest              &of_node,
+                 const Tensor<1, dim>                 &arm,
+                 const double                          tolerance)
+    {
+      const double expected = of_node.distance + arm * of_node.normal;
+      double       least    = 1e300;
+      for (unsigned int o = 0; o < near.size(); ++o)
+        if (o != own && near[o].normal * of_node.normal > parallel &&
+            std::abs(near[o].distance - expected) < tolerance)
+          least = std::min(least, near[o].distance);
+      return least;
+    }
+
+    /** Where a particle is for those that it touches: what stays in the mesh of soil
+     *  that moves has been displaced. */
+    Point<dim>
+    position_of(const Scene          &scene,
+                const MaterialPoints &points,
+                const unsigned int    p)
+    {
+      return scene.regions.are_fixed(points.material[p])
+               ? points.position[p] + points.displacement[p]
+               : points.position[p];
+    }
+  } // namespace
+
+  std::vector<Vector>
+  gaps_of_particles(const MaterialPoints           &points,
+                    const Scene                    &scene,
+                    const std::vector<RigidMotion> &moved,
+                    const Space                    &space,
+                    const double                    margin)
+  {
+    const auto        &list = scene.obstacles.list;
+    const unsigned int n    = list.size();
+    // Where nodes are in an obstacle that has others beside it.
+    std::vector<std::vector<Obstacle::Nearest>> of_node(n);
+    const auto others = scene.obstacles.neighbours(moved, margin);
+    for (unsigned int o = 0; o < n && n > 1; ++o)
+      for (const Point<dim> &x : space.node_positions())
+        of_node[o].push_back(list[o]->nearest(x, moved[o], {}, &others[o]));
+
+    std::vector<Vector> all(n);
+    for (Vector &of_obstacle : all)
+      {
+        of_obstacle.reinit(space.partitioner());
+        for (unsigned int node = 0; node < space.n_local_nodes(); ++node)
+          of_obstacle.local_element(dim * node) = 1e300;
+      }
+    std::vector<Obstacle::Nearest> near(n);
+    for_each_point(points,
+                   [&](const unsigned int p,
+                       const unsigned int /* cell */,
+                       const PointFunctions &at) {
+                     const Point<dim> x = position_of(scene, points, p);
+                     const double     half =
+                       scene.geometry.size_of_point(x, points.volume[p]) / 2.;
+                     for (unsigned int o = 0; o < n; ++o)
+                       near[o] = list[o]->nearest(x, moved[o], {});
+                     for (unsigned int o = 0; o < n; ++o)
+                       for (unsigned int i = 0; i < at.n; ++i)
+                         if (at.N[i] > least_function)
+                           {
+                             const unsigned int node     = at.nodes[i];
+                             double             distance = near[o].distance;
+                             if (n > 1 && of_node[o][node].distance < margin)
+                               distance = std::min(
+                                 distance,
+                                 along_others(near,
+                                              o,
+                                              of_node[o][node],
+                                              x - space.node_positions()[node],
+                                              flush * half));
+                             double &least = all[o].local_element(dim * node);
+                             least         = std::min(least, distance - half);
+                           }
+                   });
+    for (Vector &of_obstacle : all)
+      {
+        of_obstacle.compress(VectorOperation::min);
+        of_obstacle.update_ghost_values();
+      }
+    return all;
+  }
+
+  void
+  check_particles_outside(const MaterialPoints &points,
+                          const Obstacles      &obstacles,
+                          const MPI_Comm        comm)
+  {
+    for (const auto &obstacle : obstacles.list)
+      {
+        double least = 1e300;
+        for (const Point<dim> &x : points.position)
+          least = std::min(least, obstacle->nearest(x, {}, {}).distance);
+        least = Utilities::MPI::min(least, comm);
+        if (!(least > 0.))
+          obstacle->refuse_overlap(
+            format("a particle is %.3g m inside it", -least));
+      }
+  }
+
+  ParticleBodies::ParticleBodies(const Scene          &scene,
+                                 const BackgroundMesh &mesh,
+                                 const Space          &space)
+    : scene(scene)
+    , space(space)
+    , place_of(space.n_local_nodes(), numbers::invalid_unsigned_int)
+    , layer_of(space.n_local_nodes(), 0)
+  {
+    size = 1e300;
+    for (const auto &cell : mesh.own_cells())
+      size = std::min(size, BackgroundMesh::size_of(cell));
+    size = Utilities::MPI::min(size, mesh.triangulation().get_communicator());
+
+    // By material which body is one side of a contact, which the other.
+    const auto                                     &list = scene.contacts.list;
+    const unsigned int                              n = scene.materials.size();
+    std::set<std::pair<unsigned int, unsigned int>> known;
+    for (unsigned int k = 0; k < list.size(); ++k)
+      for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int b = 0; b < n; ++b)
+          if (const unsigned int first = scene.contacts.body_of(a),
+              other                    = scene.contacts.body_of(b);
+              list[k]->is_first[a] && list[k]->is_other[b] &&
+              known.insert(std::minmax(first, other)).second)
+            pairs.push_back({k, first, other});
+
+    std::vector<types::global_dof_index> of_cell;
+    for (const auto &cell : mesh.own_cells())
+      {
+        std::vector<std::vector<unsigned int>> twins(space.nodes_per_cell());
+        for (unsigned int layer = 0; layer < mesh.n_layers(); ++layer)
+          {
+            space.cell_nodes(mesh.twin(cell, layer), of_cell);
+            for (unsigned int i = 0; i < of_cell.size(); ++i)
+              twins[i].push_back(space.local_node(of_cell[i]));
+          }
+        for (const std::vector<unsigned int> &place : twins)
+          if (place_of[place[0]] == numbers::invalid_unsigned_int)
+            {
+              for (unsigned int layer = 0; layer < place.size(); ++layer)
+                {
+                  place_of[place[layer]] = nodes.size();
+                  layer_of[place[layer]] = layer;
+                }
+              nodes.push_back(place);
+            }
+      }
+  }
+
+  std::vector<ParticleBodies::Share>
+  ParticleBodies::shares_of(const Pair           &pair,
+                            const MaterialPoints &points,
+                            const Unknowns       &unknowns) const
+  {
+    std::vector<Share> shares;
+    for_each_point(
+      points,
+      [&](const unsigned int p,
+          const unsigned int /* cell */,
+          const PointFunctions &at) {
+        const unsigned int layer = layer_of[at.nodes[0]];
+        if (layer != pair.first && layer != pair.other)
+          return;
+        const Point<dim> x = position_of(scene, points, p);
+        for (unsigned int i = 0; i < at.n; ++i)
+          if (const unsigned int place = place_of[at.nodes[i]];
+              at.N[i] > least_function &&
+              unknowns.has_mass(dim * nodes[place][pair.first]) &&
+              unknowns.has_mass(dim * nodes[place][pair.other]))
+            shares.push_back(
+              {place,
+               layer == pair.first,
+               x,
+               scene.geometry.size_of_point(x, points.volume[p]) / 2.});
+      });
+    return shares;
+  }
+
+  std::vector<Tensor<1, dim>>
+  ParticleBodies::normals(const Pair               &pair,
+                          const std::vector<Share> &shares) const
+  {
+    std::vector<Tensor<1, dim>>                         normal(nodes.size());
+    std::vector<std::array<std::vector<Point<dim>>, 2>> of_place(nodes.size());
+    for (const Share &share : shares)
+      of_place[share.place][share.is_first].push_back(share.x);
+
+    // Others have more of the particles at places that they share: the number of
+    // the place, the side, and coordinates, in the plane of corners of hulls only.
+    const auto &layout = *space.partitioner();
+    const auto  number = [&](const unsigned int place) {
+      return layout.local_to_global(dim * nodes[place][pair.first]);
+    };
+    if (layout.n_mpi_processes() > 1)
+      {
+        std::vector<double> corners;
+        for (unsigned int place = 0; place < nodes.size(); ++place)
+          for (const bool is_first : {false, true})
+            for (const Point<dim> &x :
+                 dim == 2 ? convex_hull(of_place[place][is_first])
+                          : of_place[place][is_first])
+              {
+                corners.insert(corners.end(),
+                               {double(number(place)), is_first ? 1. : 0.});
+                for (unsigned int d = 0; d < dim; ++d)
+                  corners.push_back(x[d]);
+              }
+        std::map<types::global_dof_index, unsigned int> here;
+        for (unsigned int place = 0; place < nodes.size(); ++place)
+          {
+            here[number(place)] = place;
+            of_place[place]     = {};
+          }
+        for (const auto &of_rank :
+             Utilities::MPI::all_gather(layout.get_mpi_communicator(), corners))
+          for (std::size_t i = 0; i < of_rank.size(); i += 2 + dim)
+            if (const auto at = here.find(types::global_dof_index(of_rank[i]));
+                at != here.end())
+              {
+                Point<dim> x;
+                for (unsigned int d = 0; d < dim; ++d)
+                  x[d] = of_rank[i + 2 + d];
+                of_place[at->second][of_rank[i + 1] > 0.].push_back(x);
+              }
+      }
+    for (unsigned int place = 0; place < nodes.size(); ++place)
+      if (!of_place[place][0].empty() && !of_place[place][1].empty())
+        normal[place] = way_between(of_place[place][0], of_place[place][1]);
+    return normal;
+  }
+
+  std::vector<double>
+  ParticleBodies::gaps(const Pair                        &pair,
+                       const std::vector<Share>          &shares,
+                       const std::vector<Tensor<1, dim>> &normal) const
+  {
+    // How far both sides reach from the place.
+    std::array<Vector, 2> nearest;
+    for (Vector &of_side : nearest)
+      {
+        of_side.reinit(space.partitioner());
+        for (unsigned int i = 0; i < space.n_local_nodes(); ++i)
+          of_side.local_element(dim * i) = 1e300;
+      }
+    for (const Share &share : shares)
+      {
+        const unsigned int node = nodes[share.place][pair.first];
+        const double       along =
+          (share.x - space.node_positions()[node]) * normal[share.place];
+        double &least = nearest[share.is_first].local_element(dim * node);
+        least = std::min(least, (share.is_first ? along : -along) - share.half);
+      }
+    for (Vector &of_side : nearest)
+      {
+        of_side.compress(VectorOperation::min);
+        of_side.update_ghost_values();
+      }
+    std::vector<double> gap;
+    for (const std::vector<unsigned int> &place : nodes)
+      gap.push_back(nearest[0].local_element(dim * place[pair.first]) +
+                    nearest[1].local_element(dim * place[pair.first]));
+    return gap;
+  }
+
+  void
+  ParticleBodies::check_start(const MaterialPoints &points,
+                              const Unknowns       &unknowns) const
+  {
+    for (const Pair &pair : pairs)
+      {
+        std::map<unsigned int, std::array<std::vector<Share>, 2>> of_place;
+        for (const Share &share : shares_of(pair, points, unknowns))
+          of_place[share.place][share.is_first].push_back(share);
+        std::string where;
+        for (const auto &[place, sides] : of_place)
+          for (const Share &a : sides[0])
+            for (const Share &b : sides[1])
+              if (a.x.distance(b.x) < beside * (a.half + b.half))
+                where = text_of_place(a.x);
+        where =
+          text_of_any_rank(space.partitioner()->get_mpi_communicator(), where);
+        if (!where.empty())
+          throw InputError("Contacts/Names",
+                           scene.contacts.list[pair.contact]->name,
+                           "bodies that do not overlap at the start",
+                           "particles of both are at (" + where +
+                             "): move one of the bodies");
+      }
+  }
+
+  void
+  ParticleBodies::check_fixed(const MaterialPoints &points) const
+  {
+    std::string far;
+    for (unsigned int p = 0; p < points.n_points(); ++p)
+      if (scene.regions.are_fixed(points.material[p]) &&
+          points.displacement[p].norm() > size / 2.)
+        far = scene.materials.name(points.material[p]);
+    far = text_of_any_rank(space.partitioner()->get_mpi_communicator(), far);
+    if (!far.empty())
+      throw StepFailure("'" + far +
+                        "' has moved by half a cell, and its points stay: what "
+                        "touches it would lose it\n  remedy:  let its points "
+                        "move (leave out 'Materials/" +
+                        far + "/Points'), or take larger cells");
+  }
+
+  std::vector<FacingNode>
+  ParticleBodies::find(const MaterialPoints &points,
+                       const Unknowns       &unknowns) const
+  {
+    check_fixed(points);
+    Vector outward(space.partitioner()); // a
+    for_each_point(points,
+                   [&](const unsigned int p,
+                       const unsigned int /* cell */,
+                       const PointFunctions &at) {
+                     for (unsigned int i = 0; i < at.n; ++i)
+                       for (unsigned int d = 0; d < dim; ++d)
+                         outward.local_element(dim * at.nodes[i] + d) +=
+                           points.volume[p] * at.slopes[d][i];
+                   });
+    outward.compress(VectorOperation::add);
+    outward.update_ghost_values();
+    std::vector<FacingNode>             found;
+    std::map<unsigned int, std::size_t> of_place; // in found
+    std::string                         thrice;
+    for (const Pair &pair : pairs)
+      {
+        const std::vector<Share>    shares = shares_of(pair, points, unknowns);
+        std::vector<Tensor<1, dim>> normal = normals(pair, shares);
+        for (unsigned int place = 0; place < nodes.size(); ++place)
+          if (normal[place].norm_square() == 0.)
+            normal[place] = value_at(outward, nodes[place][pair.other]) -
+                            value_at(outward, nodes[place][pair.first]);
+        for (Tensor<1, dim> &n : normal)
+          if (n.norm_square() > 0.)
+            n /= n.norm();
+        const std::vector<double> gap = gaps(pair, shares, normal);
+
+        for (unsigned int place = 0; place < nodes.size(); ++place)
+          {
+            if (!(gap[place] < 1e200) || normal[place].norm_square() == 0.)
+              continue;
+            const unsigned int node  = nodes[place][pair.first],
+                               other = nodes[place][pair.other];
+            const Tensor<1, dim> &n  = normal[place];
+            FacingNode            facing;
+            facing.gap           = std::max(gap[place], 0.);
+            facing.node.node     = node;
+            facing.node.obstacle = scene.obstacles.list.size() + pair.contact;
+            facing.node.normal   = n;
+            facing.node.partners = {{other, 1.}};
+            facing.node.is_twin  = true;
+            facing.node.length =
+              std::max(0.,
+                       std::min(-(value_at(outward, node) * n),
+                                value_at(outward, other) * n));
+            const auto [at, is_new] = of_place.emplace(place, found.size());
+            if (is_new)
+              {
+                found.push_back(facing);
+                continue;
+              }
+            FacingNode &before = found[at->second];
+            if (std::max(before.gap, facing.gap) <= closed_gap * size)
+              thrice =
+                format("three bodies touch at (%s)",
+                       text_of_place(space.node_positions()[node]).c_str());
+            if (facing.gap < before.gap)
+              before = facing;
+          }
+      }
+    thrice =
+      text_of_any_rank(space.partitioner()->get_mpi_communicator(), thrice);
+    if (!thrice.empty())
+      throw StepFailure(thrice + "\n  remedy:  let two of them be one body, or "
+                                 "make cells smaller");
+    return found;
+  }
+} // namespace geocone

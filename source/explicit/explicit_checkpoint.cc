@@ -1,0 +1,150 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// The state of the explicit material point method as part of a checkpoint.
+#include <geocone/base/exceptions.h>
+#include <geocone/explicit/explicit_mpm.h>
+#include <geocone/points/point_record.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  void
+  ExplicitMPM::state_of_all(StateRow &row)
+  {
+    row(n_steps,
+        fade,
+        fade_end,
+        last_step,
+        gravity,
+        sums,
+        energy_n,
+        rising,
+        stage_start,
+        progress.begun,
+        progress.now,
+        progress.report);
+    if (boundary)
+      boundary->state(row);
+  }
+
+  void
+  ExplicitMPM::state_of_ranks(StateRow &row)
+  {
+    row(n_point_steps, sum, *nodes, counts);
+  }
+
+  void
+  ExplicitMPM::save(Archive &archive)
+  {
+    StateRow of_all, of_ranks;
+    state_of_all(of_all);
+    archive.write_row("explicit", of_all);
+    state_of_ranks(of_ranks);
+    archive.write("explicit sums", of_ranks.values());
+    StateRow list;
+    for (PointArrays &group : groups)
+      {
+        unsigned int material  = group.of_material;
+        std::string  variables = group.variables();
+        list(material, group.fading, variables);
+      }
+    archive.write_row("groups", list);
+    for (unsigned int g = 0; g < groups.size(); ++g)
+      {
+        const PointArrays  &group = groups[g];
+        std::vector<double> rows;
+        rows.reserve(group.n_points() * group.n_numbers());
+        for (unsigned int p = 0; p < group.n_points(); ++p)
+          group.add_row(p, rows);
+        archive.write("points " + std::to_string(g), rows);
+      }
+    // The run that goes on and one that is resumed start from the same nodes.
+    must_refresh = true;
+  }
+
+  std::vector<double>
+  ExplicitMPM::points_of_rank(const Archive     &archive,
+                              const std::string &name,
+                              const std::size_t  size) const
+  {
+    const unsigned int rank    = Utilities::MPI::this_mpi_process(comm),
+                       n_ranks = Utilities::MPI::n_mpi_processes(comm);
+    if (archive.n_ranks_of(name) == n_ranks || transfer->takes_any_point())
+      return archive.read_part(name, size);
+    // Other ranks than before: each point goes to the lowest one that finds it.
+    const std::vector<double> all = archive.read(name);
+    std::vector<unsigned int> owner(all.size() / size, n_ranks);
+    for (std::size_t i = 0; i < owner.size(); ++i)
+      {
+        Point<dim> x;
+        for (unsigned int d = 0; d < dim; ++d)
+          x[d] = all[i * size + d]; // the first numbers of a row
+        if (transfer->owns(x))
+          owner[i] = rank;
+      }
+    Utilities::MPI::min(owner, comm, owner);
+    std::vector<double> own;
+    for (std::size_t i = 0; i < owner.size(); ++i)
+      if (owner[i] % n_ranks == rank) // nobody's are the first one's
+        own.insert(own.end(), &all[i * size], &all[i * size] + size);
+    return own;
+  }
+
+  void
+  ExplicitMPM::load(const Archive &archive)
+  {
+    StateRow of_all = archive.read_row("explicit");
+    state_of_all(of_all);
+    // Sums of ranks that are not there any more go to the first one.
+    StateRow mine;
+    state_of_ranks(mine);
+    const std::size_t         size          = mine.values().size();
+    const std::vector<double> sums_of_ranks = archive.read("explicit sums");
+    const unsigned int        rank = Utilities::MPI::this_mpi_process(comm);
+    const unsigned int        n    = sums_of_ranks.size() / size;
+    std::vector<double>       own(size, 0.);
+    if (n == Utilities::MPI::n_mpi_processes(comm))
+      own.assign(&sums_of_ranks[rank * size],
+                 &sums_of_ranks[rank * size] + size);
+    else if (rank == 0)
+      for (unsigned int i = 0; i < n * size; ++i)
+        if ((i + 1) % size == 0)
+          own[size - 1] = std::max(own[size - 1], sums_of_ranks[i]); // most
+        else
+          own[i % size] += sums_of_ranks[i];
+    else
+      own = mine.values();
+    StateRow row(own);
+    state_of_ranks(row);
+
+    StateRow list = archive.read_row("groups");
+    groups.clear();
+    while (!list.at_end())
+      {
+        unsigned int material = 0;
+        bool         fading   = false;
+        std::string  variables;
+        list(material, fading, variables);
+        if (material >= scene->materials.size())
+          throw RunError("the checkpoint has other materials");
+        groups.push_back(make_group(material));
+        PointArrays &group = groups.back();
+        group.fading       = fading;
+        check_variables(variables, group.variables());
+        const unsigned int        size = group.n_numbers();
+        const std::vector<double> rows = points_of_rank(
+          archive, "points " + std::to_string(groups.size() - 1), size);
+        group.set_capacity(rows.size() / size);
+        for (std::size_t i = 0; i < rows.size(); i += size)
+          group.append(&rows[i]);
+        group.pad();
+      }
+    must_refresh = true;
+  }
+} // namespace geocone

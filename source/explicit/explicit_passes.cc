@@ -1,0 +1,332 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// What a pass of the explicit material point method does with its points, block by
+// block: they take from the nodes, follow their law, move, and give to the nodes.
+#include <geocone/base/log.h>
+#include <geocone/base/stopwatch.h>
+#include <geocone/explicit/explicit_mpm.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  TransferBlock
+  ExplicitMPM::block(const unsigned int g, const unsigned int first)
+  {
+    PointArrays       &group = groups[g];
+    const unsigned int n =
+      std::min(PointBlock::capacity, group.n_padded() - first);
+    TransferBlock points = {n,
+                            g,
+                            first,
+                            {},
+                            {},
+                            {},
+                            group.volume.data() + first,
+                            group.mass.data() + first,
+                            {},
+                            transfer->keeps_cells() ? group.cell.data() + first
+                                                    : nullptr};
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        points.x[d] = group.position[d] + first;
+        points.v[d] = group.velocity[d] + first;
+      }
+    for (int i = 0; i < n_mandel; ++i)
+      points.s[i] = group.stress[i] + first;
+    for (unsigned int i = 0; i < dim * dim && affine; ++i)
+      points.c[i] = group.affine[i] + first;
+    return points;
+  }
+
+  void
+  ExplicitMPM::pass(const Update update, const Gives gives, const double dt)
+  {
+    const Stopwatch watch(clock.passes);
+    const bool      gives_force = gives == Gives::force || gives == Gives::all;
+    if (gives_force)
+      hoop_force = 0.;
+    // Means of the stress in a cell need that of all its points.
+    const bool later = b_bar && gives_force;
+    if (b_bar && update.strain)
+      average_in_cells([&](const TransferBlock &points) {
+        transfer->gather(points, scratch);
+        kernels->find_divergence(points, scratch);
+        if (axisymmetric)
+          for (unsigned int k = 0; k < points.n; ++k)
+            scratch.divergence[k] += hoop_rate(k, points.x[0][k]);
+        return scratch.divergence;
+      });
+    for_each_block([&](const TransferBlock &points) {
+      take(update, dt, points);
+      if (gives != Gives::nothing && !later)
+        give(gives, points);
+    });
+    for (const PointArrays &group : groups)
+      if (update.strain)
+        n_point_steps += group.n_points();
+    if (!later)
+      return;
+    average_in_cells([&](const TransferBlock &points) {
+      find_mean_stress(points);
+      return scratch.mean_stress;
+    });
+    for_each_block([&](const TransferBlock &points) { give(gives, points); });
+  }
+
+  void
+  ExplicitMPM::take(const Update         update,
+                    const double         dt,
+                    const TransferBlock &points)
+  {
+    if (update.strain || update.velocity || update.position)
+      {
+        if (update.strain)
+          transfer->gather(points, scratch);
+        else
+          transfer->gather_values(points, scratch);
+        if (update.velocity && affine)
+          transfer->gather_affine(points, scratch);
+        if (update.strain && b_bar)
+          transfer->average(points, scratch.divergence);
+        kernels->update_points(update, dt, rule.flip_part(), points, scratch);
+      }
+    if (update.strain)
+      follow_law(update, dt, points);
+    if (update.position)
+      {
+        bound_positions(points);
+        // The pass that moves points is the last of a step.
+        if (groups[points.group].fading)
+          fade_points(points);
+      }
+  }
+
+  void
+  ExplicitMPM::follow_law(const Update         update,
+                          const double         dt,
+                          const TransferBlock &points)
+  {
+    PointArrays           &group = groups[points.group];
+    const ConstitutiveLaw &law   = scene->materials.law(group.of_material);
+    if (axisymmetric)
+      strain_around_axis(update, dt, points);
+    if (b_bar)
+      kernels->replace_divergence(dt, points, scratch);
+    history.resize(group.n_history());
+    for (unsigned int k = 0; k < group.n_history(); ++k)
+      history[k] = group.history[k] + points.first;
+    std::array<const double *, dim * dim> l;
+    for (unsigned int i = 0; i < dim * dim; ++i)
+      l[i] = scratch.l[i];
+    law.advance({std::min(points.n, group.n_points() - points.first),
+                 l,
+                 points.s,
+                 history.data(),
+                 group.cumulative_plastic_strain.data() + points.first,
+                 scratch.work,
+                 scratch.wave_modulus,
+                 dt,
+                 axisymmetric ? scratch.l_zz : nullptr},
+                counts);
+    kernels->finish(points, scratch, sums);
+  }
+
+  void
+  ExplicitMPM::bound_positions(const TransferBlock &points)
+  {
+    PassSums here;
+    kernels->bound(points, here);
+    Point<dim> lower, upper;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        lower[d] = here.lower[d];
+        upper[d] = here.upper[d];
+      }
+    if (!std::isfinite(here.check) || !transfer->reaches(lower) ||
+        !transfer->reaches(upper))
+      {
+        mend_positions(points);
+        here = PassSums();
+        kernels->bound(points, here);
+      }
+    sums.add(here);
+  }
+
+  void
+  ExplicitMPM::for_each_block(
+    const std::function<void(const TransferBlock &)> &action)
+  {
+    for (unsigned int g = 0; g < groups.size(); ++g)
+      for (unsigned int first = 0; first < groups[g].n_padded();
+           first += PointBlock::capacity)
+        action(block(g, first));
+  }
+
+  void
+  ExplicitMPM::average_in_cells(
+    const std::function<const double *(const TransferBlock &)> &values_at)
+  {
+    transfer->clear_cells();
+    for_each_block([&](const TransferBlock &points) {
+      transfer->add_to_cells(points, values_at(points));
+    });
+    transfer->exchange_cells();
+  }
+
+  namespace
+  {
+    /** tr s/dim of a point of a block (Pa). */
+    double
+    mean_stress(const TransferBlock &points, const unsigned int k)
+    {
+      double mean = 0.;
+      for (unsigned int d = 0; d < dim; ++d)
+        mean += points.s[place_of_component[d][d]][k] / dim;
+      return mean;
+    }
+  } // namespace
+
+  void
+  ExplicitMPM::find_mean_stress(const TransferBlock &points)
+  {
+    for (unsigned int k = 0; k < points.n; ++k)
+      scratch.mean_stress[k] = mean_stress(points, k);
+  }
+
+  void
+  ExplicitMPM::give(const Gives gives, const TransferBlock &points)
+  {
+    const bool force = gives == Gives::force || gives == Gives::all;
+    const bool mass  = gives == Gives::momentum_and_mass || gives == Gives::all;
+    const bool momentum = gives != Gives::force;
+    if (b_bar && force)
+      transfer->average(points, scratch.mean_stress);
+    if (axisymmetric && force)
+      force_around_axis(points);
+    kernels->prepare_scatter(momentum, force, points, scratch);
+    if (b_bar && force)
+      kernels->replace_mean_stress(points, scratch);
+    if (force)
+      transfer->scatter(points, scratch, mass);
+    else
+      transfer->scatter_values(points, scratch, mass);
+    if (affine && momentum)
+      transfer->scatter_affine(points, scratch);
+  }
+
+  double
+  ExplicitMPM::hoop_rate(const unsigned int k, const double r) const
+  {
+    return scratch.gathered[BlockScratch::n_gathered * k] /
+           std::max(r, least_radius);
+  }
+
+  void
+  ExplicitMPM::strain_around_axis(const Update         update,
+                                  const double         dt,
+                                  const TransferBlock &points)
+  {
+    for (unsigned int k = 0; k < points.n; ++k)
+      {
+        double r = points.x[0][k]; // before the step
+        if (update.position)
+          r -= dt * scratch.gathered[BlockScratch::n_gathered * k];
+        const double rate = hoop_rate(k, r);
+        scratch.l_zz[k]   = dt * rate;
+        if (b_bar) // the mean has it, too
+          scratch.divergence[k] -= rate;
+      }
+  }
+
+  void
+  ExplicitMPM::force_around_axis(const TransferBlock &points)
+  {
+    const PointArrays     &group = groups[points.group];
+    const ConstitutiveLaw &law   = scene->materials.law(group.of_material);
+    point_history.resize(group.n_history());
+    for (unsigned int k = 0; k < points.n; ++k)
+      {
+        group.copy_history(points.first + k, point_history.data());
+        double s_zz = law.stress_zz(group.stress_components(points.first + k),
+                                    point_history.data());
+        if (b_bar)
+          s_zz += scratch.mean_stress[k] - mean_stress(points, k);
+        scratch.hoop_force[k] =
+          -points.volume[k] * s_zz / std::max(points.x[0][k], least_radius);
+        hoop_force += scratch.hoop_force[k];
+      }
+  }
+
+  std::string
+  ExplicitMPM::has_left(const PointArrays &group, const unsigned int p) const
+  {
+    return format("point %u has left the background mesh at (%s)\n"
+                  "  remedy:  enlarge 'Mesh/Box', hold the side, or set "
+                  "'Particles/Outflow' = count",
+                  group.id[p],
+                  text_of_place(group.position.of(p)).c_str());
+  }
+
+  void
+  ExplicitMPM::mend_positions(const TransferBlock &points)
+  {
+    PointArrays       &group = groups[points.group];
+    const unsigned int end =
+      std::min(points.first + points.n, group.n_points());
+    const double tolerance = 1e-6 * transfer->cell_size();
+    for (unsigned int p = points.first; p < points.first + points.n; ++p)
+      {
+        const Point<dim> place = group.position.of(p);
+        const bool       is_finite =
+          std::isfinite(place.square()) &&
+          std::isfinite(group.velocity.of(p).norm_square());
+        if (is_finite && transfer->reaches(place))
+          continue;
+        Point<dim> nearest;
+        if (!is_finite)
+          {
+            if (obstacle.empty() && p < end)
+              obstacle =
+                format("the velocity of point %u is not a number\n"
+                       "  remedy:  take a smaller 'Explicit/Courant number' "
+                       "or 'Explicit/Time step', splines, or the order MUSL",
+                       group.id[p]);
+            nearest = transfer->stored_place();
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                group.velocity[d][p] = 0.;
+                group.position[d][p] = nearest[d];
+              }
+            continue;
+          }
+        nearest            = transfer->nearest_in_domain(place);
+        const bool outside = nearest.distance(place) > tolerance;
+        if (!transfer->reaches(nearest))
+          {
+            if (obstacle.empty() && p < end)
+              obstacle =
+                format("point %u at (%s) moved through more than a cell "
+                       "in one step\n"
+                       "  remedy:  take a smaller 'Explicit/Courant number' "
+                       "or 'Explicit/Time step'",
+                       group.id[p],
+                       text_of_place(place).c_str());
+            nearest = transfer->stored_place(); // the run ends anyhow
+          }
+        else if (outside && p < end)
+          {
+            if (outflow.is_error() && obstacle.empty())
+              obstacle = has_left(group, p);
+            take_away(group, p);
+            some_left = true;
+          }
+        for (unsigned int d = 0; d < dim; ++d)
+          group.position[d][p] = nearest[d];
+      }
+  }
+} // namespace geocone

@@ -1,0 +1,593 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/base/over_ranks.h>
+#include <geocone/implicit/implicit_fem.h>
+#include <geocone/points/point_record.h>
+#include <geocone/points/quadrature_points.h>
+#include <geocone/time_stepping/check_removal.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace geocone
+{
+  using dealii::TimerOutput;
+
+  namespace
+  {
+    /** @throws InputError if a stage removes none or all of the cells that are there: they
+     *  do not move */
+    void
+    check_removals(const Scene          &scene,
+                   const BackgroundMesh &mesh,
+                   const MPI_Comm        comm)
+    {
+      std::vector<BackgroundMesh::Cell> cells;
+      std::vector<bool>                 is_there;
+      for (const BackgroundMesh::Cell &cell : mesh.own_cells())
+        {
+          cells.push_back(cell);
+          is_there.push_back(
+            !scene.loading.adds(scene.materials.name(cell->material_id())));
+        }
+      for (const auto &stage : scene.loading.stages)
+        {
+          unsigned int n_removed = 0, n_all = 0;
+          for (unsigned int c = 0; c < cells.size(); ++c)
+            if (is_there[c])
+              {
+                ++n_all;
+                if (stage->removes(cells[c]->center()))
+                  {
+                    ++n_removed;
+                    is_there[c] = false;
+                  }
+              }
+          if (stage->removes())
+            check_removal(*stage,
+                          dealii::Utilities::MPI::sum(n_removed, comm),
+                          dealii::Utilities::MPI::sum(n_all, comm),
+                          "cells");
+          for (const std::string &material : stage->added_materials)
+            for (unsigned int c = 0; c < cells.size(); ++c)
+              if (scene.materials.name(cells[c]->material_id()) == material)
+                is_there[c] = true;
+        }
+    }
+  } // namespace
+
+  ImplicitFEM::ImplicitFEM()
+    : dealii::ParameterAcceptor("/Time stepping")
+  {
+    add_parameter("Inertia",
+                  inertia,
+                  "false: quasi-static, no mass is assembled and the density "
+                  "enters only the weight. true: lumped mass (row sums; for P2 "
+                  "the scaled diagonal).");
+    integration.declare(
+      *this,
+      ", of FEM with inertia. Midpoint and Newmark's average acceleration: of "
+      "order two; elastic motion loses no energy, and waves are not damped.");
+  }
+
+  std::string
+  ImplicitFEM::prepare(const Scene           &scene_,
+                       BackgroundMesh        &mesh_,
+                       Space                 &space_,
+                       const NonsmoothNewton &newton,
+                       TimerOutput           &timer,
+                       Kinematics            &kinematics,
+                       MaterialPoints        &points)
+  {
+    scene = &scene_;
+    mesh  = &mesh_;
+    space = &space_;
+    for (const auto &condition : scene->dirichlet.list)
+      if (condition->moves())
+        throw InputError(condition->parameter("Imposed on"),
+                         condition->imposition.word(),
+                         "nodes with FEM",
+                         "impose it on nodes, or set Discretisation/Method = "
+                         "MPM");
+    if (!integration.is_backward_euler() && !inertia)
+      throw InputError("Time stepping/Integration",
+                       integration.word(),
+                       "backward Euler without inertia",
+                       "set Time stepping/Inertia = true: without it there is "
+                       "nothing to be kept");
+    if (!inertia)
+      scene->absorbing.refuse(
+        "Time stepping/Inertia = false",
+        "set it to true: without inertia there are no waves");
+    if (scene->initial_velocity.is_given() && !inertia)
+      throw InputError("Initial velocity/Velocity x",
+                       "a formula",
+                       "0 without inertia",
+                       "set Time stepping/Inertia = true");
+    RaisedLoads::check(*scene);
+    check_round_body(*scene);
+    integration.check(*scene, "Time stepping/");
+    points = make_quadrature_points(*scene, mesh_, space_);
+    if (scene->loading.changes_body())
+      {
+        scene->contacts.refuse("stages that remove or add material, with FEM",
+                               "let one of the bodies be an obstacle, or set "
+                               "Discretisation/Method = MPM");
+        points = quadrature_points_of(
+          *scene, mesh_, space_, {}, [&](const BackgroundMesh::Cell &cell) {
+            return !scene->loading.adds(
+              scene->materials.name(cell->material_id()));
+          });
+      }
+    check_removals(*scene, mesh_, mesh_.triangulation().get_communicator());
+    constraints = std::make_unique<Constraints>(*scene, mesh_, space_);
+    obstacles   = std::make_unique<ObstacleContact>(
+      *scene, mesh_, space_, constraints.get());
+    kinematics.velocity.reinit(space_.partitioner());
+    kinematics.displacement.reinit(space_.partitioner());
+    kinematics.supports.resize(scene->supports().size());
+    for (unsigned int node = 0; node < space_.n_owned_nodes(); ++node)
+      for (unsigned int c = 0; c < dim; ++c)
+        kinematics.velocity.local_element(dim * node + c) =
+          scene->initial_velocity.at(space_.node_positions()[node])[c];
+
+    system = std::make_unique<LinearSystem>(
+      newton.linear_solver(),
+      mesh_.triangulation().get_communicator(),
+      scene->materials.symmetric() && !obstacles->exists());
+    begin(points, timer);
+    constraints->check_axis(mesh_, space_);
+    check_resistance(points, mesh_.triangulation().get_communicator());
+    newton.check(*problem);
+    // Formulas have values just after the beginning of each stage, or are refused.
+    Vector v     = problem->make_vector();
+    double start = 0.;
+    for (const auto &stage : scene->loading.stages)
+      {
+        constraints->set_values(v, start + 1e-6 * stage->duration);
+        start += stage->duration;
+      }
+    return constraints->warn_of_bent_values();
+  }
+
+  void
+  ImplicitFEM::begin(const MaterialPoints &points, TimerOutput &timer)
+  {
+    if (scene->loading.changes_body())
+      {
+        Vector n_cells(space->partitioner()); // of each node
+        for (const unsigned int node : points.nodes)
+          for (unsigned int d = 0; d < dim; ++d)
+            n_cells.local_element(dim * node + d) += 1.;
+        n_cells.compress(dealii::VectorOperation::add);
+        n_cells.update_ghost_values();
+        constraints->number_unknowns(&n_cells);
+      }
+    else
+      constraints->number_unknowns(nullptr);
+    // Whether obstacles hold the body is not known before they touch.
+    if (!inertia && !obstacles->exists())
+      constraints->check_support(*mesh, *space, points);
+    obstacles->take_body(points.cells);
+    loads = std::make_unique<Loads>(*scene, *mesh, *space, points);
+    absorbing =
+      std::make_unique<AbsorbingBoundary>(*scene, *mesh, *space, &points);
+    absorbing->check(*constraints);
+    if (inertia || scene->gravity.acts())
+      integrate_density(
+        *scene, *mesh, *space, points, weight_per_g, lumped_mass);
+    if (has_force())
+      force.reinit(space->partitioner());
+    problem = std::make_unique<IncrementalProblem>(
+      points,
+      scene->materials,
+      *constraints,
+      space->partitioner(),
+      inertia ? &integration.mass_of_problem(lumped_mass) : nullptr,
+      0.,
+      std::vector<GhostStencil>(),
+      obstacles->exists());
+    if (absorbing->exists())
+      problem->add(*absorbing);
+    system->set_pattern(*problem, timer);
+    begun = true;
+  }
+
+  Vector
+  ImplicitFEM::net_force(const double t) const
+  {
+    Vector net = problem->make_vector(), of_stress = net;
+    loads->evaluate(net, weight_per_g, t);
+    problem->internal_forces().forces_at_start(of_stress);
+    constraints->turn_back(of_stress);
+    net -= of_stress;
+    return net;
+  }
+
+  BodyChange
+  ImplicitFEM::change_body(const Stage    &stage,
+                           const double    t,
+                           TimerOutput    &timer,
+                           Kinematics     &kinematics,
+                           MaterialPoints &points)
+  {
+    using Cell = BackgroundMesh::Cell;
+    if (!begun)
+      begin(points, timer);
+    const MPI_Comm comm = kinematics.velocity.get_mpi_communicator();
+    BodyChange     change;
+    change.before = state_energies(kinematics, points, t);
+
+    std::vector<bool> is_there = mesh->is_among(points.cells);
+    const auto        take     = [&](const double duration) {
+      const std::vector<bool> had_cells  = constraints->with_mass;
+      Vector                  difference = net_force(t);
+      points                             = quadrature_points_of(
+        *scene, *mesh, *space, std::move(points), [&](const Cell &cell) {
+          return is_there[cell->active_cell_index()];
+        });
+      begin(points, timer);
+      difference -= net_force(t);
+      // Nodes without cells are at rest, and where cells come to be displacements
+      // begin.
+      for (unsigned int i = 0; i < difference.locally_owned_size(); ++i)
+        if (!constraints->has_mass(i) || !had_cells[i])
+          {
+            kinematics.velocity.local_element(i) = 0.;
+            if (constraints->has_mass(i))
+              kinematics.displacement.local_element(i) = 0.;
+            else
+              difference.local_element(i) = 0.;
+          }
+      fading.add(std::move(difference), t, duration);
+    };
+
+    if (stage.removes())
+      {
+        unsigned int n = 0;
+        for (const Cell &cell : points.cells)
+          if (stage.removes(cell->center()))
+            {
+              is_there[cell->active_cell_index()] = false;
+              ++n;
+            }
+        change.remarks.push_back(stage.removal_text(
+          dealii::Utilities::MPI::sum(n, comm),
+          dealii::Utilities::MPI::sum(points.n_cells(), comm),
+          "cells"));
+        take(stage.removal_duration);
+      }
+    for (const std::string &material : stage.added_materials)
+      {
+        unsigned int n = 0;
+        for (const Cell &cell : mesh->own_cells())
+          if (scene->materials.name(cell->material_id()) == material)
+            {
+              is_there[cell->active_cell_index()] = true;
+              ++n;
+            }
+        change.remarks.push_back(format("added %u cells of the material '",
+                                        dealii::Utilities::MPI::sum(n, comm)) +
+                                 material + "'");
+      }
+    if (!stage.added_materials.empty())
+      take(stage.addition_duration);
+    if (!stage.changed_materials.empty())
+      {
+        for (const std::string &remark :
+             change_materials(stage, *scene, *space, comm, points))
+          change.remarks.push_back(remark);
+        begin(points, timer);
+      }
+    change.after = state_energies(kinematics, points, t);
+    return change;
+  }
+
+  void
+  ImplicitFEM::check_resistance(const MaterialPoints &points,
+                                const MPI_Comm        comm) const
+  {
+    bool resists = inertia || loads->exist();
+    for (unsigned int m = 0; m < scene->materials.size(); ++m)
+      {
+        const auto cone = scene->materials[m].initial_cone();
+        resists         = resists || !cone || cone->k > 0.;
+      }
+    for (const Mandel &stress : points.stress)
+      resists = resists || stress.norm() > 0.;
+    if (dealii::Utilities::MPI::max(int(resists), comm) == 0)
+      throw InputError(
+        "Materials/" + scene->materials.name(0) + "/Cohesion",
+        0,
+        "> 0 Pa where there is no weight, load, initial stress or inertia",
+        "nothing resists in this scene: give the soil cohesion, or a load, or "
+        "set Time stepping/Inertia = true for a free flow");
+  }
+
+  Energies
+  ImplicitFEM::state_energies(const Kinematics     &kinematics,
+                              const MaterialPoints &points,
+                              const double) const
+  {
+    const MPI_Comm comm = kinematics.velocity.get_mpi_communicator();
+    Energies       e;
+    if (inertia)
+      for (unsigned int i = 0; i < lumped_mass.locally_owned_size(); ++i)
+        {
+          const double v = kinematics.velocity.local_element(i);
+          e.kinetic += lumped_mass.local_element(i) * v * v / 2.;
+        }
+    e.kinetic = dealii::Utilities::MPI::sum(e.kinetic, comm);
+    e.elastic = elastic_energy(points, scene->materials, comm);
+    return e;
+  }
+
+  RaisedLoads
+  ImplicitFEM::begin_step(const TimeStep   &step,
+                          const Kinematics &kinematics,
+                          TimerOutput      &timer)
+  {
+    Vector prescribed = problem->make_vector();
+    constraints->set_values(prescribed, step.prescribed_at);
+    // Where dofs are turned, the problem has its vectors along them.
+    const Stage &stage  = scene->loading.stage_at(step.t + step.h / 2.);
+    const bool   raises = stage.raises_loads();
+    if (has_force())
+      {
+        loads->evaluate(
+          force, weight_per_g, step.solved_at, raises ? &stage : nullptr);
+        fading.add_to(force, step.solved_at);
+        constraints->turn(force);
+      }
+    RaisedLoads raised;
+    if (scene->loading.raises_loads())
+      constraints->multipliers.clear();
+    if (raises)
+      {
+        Vector of_raised = problem->make_vector();
+        loads->evaluate(of_raised, weight_per_g, step.solved_at, &stage, true);
+        constraints->turn(of_raised);
+        raised.add_row(stage, of_raised, prescribed, *constraints);
+      }
+    velocity_L = kinematics.velocity;
+    constraints->turn(velocity_L);
+    if (integration.is_newmark())
+      {
+        Vector net = net_force(step.t);
+        fading.add_to(net, step.t);
+        constraints->turn(net);
+        integration.predict(step, net, lumped_mass, *constraints, velocity_L);
+      }
+    ContactStep touching;
+    if (obstacles->exists())
+      {
+        kinematics.velocity.update_ghost_values();
+        touching =
+          obstacles->begin(kinematics.velocity, step.t, step.h, step.solved_h);
+        kinematics.velocity.zero_out_ghost_values();
+      }
+    if (absorbing->exists())
+      absorbing->begin_step(step.solved_at, *constraints);
+    problem->begin_step(step.solved_h,
+                        has_force() ? &force : nullptr,
+                        velocity_L,
+                        prescribed,
+                        std::move(touching));
+    if (problem->needs_pattern())
+      system->set_pattern(*problem, timer);
+    return raised;
+  }
+
+  double
+  ImplicitFEM::work_of_forces(const TimeStep &step,
+                              const Vector   &v,
+                              const Vector   &residual) const
+  {
+    double work = 0.;
+    for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
+      {
+        if (has_force())
+          work += step.h * force.local_element(i) * v.local_element(i);
+        if (constraints->is_prescribed(i))
+          work += step.h * residual.local_element(i) * v.local_element(i);
+      }
+    work = dealii::Utilities::MPI::sum(work, v.get_mpi_communicator());
+    if (absorbing->exists())
+      work += step.h * absorbing->power(v);
+    return work;
+  }
+
+  double
+  ImplicitFEM::update_points(const TimeStep &step, MaterialPoints &points) const
+  {
+    const std::vector<EndOfStep> ends =
+      end_step(step, problem->internal_forces(), scene->materials, points);
+    double dissipation = 0.;
+    for (unsigned int p = 0; p < points.n_points(); ++p)
+      {
+        const EndOfStep &end = ends[p];
+        dissipation += points.weight[p] * end.dissipation;
+        points.stress[p] = end.stress;
+        points.plastic_strain[p] += end.plastic;
+        points.cumulative_plastic_strain[p] += end.slip;
+        points.plastic_strain_rate[p] = end.slip / step.h;
+      }
+    return dealii::Utilities::MPI::sum(dissipation,
+                                       velocity_L.get_mpi_communicator());
+  }
+
+  double
+  ImplicitFEM::update_kinematics(const TimeStep &step,
+                                 const Vector   &v,
+                                 Kinematics     &kinematics)
+  {
+    double settled = 0.;
+    if (step.extrapolation != 1. && obstacles->exists())
+      settled = obstacles->settle(
+        problem->contact(), *constraints, v, lumped_mass, kinematics.velocity);
+    kinematics.displacement.add(step.h, v);
+    for (unsigned int c = 0; c < scene->dirichlet.list.size(); ++c)
+      for (unsigned int d = 0; d < dim; ++d)
+        kinematics.supports[c][d] += step.h * constraints->mean(v, c, d);
+    if (obstacles->exists())
+      obstacles->add_displacements(problem->contact(),
+                                   v,
+                                   step.h,
+                                   scene->dirichlet.list.size(),
+                                   kinematics.supports);
+    return settled;
+  }
+
+  StepReport
+  ImplicitFEM::advance(Kinematics            &kinematics,
+                       MaterialPoints        &points,
+                       const NonsmoothNewton &newton,
+                       Freezer               &freezer,
+                       TimerOutput           &timer,
+                       const double           t,
+                       const double           h,
+                       const double           accepted_excess)
+  {
+    if (!begun)
+      begin(points, timer);
+    const TimeStep    step   = integration.step(t, h);
+    const RaisedLoads raised = begin_step(step, kinematics, timer);
+
+    StepReport report;
+    Vector     residual = problem->make_vector();
+    Vector     v        = velocity_L;
+    report.newton       = newton.solve(
+      *problem, *system, timer, v, residual, {false, accepted_excess});
+    report.converged = report.newton.converged;
+    freezer.take(*problem, velocity_L, false, report.converged);
+    if (const Stage &stage = scene->loading.stage_at(t + h / 2.);
+        stage.seeks_equilibrium() && report.converged)
+      {
+        report.newton.reason = stage.no_equilibrium(accelerating_share(
+          *problem, points, scene->materials, velocity_L, v));
+        report.converged     = report.newton.reason.empty();
+      }
+    if (!report.converged)
+      return report;
+
+    TimerOutput::Scope scope(timer, "commit");
+    report.load_factor =
+      raised.take(*constraints, problem->multipliers(), force, residual);
+    report.unknowns              = constraints->n_rows;
+    const InternalForces &forces = problem->internal_forces();
+    report.quality               = forces.quality();
+    Works &works                 = report.works;
+    works.external               = work_of_forces(step, v, residual);
+    if (obstacles->exists())
+      {
+        report.contact = obstacles->report(problem->contact(), v, h);
+        works.external += report.contact.work;
+      }
+    report.identity_error =
+      energy_identity_error(*problem,
+                            points,
+                            scene->materials,
+                            velocity_L,
+                            v,
+                            (step.solved_h / h) * works.external);
+    works.of_excess   = (h / step.solved_h) * forces.excess_work();
+    works.dissipation = update_points(step, points);
+
+    kinematics.velocity = integration.end_velocity(step, velocity_L, v);
+    constraints->turn_back(kinematics.velocity);
+    constraints->turn_back(v);
+    report.reactions = constraints->reactions(
+      residual, points, forces.total_stress(), step.solved_at);
+    // Friction takes of the work what it does not give to the body.
+    works.external += report.contact.dissipation;
+    report.contact.dissipation += update_kinematics(step, v, kinematics);
+    works.contact_dissipation =
+      report.contact.dissipation - report.contact.of_rebound;
+    if (obstacles->exists())
+      {
+        for (const Reaction &reaction :
+             obstacles->reactions(problem->contact()))
+          report.reactions.push_back(reaction);
+        obstacles->commit(problem->contact(), v, h, step.solved_h, true);
+      }
+    report.energies = state_energies(kinematics, points, t + h);
+    report.largest_plastic_strain =
+      largest_plastic_strain(points, v.get_mpi_communicator());
+    return report;
+  }
+
+  void
+  ImplicitFEM::save(Archive &archive, const MaterialPoints &points)
+  {
+    save_points(archive, points);
+    if (scene->loading.changes_body())
+      fading.save(archive, *mesh, *space);
+    if (obstacles->exists())
+      {
+        StateRow moved;
+        obstacles->state(moved);
+        archive.write_row("obstacles", moved);
+        save_nodes(
+          archive, "path", *mesh, *space, obstacles->displacement_of_nodes());
+        if (obstacles->has_bonds())
+          save_nodes(
+            archive, "bonds", *mesh, *space, obstacles->bonds_of_nodes());
+      }
+  }
+
+  void
+  ImplicitFEM::load(const Archive &archive, MaterialPoints &points)
+  {
+    take_points(archive, points);
+    if (scene->loading.changes_body())
+      fading.load(archive, *mesh, *space);
+    if (obstacles->exists())
+      {
+        StateRow moved = archive.read_row("obstacles");
+        obstacles->state(moved);
+        load_nodes(
+          archive, "path", *mesh, *space, obstacles->displacement_of_nodes());
+        obstacles->displacement_of_nodes().update_ghost_values();
+        if (obstacles->has_bonds())
+          {
+            load_nodes(
+              archive, "bonds", *mesh, *space, obstacles->bonds_of_nodes());
+            obstacles->bonds_of_nodes().update_ghost_values();
+          }
+      }
+  }
+
+  void
+  ImplicitFEM::take_points(const Archive &archive, MaterialPoints &points)
+  {
+    const PointRecord record(archive, points);
+    const bool        has_all =
+      std::all_of(points.cells.begin(),
+                  points.cells.end(),
+                  [&](const auto &cell) { return record.has(cell); });
+    const bool is_other_body = dealii::Utilities::MPI::logical_or(
+      scene->loading.changes_body() || !has_all,
+      velocity_L.get_mpi_communicator());
+    if (is_other_body)
+      {
+        points = quadrature_points_of(
+          *scene, *mesh, *space, {}, [&](const BackgroundMesh::Cell &cell) {
+            return record.has(cell);
+          });
+        begun = false;
+      }
+    for (unsigned int c = 0; c < points.n_cells(); ++c)
+      {
+        const auto   rows  = record.of(points.cells[c]);
+        unsigned int first = points.first_point[c];
+        if (rows.size() != points.first_point[c + 1] - first)
+          throw RunError("the checkpoint has other points");
+        for (const double *row : rows)
+          points.set(first++, row);
+      }
+  }
+} // namespace geocone

@@ -1,0 +1,577 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/implicit/implicit_mpm.h>
+#include <geocone/points/point_elasticity.h>
+#include <geocone/time_stepping/check_removal.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/solver_control.h>
+
+#include <algorithm>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  std::string
+  ImplicitMPM::prepare(const Scene           &scene_,
+                       BackgroundMesh        &mesh_,
+                       Space                 &space_,
+                       const NonsmoothNewton &newton,
+                       TimerOutput           &timer,
+                       Kinematics            &kinematics,
+                       MaterialPoints        &points)
+  {
+    scene = &scene_;
+    mesh  = &mesh_;
+    space = &space_;
+    check_parameters();
+    RaisedLoads::check(*scene);
+    check_round_body(*scene);
+
+    for (const auto &condition : scene->dirichlet.list)
+      condition->refuse_normal("free with MPM",
+                               "give Velocity x and y, or set "
+                               "Discretisation/Method = FEM");
+
+    std::string warning = particles.prepare(*scene, *mesh, *space, points);
+    if (!integration.is_backward_euler() &&
+        advection == Advection::particle_velocity)
+      warning += std::string(warning.empty() ? "" : "; ") +
+                 "Integration = " + integration.word() +
+                 " with Advection = particle velocity lets "
+                 "the total energy grow where particles and nodes move "
+                 "differently: take the grid velocity";
+    datum = mesh->lower_corner();
+    if (is_unbalanced(points))
+      hand_over(points);
+    set_up(newton);
+    check_contact(points);
+    if (!grid_follows.empty())
+      begin_to_follow();
+    if (rule.is_affine())
+      for (unsigned int p = 0; p < points.n_points(); ++p)
+        points.affine[p] = scene->initial_velocity.gradient(
+          points.position[p],
+          scene->geometry.size_of_point(points.position[p], points.volume[p]));
+    begin(points, timer);
+    unknowns = constraints->n_rows;
+    if (bodies)
+      bodies->check_start(points, *constraints);
+    constraints->check_axis(*mesh, *space);
+    moving->check_held_particles(points);
+    if (const Stage &first = *scene->loading.stages.front(); first.removes())
+      {
+        const MPI_Comm comm = mesh->triangulation().get_communicator();
+        check_removal(
+          first,
+          Utilities::MPI::sum(std::count_if(points.position.begin(),
+                                            points.position.end(),
+                                            [&](const Point<dim> &x) {
+                                              return first.removes(x);
+                                            }),
+                              comm),
+          Utilities::MPI::sum(points.n_points(), comm),
+          "points");
+      }
+    Vector v = problem->make_vector();
+    constraints->set_values(v, 0.);
+    // Refuses what it must before the run.
+    moving->make_rows(
+      points, v, 0., {velocity_L, rule.flip_part(), 1., 0.}, *constraints);
+    newton.check(*problem);
+    kinematics.velocity = velocity_L;
+    kinematics.supports.resize(scene->supports().size());
+    if (const std::string bent = constraints->warn_of_bent_values();
+        !bent.empty())
+      warning += (warning.empty() ? "" : "; ") + bent;
+    return warning;
+  }
+
+  void
+  ImplicitMPM::set_up(const NonsmoothNewton &newton)
+  {
+    problem.reset(); // it refers to what is replaced
+    moving      = std::make_unique<MovingConditions>(*scene, *mesh, *space);
+    constraints = std::make_unique<Constraints>(*scene, *mesh, *space);
+    absorbing =
+      std::make_unique<AbsorbingBoundary>(*scene, *mesh, *space, nullptr);
+    obstacles =
+      std::make_unique<ObstacleContact>(*scene, *mesh, *space, nullptr);
+    if (!scene->contacts.list.empty())
+      bodies.emplace(*scene, *mesh, *space);
+    system = std::make_unique<LinearSystem>(
+      newton.linear_solver(),
+      mesh->triangulation().get_communicator(),
+      scene->materials.symmetric() && !obstacles->exists());
+    force.reinit(space->partitioner());
+    if (space->is_spline() && advection != Advection::none)
+      ghost_places.emplace(*mesh, *space);
+  }
+
+  bool
+  ImplicitMPM::is_unbalanced(const MaterialPoints &points) const
+  {
+    return balance.is_due(points.n_points(),
+                          mesh->triangulation().get_communicator());
+  }
+
+  void
+  ImplicitMPM::hand_over(MaterialPoints &points)
+  {
+    std::vector<unsigned int> n_in_cell(mesh->triangulation().n_active_cells());
+    for (const unsigned int cell : points.cell)
+      ++n_in_cell[cell];
+    balance.repartition(std::move(n_in_cell), *mesh, *space);
+    particles.follow_ranks(points);
+  }
+
+  void
+  ImplicitMPM::hand_over_state(const NonsmoothNewton &newton,
+                               TimerOutput           &timer,
+                               Kinematics            &kinematics,
+                               MaterialPoints        &points)
+  {
+    Archive archive(mesh->triangulation().get_communicator());
+    save_nodes(archive, "velocity", *mesh, *space, kinematics.velocity);
+    save_grid(archive);
+    hand_over(points);
+    set_up(newton);
+    kinematics.velocity.reinit(space->partitioner());
+    velocity_L.reinit(space->partitioner());
+    load_nodes(archive, "velocity", *mesh, *space, kinematics.velocity);
+    load_grid(archive);
+    begin(points, timer);
+  }
+
+  void
+  ImplicitMPM::begin(MaterialPoints &points, TimerOutput &timer)
+  {
+    if (Utilities::MPI::sum(points.n_points(), force.get_mpi_communicator()) ==
+        0)
+      throw StepFailure("all particles have left the background mesh\n"
+                        "  remedy:  end the loading earlier, or enlarge "
+                        "'Mesh/Box'");
+    {
+      TimerOutput::Scope scope(timer, "transfer");
+      particles.prepare_b_bar(consistent_integration &&
+                                advection != Advection::none,
+                              moving->soil_limits(),
+                              points);
+      if (nodes_moved)
+        constraints = std::make_unique<Constraints>(*scene, *mesh, *space);
+      nodes_moved = false;
+      lumped_mass.reinit(space->partitioner());
+      velocity_L.reinit(space->partitioner());
+      for_each_point(points,
+                     [&](const unsigned int p,
+                         const unsigned int /* cell */,
+                         const PointFunctions &at) {
+                       const double m = points.mass[p];
+                       double       masses[dim], momentum[dim];
+                       for (unsigned int d = 0; d < dim; ++d)
+                         {
+                           masses[d]   = m;
+                           momentum[d] = m * points.velocity[p][d];
+                         }
+                       at.scatter<dim, false>(masses, lumped_mass.begin());
+                       at.scatter<dim, false>(momentum, velocity_L.begin());
+                       if (rule.is_affine())
+                         at.scatter_affine<dim>(m,
+                                                points.affine[p],
+                                                points.position[p],
+                                                space->node_positions(),
+                                                velocity_L.begin());
+                     });
+      lumped_mass.compress(VectorOperation::add);
+      velocity_L.compress(VectorOperation::add);
+      lumped_mass.update_ghost_values();
+      constraints->number_unknowns(&lumped_mass);
+    }
+    problem = std::make_unique<IncrementalProblem>(
+      points,
+      scene->materials,
+      *constraints,
+      space->partitioner(),
+      &integration.mass_of_problem(lumped_mass),
+      consistent_mass,
+      ghost_stencils(points),
+      obstacles->exists());
+    {
+      TimerOutput::Scope scope(timer, "transfer");
+      if (consistent_mass > 0.)
+        solve_mass(velocity_L);
+      else
+        for (unsigned int i = 0; i < velocity_L.locally_owned_size(); ++i)
+          velocity_L.local_element(i) =
+            constraints->has_mass(i)
+              ? velocity_L.local_element(i) / lumped_mass.local_element(i)
+              : 0.;
+      velocity_L.update_ghost_values();
+    }
+    if (absorbing->exists())
+      problem->add(*absorbing);
+    if (!bodies) // else it is not known yet what touches
+      system->set_pattern(*problem, timer);
+    has_pattern = !bodies;
+    begun       = true;
+  }
+
+  void
+  ImplicitMPM::begin_to_follow()
+  {
+    if (advection == Advection::none)
+      throw InputError(FollowingGrid::parameter,
+                       grid_follows,
+                       "nothing where particles stay",
+                       "leave it out, or let particles move by 'Material point "
+                       "method/Advection'");
+    if (obstacles->exists() || absorbing->exists())
+      throw InputError(FollowingGrid::parameter,
+                       grid_follows,
+                       "nothing with obstacles, contacts or absorbing sides",
+                       "leave it out");
+    following.emplace(grid_follows, *scene, *moving, *mesh, *space);
+  }
+
+  void
+  ImplicitMPM::follow_side()
+  {
+    following->follow(*moving);
+    particles.follow_mesh();
+    if (ghost_places)
+      ghost_places.emplace(*mesh, *space);
+    nodes_moved = true;
+  }
+
+  std::vector<GhostStencil>
+  ImplicitMPM::ghost_stencils(const MaterialPoints &points)
+  {
+    if (!ghost_places)
+      return {};
+    Vector volume(space->partitioner());
+    for_each_point(
+      points,
+      [&](const unsigned int p,
+          const unsigned int /* cell */,
+          const PointFunctions &at) {
+        const double V         = points.volume[p];
+        const double both[dim] = {
+          V,
+          V * elasticity_at_start(scene->materials, points, p).young_modulus()};
+        at.scatter<dim, false>(both, volume.begin());
+      });
+    volume.compress(VectorOperation::add);
+    volume.update_ghost_values();
+    n_light = ghost_places->n_light(volume, *constraints);
+    if (ghost_part == 0.)
+      return {};
+    std::vector<bool> is_wanted; // empty: all
+    if (ghosts == Ghosts::loaded)
+      {
+        is_wanted = moving->loaded_nodes();
+        if (is_wanted.empty())
+          return {};
+      }
+    return ghost_places->stencils(volume, *constraints, is_wanted, ghost_part);
+  }
+
+  void
+  ImplicitMPM::solve_mass(Vector &velocity) const
+  {
+    // Conjugate gradients on the nodes with mass; the others stay zero.
+    struct Operator
+    {
+      const IncrementalProblem &problem;
+      void
+      vmult(Vector &dst, const Vector &src) const
+      {
+        src.update_ghost_values();
+        problem.inertia_term().apply_mass(dst, src);
+        src.zero_out_ghost_values();
+      }
+    };
+    struct Diagonal
+    {
+      const Constraints &constraints;
+      const Vector      &mass;
+      void
+      vmult(Vector &dst, const Vector &src) const
+      {
+        for (unsigned int i = 0; i < dst.locally_owned_size(); ++i)
+          dst.local_element(i) =
+            constraints.has_mass(i)
+              ? src.local_element(i) / mass.local_element(i)
+              : 0.;
+      }
+    };
+    Vector momentum = velocity;
+    for (unsigned int i = 0; i < momentum.locally_owned_size(); ++i)
+      if (!constraints->has_mass(i))
+        momentum.local_element(i) = 0.;
+    velocity          = 0.;
+    const double norm = momentum.l2_norm();
+    if (norm == 0.)
+      return;
+    SolverControl    control(10000, 1e-13 * norm);
+    SolverCG<Vector> cg(control);
+    try
+      {
+        cg.solve(Operator{*problem},
+                 velocity,
+                 momentum,
+                 Diagonal{*constraints, lumped_mass});
+      }
+    catch (const SolverControl::NoConvergence &)
+      {
+        throw StepFailure("the consistent mass matrix is singular\n"
+                          "  remedy:  set 'Material point method/Consistent "
+                          "mass part' to 0.999 or less");
+      }
+  }
+
+  void
+  ImplicitMPM::add_water(const MaterialPoints &points, const double t)
+  {
+    Vector       of_water(space->partitioner());
+    const double part = scene->gravity.at(t)[1] / scene->gravity.at(1e300)[1];
+    const std::vector<double> parts = scene->water.parts(t);
+    for_each_point(points,
+                   [&](const unsigned int p,
+                       const unsigned int /* cell */,
+                       const PointFunctions &at) {
+                     Tensor<1, dim> f;
+                     for (std::size_t line = 0; line < parts.size(); ++line)
+                       if (parts[line] != 0.)
+                         f += parts[line] * part * points.volume[p] *
+                              scene->water.force(points.position[p], line);
+                     at.scatter<dim, false>(f.begin_raw(), of_water.begin());
+                   });
+    of_water.compress(VectorOperation::add);
+    force += of_water;
+  }
+
+  void
+  ImplicitMPM::evaluate_force(const MaterialPoints &points,
+                              const double          t,
+                              const Stage          *stage,
+                              const bool            raised)
+  {
+    force = 0.;
+    const bool has_weight =
+      stage == nullptr || stage->raises("weight") == raised;
+    const Tensor<1, dim> g =
+      has_weight ? scene->gravity.at(t) : Tensor<1, dim>();
+    moving->add_tractions(force, t, stage, raised);
+    if (scene->water.acts() && !raised)
+      add_water(points, t);
+    for (unsigned int dof = 0; dof < force.locally_owned_size(); ++dof)
+      force.local_element(dof) =
+        constraints->has_mass(dof)
+          ? force.local_element(dof) +
+              g[dof % dim] * lumped_mass.local_element(dof)
+          : 0.;
+  }
+
+  SolverReport
+  ImplicitMPM::solve(const TimeStep        &step,
+                     const Kinematics      &kinematics,
+                     const NonsmoothNewton &newton,
+                     NonsmoothNewton::Hints hints,
+                     Freezer               &freezer,
+                     TimerOutput           &timer,
+                     Vector                &v,
+                     Vector                &residual)
+  {
+    SolverReport report;
+    for (const Start start : starts)
+      {
+        v = start_velocity();
+        if (start == Start::nodes)
+          for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
+            if (had_mass.empty() || had_mass[i])
+              v.local_element(i) = constraints->has_mass(i)
+                                     ? kinematics.velocity.local_element(i)
+                                     : 0.;
+        constraints->set_values(v, step.prescribed_at);
+        const Vector v_start = v;
+        hints.elastic_first  = start == Start::particles;
+        SolverReport tried =
+          newton.solve(*problem, *system, timer, v, residual, hints);
+        tried.add_earlier(report);
+        report = std::move(tried);
+        freezer.take(*problem, v_start, true, report.converged);
+        if (report.converged || report.exceeds)
+          break;
+      }
+    return report;
+  }
+
+  RaisedLoads
+  ImplicitMPM::begin_step(const TimeStep       &step,
+                          const MaterialPoints &points,
+                          TimerOutput          &timer)
+  {
+    const Stage &stage      = scene->loading.stage_at(step.t + step.h / 2.);
+    Vector       prescribed = problem->make_vector();
+    RaisedLoads  raised;
+    {
+      TimerOutput::Scope scope(timer, "transfer");
+      constraints->set_values(prescribed, step.prescribed_at);
+      if (integration.is_newmark())
+        {
+          Vector net = net_force(points, step.t);
+          fading.add_to(net, step.t);
+          predicted = velocity_L;
+          integration.predict(step, net, lumped_mass, *constraints, predicted);
+          predicted.update_ghost_values();
+        }
+      moving->make_rows(
+        points,
+        prescribed,
+        step.solved_at,
+        {velocity_L, rule.flip_part(), step.solved_h / step.h, step.t + step.h},
+        *constraints);
+      if (stage.raises_loads())
+        {
+          evaluate_force(points, step.solved_at, &stage, true);
+          raised.add_row(stage, force, prescribed, *constraints);
+        }
+      evaluate_force(
+        points, step.solved_at, stage.raises_loads() ? &stage : nullptr);
+      fading.add_to(force, step.solved_at);
+    }
+    if (absorbing->exists())
+      absorbing->begin_step(step.solved_at, *constraints);
+    ContactStep touching;
+    if (obstacles->exists())
+      touching = obstacles->begin(
+        velocity_L,
+        step.t,
+        step.h,
+        step.solved_h,
+        gaps_of_particles(
+          points, *scene, obstacles->moved(), *space, obstacles->margin()),
+        bodies ? bodies->find(points, *constraints)
+               : std::vector<FacingNode>());
+    problem->begin_step(
+      step.solved_h, &force, start_velocity(), prescribed, std::move(touching));
+    if (!has_pattern || problem->needs_pattern())
+      system->set_pattern(*problem, timer);
+    has_pattern = true;
+    return raised;
+  }
+
+  StepReport
+  ImplicitMPM::advance(Kinematics            &kinematics,
+                       MaterialPoints        &points,
+                       const NonsmoothNewton &newton,
+                       Freezer               &freezer,
+                       TimerOutput           &timer,
+                       const double           t,
+                       const double           h,
+                       const double           accepted_excess)
+  {
+    if (!begun)
+      begin(points, timer);
+    const TimeStep    step   = integration.step(t, h);
+    const RaisedLoads raised = begin_step(step, points, timer);
+    StepReport        report;
+    report.unknowns = unknowns = constraints->n_rows;
+    report.multipliers         = constraints->multipliers.n_rows();
+    report.rows                = constraints->multipliers.n_given();
+    Vector v = problem->make_vector(), residual = problem->make_vector();
+    report.newton = solve(step,
+                          kinematics,
+                          newton,
+                          {false, accepted_excess},
+                          freezer,
+                          timer,
+                          v,
+                          residual);
+    if (!report.newton.converged)
+      return report;
+
+    TimerOutput::Scope scope(timer, "transfer");
+    // By the midpoint rule a node that hits rebounds, and its particles share that with
+    // others when the next step begins: what touches comes to rest by itself, where
+    // fixed meshes need ObstacleContact::settle.
+    const Vector v_end = integration.end_velocity(step, start_velocity(), v);
+    std::vector<Moved>            moved;
+    const Multipliers::LightShare share =
+      constraints->multipliers.light_share(v, lumped_mass, *space);
+    report.newton.reason = objection(share);
+    if (const Stage &stage = scene->loading.stage_at(t + h / 2.);
+        stage.seeks_equilibrium() && report.newton.reason.empty())
+      report.newton.reason = stage.no_equilibrium(accelerating_share(
+        *problem, points, scene->materials, start_velocity(), v));
+    if (report.newton.reason.empty())
+      report.newton.reason = transfer(points, v_end, v, h, moved);
+    if (!report.newton.reason.empty())
+      return report;
+    report.converged = true;
+
+    // From here on the step is accepted.
+    std::pair<unsigned int, double> put_back;
+    if (advection != Advection::none)
+      {
+        moving->move(v, h, step.solved_at);
+        put_back = put_points_back(points, moved);
+      }
+    report.load_factor =
+      raised.take(*constraints, problem->multipliers(), force, residual);
+    const InternalForces &internal = problem->internal_forces();
+    report.quality                 = internal.quality();
+    report.reactions               = constraints->reactions(
+      residual, points, internal.total_stress(), step.solved_at);
+    take_works(step, points, moved, v, residual, report);
+    report.works.dissipation = update_points(step, moved, points);
+    if (obstacles->exists())
+      {
+        for (const Reaction &reaction :
+             obstacles->reactions(problem->contact()))
+          report.reactions.push_back(reaction);
+        obstacles->commit(problem->contact(),
+                          v,
+                          h,
+                          step.solved_h,
+                          advection != Advection::none);
+      }
+    update_supports(step, v, kinematics, report.reactions);
+    had_mass.resize(v.locally_owned_size());
+    for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
+      had_mass[i] = constraints->has_mass(i);
+    kinematics.velocity = v;
+    if (following)
+      follow_side();
+    const unsigned int n_lost_before = particles.n_lost();
+    Energies           before;
+    if (points_may_leave())
+      before = state_energies(kinematics, points, t + h);
+    particles.sort(points);
+    begun                              = false;
+    const unsigned int n_light_of_step = n_light;
+    if (is_unbalanced(points))
+      {
+        scope.stop(); // a new problem begins, which is timed by itself
+        hand_over_state(newton, timer, kinematics, points);
+      }
+
+    report.energies = state_energies(kinematics, points, t + h);
+    if (particles.n_lost() > n_lost_before)
+      report.of_lost = before - report.energies;
+    report.largest_plastic_strain =
+      largest_plastic_strain(points, v.get_mpi_communicator());
+    report.motion = {n_light_of_step,
+                     moving->n_behind(points),
+                     put_back.first,
+                     put_back.second,
+                     share.largest,
+                     front_of(points)};
+    return report;
+  }
+} // namespace geocone

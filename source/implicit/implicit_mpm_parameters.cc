@@ -1,0 +1,181 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// Parameters of the implicit material point method, and what it refuses.
+#include <geocone/base/exceptions.h>
+#include <geocone/implicit/implicit_mpm.h>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  ImplicitMPM::ImplicitMPM(const ParameterFile &file)
+    : ParameterAcceptor("/Material point method")
+    , particles(file)
+  {
+    advection.declare(
+      *this,
+      "Advection",
+      ": what moves the particles. The second lets loads drift with FLIP. "
+      "None: they stay, as do supports, for limit loads by small strains.");
+    add_parameter("Consistent mass part",
+                  consistent_mass,
+                  "M = (1 - c) lumped + c consistent; 0 to 1. Up to 0.999 is "
+                  "safe; 1 is singular where a cell has fewer particles than "
+                  "functions.",
+                  prm,
+                  Patterns::Double(0., 1.));
+    add_parameter(
+      "Consistent integration",
+      consistent_integration,
+      "With B-bar of B-splines and particles that move, in cells full of "
+      "soil: weights of the particles sum up to the cell and mean gradients "
+      "are those of the cell. false: weights are volumes.");
+    add_parameter(
+      "Ghost stiffness",
+      ghost_part,
+      "gamma >= 0: B-splines that hold hardly any material are kept with those "
+      "beside them by a viscous force of this part of Young's modulus, or "
+      "loads "
+      "are taken by jets of a few particles; 0: none.",
+      prm,
+      Patterns::Double(0., 1.));
+    ghosts.declare(*this,
+                   "Ghost stiffness of",
+                   ": which functions. All: fewer iterations where soil flows, "
+                   "but it takes some per cent of the energy.");
+    integration.declare(*this, ". All but the first lose less energy.");
+    start_asked.declare(
+      *this,
+      "Start",
+      ": where Newton's method starts. Grid velocity: that of the last step; "
+      "best for slow loading. Particle velocity: vL, with the elastic tangent "
+      "first. Automatic: the former, and the latter if it fails.");
+    add_parameter("Grid follows",
+                  grid_follows,
+                  "A condition that is imposed on averages or segments of a "
+                  "side: between steps the lines of the grid go with the side, "
+                  "and those beyond it are stretched up to the ends of the "
+                  "grid, which stay. Empty: the grid stays.");
+    add_parameter("Largest move",
+                  largest_move,
+                  "A step in which a particle would move farther than so many "
+                  "cells is cut.");
+  }
+
+  void
+  ImplicitMPM::check_parameters()
+  {
+    const std::string section = "Material point method/";
+    if (rule.is_affine() && consistent_mass > 0.)
+      throw InputError(section + "Consistent mass part",
+                       consistent_mass,
+                       "0 with Transfer = " + rule.name(),
+                       rule.name() +
+                         " hands over momentum by the lumped mass and grows "
+                         "without bound with another: set it to 0, or Transfer "
+                         "= FLIP");
+    if (!(largest_move > 0.))
+      throw InputError(
+        section + "Largest move", largest_move, "> 0 cells", "3 is usual");
+    balance.prepare();
+    integration.check(*scene, section);
+    if (integration.is_newmark() && consistent_mass > 0.)
+      throw InputError(section + "Consistent mass part",
+                       consistent_mass,
+                       "0 with Integration = Newmark",
+                       "accelerations are forces over the lumped mass: set it "
+                       "to 0, or take the theta-scheme");
+    if (ghosts == Ghosts::all && !space->is_spline())
+      throw InputError(
+        section + "Ghost stiffness of",
+        "all",
+        "loaded sides, or Discretisation/Element = B-spline 2 | "
+        "B-spline 3",
+        "only splines have ghost stiffness: leave it out, or take "
+        "splines");
+    if (start_asked != Start::particles)
+      starts.push_back(Start::nodes);
+    if (start_asked != Start::nodes)
+      starts.push_back(Start::particles);
+    if (!space->is_non_negative() && consistent_mass < 1.)
+      throw InputError("Discretisation/Basis",
+                       "Lagrange",
+                       "Bernstein where MPM lumps the mass",
+                       "Lagrange's functions of degree 2 and 3 are negative "
+                       "in places, and so would be masses: set Basis = "
+                       "automatic, or '" +
+                         section + "Consistent mass part' = 1");
+  }
+
+  void
+  ImplicitMPM::check_contact(const MaterialPoints &points) const
+  {
+    if (!obstacles->exists())
+      return;
+    for (const auto &condition : scene->dirichlet.list)
+      if (condition->moves())
+        throw InputError(
+          condition->parameter("Imposed on"),
+          condition->imposition.word(),
+          "nodes where there are obstacles or contacts",
+          "press by an obstacle that moves, or by the nodes of a "
+          "side");
+    for (const auto &obstacle : scene->obstacles.list)
+      {
+        if (obstacle->slides_little())
+          throw InputError(obstacle->parameter("Sliding"),
+                           "small",
+                           "finite with MPM",
+                           "particles are where they are: leave it out");
+        obstacle->law.check_without_area(obstacle->parameter(""));
+      }
+    check_particles_outside(
+      points, scene->obstacles, mesh->triangulation().get_communicator());
+    if (bodies)
+      check_bodies();
+  }
+
+  void
+  ImplicitMPM::check_bodies() const
+  {
+    scene->tractions.refuse("bodies of particles that touch ('Contacts')",
+                            "press by an obstacle that moves, or by weight");
+    for (const auto &pair : scene->contacts.list)
+      pair->law.check_without_area("Contacts/" + pair->name + "/");
+    const Materials &materials = scene->materials;
+    bool             is_fixed  = false;
+    for (unsigned int m = 0; m < materials.size(); ++m)
+      is_fixed = is_fixed || scene->regions.are_fixed(m);
+    if (is_fixed && advection == Advection::none)
+      throw InputError("Material point method/Advection",
+                       advection.word(),
+                       "grid velocity | particle velocity where some points "
+                       "are fixed and touch others that are not",
+                       "leave out 'Points = fixed': all of them stay");
+    for (const auto &stage : scene->loading.stages)
+      {
+        const std::string section = "Loading/" + stage->name + "/";
+        if (stage->reset_displacement && is_fixed)
+          throw InputError(section + "Reset displacement",
+                           "true",
+                           "false where points stay ('Points = fixed') and "
+                           "touch others: these find them by their "
+                           "displacement",
+                           "leave it out, or let the points move");
+        const std::vector<unsigned int> after =
+          materials_after(*stage, materials);
+        for (unsigned int m = 0; m < materials.size(); ++m)
+          if (scene->contacts.body_of(m) != scene->contacts.body_of(after[m]))
+            {
+              const std::string from = materials.name(m),
+                                to   = materials.name(after[m]);
+              throw InputError(section + "Changed materials",
+                               from + ": " + to,
+                               "materials of one body",
+                               "name '" + to + "' beside '" + from +
+                                 "' in the contacts");
+            }
+      }
+  }
+} // namespace geocone

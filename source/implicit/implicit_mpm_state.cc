@@ -1,0 +1,403 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+// What a solved step of the implicit material point method makes of its particles, and
+// the energies and works that tell of it.
+#include <geocone/base/log.h>
+#include <geocone/base/over_ranks.h>
+#include <geocone/implicit/implicit_mpm.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** A Mandel vector turned by angles about z, x, y: Q t Q'. */
+    Mandel
+    turn(const Mandel &t, const Tensor<1, n_rotations> &angle)
+    {
+      if constexpr (dim == 2)
+        {
+          const double c = std::cos(2. * angle[0]), s = std::sin(2. * angle[0]);
+          const double mean = (t[0] + t[1]) / 2., half = (t[0] - t[1]) / 2.,
+                       shear = t[2] / sqrt2;
+          const double h     = c * half - s * shear;
+          return in_plane(mean + h, mean - h, s * half + c * shear);
+        }
+      else
+        {
+          const double size = angle.norm();
+          if (size == 0.)
+            return t;
+          const Eigen::Vector3d axis =
+            Eigen::Vector3d(angle[1], angle[2], angle[0]) / size;
+          const Eigen::Matrix3d Q =
+            Eigen::AngleAxisd(size, axis).toRotationMatrix();
+          return spatial_mandel(Q * spatial_tensor(extended(t, 0.)) *
+                                Q.transpose());
+        }
+    }
+  } // namespace
+
+  Energies
+  ImplicitMPM::state_energies(const Kinematics &,
+                              const MaterialPoints &points,
+                              const double          t) const
+  {
+    const Tensor<1, dim> g = scene->gravity.at(t);
+    Energies             e;
+    for (unsigned int p = 0; p < points.n_points(); ++p)
+      {
+        e.kinetic += points.mass[p] * points.velocity[p].norm_square() / 2.;
+        e.potential -= points.mass[p] * (g * (points.position[p] - datum));
+      }
+    if (rule.is_affine())
+      for_each_point(points,
+                     [&](const unsigned int p,
+                         const unsigned int /* cell */,
+                         const PointFunctions &at) {
+                       const Tensor<2, dim> &C = points.affine[p];
+                       e.kinetic +=
+                         points.mass[p] / 2. *
+                         scalar_product(C,
+                                        C * at.moment(points.position[p],
+                                                      space->node_positions()));
+                     });
+    const MPI_Comm comm = force.get_mpi_communicator();
+    e.kinetic           = Utilities::MPI::sum(e.kinetic, comm);
+    e.potential         = Utilities::MPI::sum(e.potential, comm);
+    e.elastic           = elastic_energy(points, scene->materials, comm);
+    return e;
+  }
+
+  std::string
+  ImplicitMPM::transfer(const MaterialPoints &points,
+                        const Vector         &v,
+                        const Vector         &v_mean,
+                        const double          h,
+                        std::vector<Moved>   &moved) const
+  {
+    moved.resize(points.n_points());
+    const double flip_part = rule.flip_part();
+    Vector       change    = v;
+    change -= velocity_L;
+    for (const Vector *vector : {&v, &v_mean, &std::as_const(change)})
+      vector->update_ghost_values();
+    std::string obstacle;
+    for_each_point(
+      points,
+      [&](
+        const unsigned int p, const unsigned int c, const PointFunctions &at) {
+        const auto              box = points.cells[c]->bounding_box();
+        std::array<double, dim> extent;
+        for (unsigned int d = 0; d < dim; ++d)
+          extent[d] = box.side_length(d);
+        double end[dim], gained[dim], mean[(1 + dim) * dim];
+        at.gather<dim, false>(v.begin(), end);
+        at.gather<dim, false>(change.begin(), gained);
+        at.gather<dim, true>(v_mean.begin(), mean);
+        Tensor<2, dim> gradient; // d_d v_c of the mean velocity
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int d = 0; d < dim; ++d)
+            gradient[i][d] = mean[dim * (1 + d) + i];
+
+        Moved &next = moved[p];
+        if (rule.is_affine())
+          next.affine = at.gather_affine<dim>(
+            v.begin(),
+            points.position[p],
+            space->node_positions(),
+            *std::min_element(extent.begin(), extent.end()));
+        // Particles held one by one stay in their row: out of it, their rows would
+        // prescribe a gradient as well.
+        const BoundaryCondition *holder = holder_of(points, p);
+        Tensor<1, dim>           move;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            next.velocity[d] = flip_part * (points.velocity[p][d] + gained[d]) +
+                               (1. - flip_part) * end[d];
+            const bool follows_grid =
+              advection != Advection::particle_velocity ||
+              (holder != nullptr && holder->components[d] &&
+               !holder->imposition.get()->through_flip);
+            next.displacement[d] =
+              h * (follows_grid ? mean[d] : next.velocity[d]);
+          }
+        if (advection == Advection::none ||
+            scene->regions.are_fixed(points.material[p]))
+          gradient = 0.;
+        else
+          move = next.displacement;
+        next.position          = points.position[p] + move;
+        Tensor<2, dim> stretch = h * gradient;
+        for (unsigned int d = 0; d < dim; ++d)
+          stretch[d][d] += 1.;
+        const double ratio =
+          determinant(stretch) * (mesh->is_axisymmetric()
+                                    ? next.position[0] / points.position[p][0]
+                                    : 1.);
+        next.volume = ratio * points.volume[p];
+        for (unsigned int k = 0; k < n_rotations; ++k)
+          {
+            const auto [a, b] = plane_of_rotation[k];
+            next.spin[k]      = h * (gradient[b][a] - gradient[a][b]) / 2.;
+          }
+
+        if (!std::isfinite(next.position.square()) ||
+            !std::isfinite(next.velocity.norm_square()))
+          obstacle =
+            format("the velocity of particle %u is not a number", points.id[p]);
+        else if (!(ratio > 0.05))
+          obstacle = format("the volume of particle %u at (%s) would collapse "
+                            "to %.2g of itself",
+                            points.id[p],
+                            text_of_place(points.position[p]).c_str(),
+                            ratio);
+        for (unsigned int d = 0; d < dim; ++d)
+          if (std::abs(move[d]) > largest_move * extent[d])
+            obstacle =
+              format("particle %u at (%s) would cross %.1f cells, more than "
+                     "'Material point method/Largest move'",
+                     points.id[p],
+                     text_of_place(points.position[p]).c_str(),
+                     std::abs(move[d]) / extent[d]);
+      });
+    return text_of_any_rank(v.get_mpi_communicator(), obstacle);
+  }
+
+  std::string
+  ImplicitMPM::objection(const Multipliers::LightShare &share) const
+  {
+    // Sound steps have up to 0.02, jets 1.6 and more.
+    if (!(share.largest > 0.3))
+      return "";
+    const BoundaryCondition &condition =
+      *scene->dirichlet.list[share.condition];
+    return format(
+      "%.0f %% of the velocity that '%s' prescribes is that of "
+      "functions with next to no mass, near (%g, %g): the load would "
+      "rest on a jet of a few particles; set 'Material point "
+      "method/Ghost stiffness' to 1e-5, or take more segments",
+      100. * share.largest,
+      condition.name.c_str(),
+      share.place[0],
+      share.place[1]);
+  }
+
+  const BoundaryCondition *
+  ImplicitMPM::holder_of(const MaterialPoints &points,
+                         const unsigned int    p) const
+  {
+    if (points.held_by[p] == 0)
+      return nullptr;
+    const BoundaryCondition &condition =
+      *scene->dirichlet.list[points.held_by[p] - 1];
+    return condition.imposition.get()->single ? &condition : nullptr;
+  }
+
+  ImplicitMPM::WorksOnNodes
+  ImplicitMPM::works_on_nodes(const TimeStep &step,
+                              const Vector   &v,
+                              const Vector   &residual) const
+  {
+    std::array<double, 2> sums = {}; // of the weight, and the other forces
+    const Tensor<1, dim>  g    = scene->gravity.at(step.solved_at);
+    for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
+      {
+        const double weight = constraints->has_mass(i)
+                                ? g[i % dim] * lumped_mass.local_element(i)
+                                : 0.;
+        sums[0] += step.h * weight * v.local_element(i);
+        sums[1] +=
+          step.h * (force.local_element(i) - weight) * v.local_element(i);
+        if (constraints->is_prescribed(i))
+          sums[1] += step.h * residual.local_element(i) * v.local_element(i);
+      }
+    sum_over_ranks(sums, v.get_mpi_communicator());
+    const Multipliers &rows = constraints->multipliers;
+    if (rows.n_rows() > 0)
+      {
+        Eigen::VectorXd lambda = problem->multipliers();
+        if (rows.has_loads()) // they are in the force
+          lambda[lambda.size() - 1] = 0.;
+        sums[1] += step.h * lambda.dot(rows.multiply(v));
+      }
+    return {sums[0], sums[1]};
+  }
+
+  void
+  ImplicitMPM::take_works(const TimeStep           &step,
+                          const MaterialPoints     &points,
+                          const std::vector<Moved> &moved,
+                          const Vector             &v,
+                          const Vector             &residual,
+                          StepReport               &report) const
+  {
+    WorksOnNodes work = works_on_nodes(step, v, residual);
+    if (absorbing->exists())
+      work.of_others += step.h * absorbing->power(v);
+    if (obstacles->exists())
+      {
+        report.contact = obstacles->report(problem->contact(), v, step.h);
+        work.of_others += report.contact.work;
+      }
+    // What ghosts take of the work is not there for energies and dissipation.
+    const double ghost_work = problem->ghost_stiffness().work(v);
+    report.identity_error   = energy_identity_error(
+      *problem,
+      points,
+      scene->materials,
+      start_velocity(),
+      v,
+      (work.of_weight + work.of_others) * (step.solved_h / step.h) -
+        ghost_work);
+    // Particles that stay keep their potential energy, whatever moves the nodes:
+    // as with FEM, the work of the weight is that of an external force. Gravity
+    // that changes works on points at rest.
+    report.works.external = work.of_others +
+                            (advection == Advection::none
+                               ? work.of_weight
+                               : work_on_fixed_points(step, points, moved)) +
+                            work_of_changing_gravity(step, points) +
+                            report.contact.dissipation;
+    report.works.of_excess =
+      (step.h / step.solved_h) * problem->internal_forces().excess_work();
+    report.works.contact_dissipation =
+      report.contact.dissipation - report.contact.of_rebound;
+    report.works.of_ghosts = (step.h / step.solved_h) * ghost_work;
+  }
+
+  double
+  ImplicitMPM::work_of_changing_gravity(const TimeStep       &step,
+                                        const MaterialPoints &points) const
+  {
+    const Tensor<1, dim> change =
+      scene->gravity.at(step.t + step.h) - scene->gravity.at(step.t);
+    double work = 0.;
+    if (change.norm() > 0.)
+      for (unsigned int p = 0; p < points.n_points(); ++p)
+        work -= points.mass[p] * (change * (points.position[p] - datum));
+    return Utilities::MPI::sum(work, force.get_mpi_communicator());
+  }
+
+  double
+  ImplicitMPM::work_on_fixed_points(const TimeStep           &step,
+                                    const MaterialPoints     &points,
+                                    const std::vector<Moved> &moved) const
+  {
+    const Tensor<1, dim> g    = scene->gravity.at(step.solved_at);
+    double               work = 0.;
+    for (unsigned int p = 0; p < points.n_points(); ++p)
+      if (scene->regions.are_fixed(points.material[p]))
+        work += points.mass[p] * (g * moved[p].displacement);
+    return Utilities::MPI::sum(work, force.get_mpi_communicator());
+  }
+
+  std::pair<unsigned int, double>
+  ImplicitMPM::put_points_back(const MaterialPoints &points,
+                               std::vector<Moved>   &moved) const
+  {
+    unsigned int n       = 0;
+    double       largest = 0.;
+    for (unsigned int p = 0; p < points.n_points(); ++p)
+      if (const auto place =
+            points.held_by[p] > 0 ||
+                scene->regions.are_fixed(points.material[p])
+              ? std::nullopt
+              : moving->put_back(points.position[p], moved[p].position))
+        {
+          const Tensor<1, dim> change = *place - moved[p].position;
+          moved[p].position           = *place;
+          moved[p].displacement += change;
+          largest = std::max(largest, change.norm());
+          ++n;
+        }
+    const MPI_Comm comm = force.get_mpi_communicator();
+    return {Utilities::MPI::sum(n, comm), Utilities::MPI::max(largest, comm)};
+  }
+
+  Point<dim>
+  ImplicitMPM::front_of(const MaterialPoints &points) const
+  {
+    Point<dim> front;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        double largest = std::numeric_limits<double>::lowest();
+        for (const Point<dim> &x : points.position)
+          largest = std::max(largest, x[d]);
+        front[d] = Utilities::MPI::max(largest, force.get_mpi_communicator());
+      }
+    return front;
+  }
+
+  double
+  ImplicitMPM::update_points(const TimeStep           &step,
+                             const std::vector<Moved> &moved,
+                             MaterialPoints           &points) const
+  {
+    const std::vector<EndOfStep> ends =
+      end_step(step, problem->internal_forces(), scene->materials, points);
+    double dissipation = 0.;
+    for (unsigned int p = 0; p < points.n_points(); ++p)
+      {
+        const auto &[stress, plastic, slip, dissipated] = ends[p];
+        dissipation += points.weight[p] * dissipated;
+        points.stress[p] = turn(stress, moved[p].spin);
+        points.plastic_strain[p] =
+          turn(points.plastic_strain[p] + plastic, moved[p].spin);
+        points.cumulative_plastic_strain[p] += slip;
+        points.plastic_strain_rate[p] = slip / step.h;
+        points.volume[p]              = moved[p].volume;
+        points.displacement[p] += moved[p].displacement;
+        points.position[p] = moved[p].position;
+        points.velocity[p] = moved[p].velocity;
+        points.affine[p]   = moved[p].affine;
+        if (const BoundaryCondition *holder = holder_of(points, p))
+          for (unsigned int d = 0; d < dim; ++d)
+            if (holder->components[d])
+              points.velocity[p][d] = holder->components[d]->value(
+                points.position[p], step.t + step.h);
+      }
+    return Utilities::MPI::sum(dissipation, force.get_mpi_communicator());
+  }
+
+  void
+  ImplicitMPM::update_supports(const TimeStep        &step,
+                               const Vector          &v,
+                               Kinematics            &kinematics,
+                               std::vector<Reaction> &reactions) const
+  {
+    const Eigen::VectorXd &lambda = problem->multipliers();
+    const Multipliers     &rows   = constraints->multipliers;
+    if (obstacles->exists())
+      obstacles->add_displacements(problem->contact(),
+                                   v,
+                                   step.h,
+                                   scene->dirichlet.list.size(),
+                                   kinematics.supports);
+    for (unsigned int c = 0; c < scene->dirichlet.list.size(); ++c)
+      {
+        const bool moves = scene->dirichlet.list[c]->moves();
+        if (moves)
+          reactions[c].moment =
+            rows.moment(lambda, c, constraints->centre(c), *space);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            kinematics.supports[c][d] +=
+              step.h *
+              (moves ? rows.mean_target(c, d) : constraints->mean(v, c, d));
+            if (moves)
+              reactions[c].force[d] = rows.resultant(lambda, c, d);
+          }
+      }
+  }
+} // namespace geocone

@@ -1,0 +1,49 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/implicit/raised_loads.h>
+
+namespace geocone
+{
+  void
+  RaisedLoads::check(const Scene &scene)
+  {
+    if (scene.loading.raises_loads())
+      scene.refuse_contact("stages with 'Raised loads'",
+                           "leave one of them out; bodies that press are "
+                           "held by 'Boundary conditions'");
+  }
+
+  void
+  RaisedLoads::add_row(const Stage  &stage,
+                       const Vector &force,
+                       const Vector &prescribed,
+                       Constraints  &constraints)
+  {
+    raised = force;
+    if (!constraints.multipliers.add_loads(
+          raised, stage.raising_velocity, constraints, prescribed))
+      throw StepFailure(
+        "'Loading/" + stage.name +
+        "/Raised loads': they exert no force on what can move\n"
+        "  remedy:  check their values in this stage, and whether their "
+        "places are held");
+  }
+
+  double
+  RaisedLoads::take(const Constraints     &constraints,
+                    const Eigen::VectorXd &lambda,
+                    Vector                &force,
+                    Vector                &residual) const
+  {
+    if (raised.size() == 0)
+      return 1.;
+    const double factor = constraints.multipliers.load_factor(lambda);
+    force.add(factor, raised);
+    for (unsigned int i = 0; i < residual.locally_owned_size(); ++i)
+      if (constraints.is_prescribed(i))
+        residual.local_element(i) -= factor * raised.local_element(i);
+    return factor;
+  }
+} // namespace geocone

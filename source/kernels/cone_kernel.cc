@@ -1,0 +1,68 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/simd_level.h>
+#include <geocone/kernels/cone_kernel.h>
+#include <geocone/kernels/cone_kernel.templates.h>
+
+#include <cmath>
+#include <limits>
+
+namespace geocone
+{
+#ifdef GEOCONE_HAS_AVX2_UNITS
+  namespace avx2
+  {
+    void
+    advance_cone(const ConeNumbers &, const PointBlock &);
+  }
+#endif
+
+  namespace
+  {
+    ConeNumbers
+    numbers_of(const FlowCone &cone, const Elasticity &elasticity)
+    {
+      const double root = dim == 2 ? sqrt2 : std::sqrt(3.);
+      return {cone.a,
+              cone.b,
+              cone.k / root,
+              cone.a > 0. ? cone.k / root / cone.a
+                          : std::numeric_limits<double>::max(),
+              elasticity.normal_stiffness(),
+              elasticity.two_G,
+              elasticity.lambda + elasticity.two_G};
+    }
+
+    void
+    advance_by_best(const ConeNumbers &numbers, const PointBlock &block)
+    {
+#ifdef GEOCONE_HAS_AVX2_UNITS
+      if (machine_has_avx2())
+        return avx2::advance_cone(numbers, block);
+#endif
+      advance_cone_block<BaselineArch>(numbers, block);
+    }
+  } // namespace
+
+  void
+  advance_cone(const FlowCone   &cone,
+               const Elasticity &elasticity,
+               const PointBlock &block)
+  {
+    advance_by_best(numbers_of(cone, elasticity), block);
+  }
+
+  void
+  advance_cone(const FlowCone    &cone,
+               const Elasticity  &elasticity,
+               const PointBlock  &block,
+               const double       part,
+               const unsigned int place)
+  {
+    ConeNumbers numbers = numbers_of(cone, elasticity);
+    numbers.part        = part;
+    numbers.place       = place;
+    advance_by_best(numbers, block);
+  }
+} // namespace geocone

@@ -1,0 +1,27 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/simd_level.h>
+#include <geocone/kernels/pyramid_kernel.h>
+#include <geocone/kernels/pyramid_kernel.templates.h>
+
+namespace geocone
+{
+#ifdef GEOCONE_HAS_AVX2_UNITS
+  namespace avx2
+  {
+    void
+    advance_pyramid(const PyramidNumbers &, const PointBlock &);
+  }
+#endif
+
+  void
+  advance_pyramid(const PyramidNumbers &pyramid, const PointBlock &block)
+  {
+#ifdef GEOCONE_HAS_AVX2_UNITS
+    if (machine_has_avx2())
+      return avx2::advance_pyramid(pyramid, block);
+#endif
+    advance_pyramid_block<BaselineArch>(pyramid, block);
+  }
+} // namespace geocone

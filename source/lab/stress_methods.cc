@@ -1,0 +1,110 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/lab/gauss_seidel.h>
+#include <geocone/lab/reduced_formulation.h>
+#include <geocone/lab/reduced_newton.h>
+#include <geocone/lab/reduction.h>
+#include <geocone/lab/stress_methods.h>
+
+namespace geocone
+{
+  namespace
+  {
+    /** Moves v to the velocities of stresses that Gauss-Seidel sweeps give, from the
+     *  stress at t_n. @return these stresses (Pa) */
+    std::vector<Mandel>
+    gauss_seidel_iterate(const unsigned int n_sweeps, const StepWorkspace &work)
+    {
+      dealii::TimerOutput::Scope scope(work.timer, "solve");
+      const Reduction            reduction(work.problem);
+      Eigen::VectorXd            s = reduction.stress_at_start();
+      GaussSeidel                sweeps;
+      sweeps.tolerance  = 0.;
+      sweeps.max_sweeps = n_sweeps;
+      sweeps.solve(reduction.problem(), s);
+      reduction.recover_velocity(s, work.v);
+      std::vector<Mandel> stress;
+      for (unsigned int p = 0; p < reduction.problem().n_cones(); ++p)
+        stress.push_back(
+          from_cone_axes(Mandel(s.segment<n_mandel>(n_mandel * p))));
+      return stress;
+    }
+
+    StressFormulation
+    reduced(const char                      *name,
+            const ReducedFormulation::Solver solver,
+            const unsigned int               max_iterations)
+    {
+      const auto check = [=](const IncrementalProblem &problem) {
+        Reduction::check(problem,
+                         "Newton/Formulation",
+                         name,
+                         solver == ReducedFormulation::Solver::newton);
+      };
+      const auto solve = [=](const StepLimits    &limits,
+                             const StepWorkspace &work) {
+        ReducedFormulation{solver,
+                           limits.relative_tolerance,
+                           limits.absolute_tolerance,
+                           limits.max_iterations > 0 ? limits.max_iterations
+                                                     : max_iterations}
+          .solve(work);
+      };
+      return {name, check, solve};
+    }
+
+    constexpr const char *gauss_seidel = "Gauss-Seidel";
+  } // namespace
+
+  StressMethods
+  stress_methods()
+  {
+    using Solver = ReducedFormulation::Solver;
+    StressMethods result;
+    result.formulations = {
+      reduced("reduced", Solver::newton, 60),
+      reduced("reduced with multipliers", Solver::newton_with_multipliers, 60),
+      reduced(gauss_seidel, Solver::gauss_seidel, 100000)};
+    result.formulation_help =
+      " Reduced: the "
+      "stresses alone, by Newton's method; constraints on particles are "
+      "eliminated or kept with multipliers. Gauss-Seidel: the stresses alone, "
+      "point by point. What is reduced needs a lumped mass and one rank, and "
+      "at most 3000 points where constraints are eliminated. All but the "
+      "first are there to be compared with it.";
+    result.first_iterates = {
+      {gauss_seidel,
+       [](const IncrementalProblem &problem) {
+         Reduction::check(problem, "Newton/First iterate", gauss_seidel, false);
+       },
+       gauss_seidel_iterate}};
+    result.first_iterate_help =
+      " Gauss-Seidel: sweeps over the stresses, under the conditions of the "
+      "formulation of that name.";
+    return result;
+  }
+
+  ReducedReport
+  solve_reduced(const NonsmoothNewton &newton,
+                const ReducedProblem  &problem,
+                Eigen::VectorXd       &s)
+  {
+    const StepLimits limits = newton.limits();
+    if (newton.formulation_name() == gauss_seidel)
+      {
+        GaussSeidel solver;
+        solver.tolerance = limits.relative_tolerance;
+        if (limits.max_iterations > 0)
+          solver.max_sweeps = limits.max_iterations;
+        return solver.solve(problem, s);
+      }
+    ReducedNewton solver;
+    solver.tolerance = limits.relative_tolerance;
+    if (limits.max_iterations > 0)
+      solver.max_iterations = limits.max_iterations;
+    if (newton.formulation_name() == "natural map")
+      solver.map = ReducedNewton::Map::natural_map;
+    return solver.solve(problem, s);
+  }
+} // namespace geocone

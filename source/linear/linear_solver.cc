@@ -1,0 +1,108 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/linear/linear_solver.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <unistd.h>
+
+namespace geocone
+{
+  void
+  LinearSolver::fail(const std::string &why)
+  {
+    throw RunError(why + "\n  remedy:  take fewer cells, more memory or more "
+                         "ranks, 'Linear solver/Out of core', or another "
+                         "'Linear solver/Name'");
+  }
+
+  LinearSolverParameters::LinearSolverParameters()
+    : dealii::ParameterAcceptor("/Linear solver")
+  {
+    name.declare(*this,
+                 "Name",
+                 ". Automatic: Cholmod for associated flow on one rank, "
+                 "otherwise Mumps. Multigrid takes less memory in three "
+                 "dimensions.");
+    index_size.declare(*this,
+                       "Index size",
+                       ": bits of the integers that count the entries of "
+                       "Cholmod's factors. Automatic: 64 where 32 cannot hold "
+                       "them, beyond some 2e7 unknowns in the plane.");
+    add_parameter("Out of core",
+                  out_of_core,
+                  "Mumps keeps the factors in files: a third of the memory, "
+                  "for a tenth to a third more time.");
+    add_parameter("Out-of-core folder",
+                  folder,
+                  "Where, on a disk of each rank's machine. The files go when "
+                  "the run ends.");
+    add_parameter("Tolerance",
+                  tolerance,
+                  "Of multigrid: the residual over the right-hand side.",
+                  prm,
+                  dealii::Patterns::Double(1e-14, 0.1));
+    add_parameter("Maximum iterations",
+                  max_iterations,
+                  "Of multigrid, after which a system goes to a direct solver.",
+                  prm,
+                  dealii::Patterns::Integer(1));
+  }
+
+  std::unique_ptr<LinearSolver>
+  LinearSolverParameters::make(const MPI_Comm comm, const bool symmetric) const
+  {
+    if (name != Name::multigrid)
+      return make_direct(name.get(), comm, symmetric);
+    return make_multigrid(comm,
+                          symmetric,
+                          tolerance,
+                          max_iterations,
+                          make_direct(Name::automatic, comm, symmetric));
+  }
+
+  std::unique_ptr<LinearSolver>
+  LinearSolverParameters::make_direct(Name           chosen,
+                                      const MPI_Comm comm,
+                                      const bool     symmetric) const
+  {
+    const bool serial = dealii::Utilities::MPI::n_mpi_processes(comm) == 1;
+    if (chosen == Name::automatic)
+      chosen =
+        serial && symmetric && !out_of_core ? Name::cholmod : Name::mumps;
+    if (chosen != Name::mumps && !serial)
+      throw InputError("Linear solver/Name",
+                       name.word(),
+                       "automatic | Mumps | multigrid on several ranks",
+                       "take automatic, or one rank");
+    if (out_of_core && dealii::Utilities::MPI::logical_or(
+                         access(folder.c_str(), W_OK | X_OK) != 0, comm))
+      throw InputError("Linear solver/Out-of-core folder",
+                       folder,
+                       "a folder that can be written to",
+                       "make it first, or take another one");
+    if (chosen != Name::mumps && out_of_core)
+      throw InputError("Linear solver/Out of core",
+                       "true",
+                       "false with Umfpack and Cholmod",
+                       "set Linear solver/Name = Mumps");
+    if (chosen == Name::cholmod && !symmetric)
+      throw InputError("Linear solver/Name",
+                       name.word(),
+                       "automatic | Umfpack | Mumps with non-associated flow",
+                       "its Jacobian is not symmetric: take automatic");
+    if (chosen != Name::cholmod && index_size == IndexSize::bits_64)
+      throw InputError("Linear solver/Index size",
+                       index_size.word(),
+                       "automatic | 32 with Umfpack and Mumps",
+                       "Mumps counts entries in 64 bits by itself: take "
+                       "automatic");
+    if (chosen == Name::cholmod)
+      return make_cholmod(index_size.get());
+    if (chosen == Name::umfpack)
+      return make_umfpack();
+    return make_mumps(comm, symmetric, out_of_core ? folder : "");
+  }
+} // namespace geocone

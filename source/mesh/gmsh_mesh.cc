@@ -1,0 +1,483 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/mesh/gmsh_mesh.h>
+#include <geocone/mesh/msh_mesh.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <gmsh.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <set>
+
+// Everything that talks to gmsh. The library runs the scripts that it is given,
+// whatever their names are: it gets our own numbers, and a file only if the
+// parameter file says that it is a script to be run.
+
+namespace geocone
+{
+  using dealii::Point;
+
+  namespace
+  {
+    /** One gmsh session; gmsh keeps its model in global state. */
+    class Session
+    {
+    public:
+      Session()
+      {
+        // Without the files of options in the user's folders; and without those
+        // that its toolkit would write there.
+        if (const char *home = std::getenv("HOME"))
+          user_home = home;
+        setenv("HOME", "/dev/null", 1);
+        gmsh::initialize(0, nullptr, false);
+        gmsh::option::setNumber("General.Terminal", 0);
+      }
+      ~Session()
+      {
+        try
+          {
+            gmsh::finalize();
+          }
+        catch (...)
+          {
+            // There is nothing left to be freed.
+          }
+        if (user_home)
+          setenv("HOME", user_home->c_str(), 1);
+        else
+          unsetenv("HOME");
+      }
+
+    private:
+      std::optional<std::string> user_home;
+    };
+
+    /**
+     * Calls gmsh, whose errors are texts, numbers or exceptions.
+     * @throws InputError in their place
+     */
+    template <typename Function>
+    auto
+    with_gmsh(const std::string &fault,
+              const std::string &remedy,
+              const Function    &function)
+    {
+      std::string text;
+      try
+        {
+          const Session session;
+          return function();
+        }
+      catch (const InputError &)
+        {
+          throw;
+        }
+      catch (const std::exception &error)
+        {
+          text = error.what();
+        }
+      catch (const std::string &error)
+        {
+          text = error;
+        }
+      catch (const char *error)
+        {
+          text = error;
+        }
+      catch (const int error)
+        {
+          text = "error " + std::to_string(error);
+        }
+      catch (...)
+        {
+          text = "an error without a text";
+        }
+      throw InputError(fault + ": " + text + "\n  remedy:  " + remedy);
+    }
+
+    /**
+     * What the first rank makes, or the InputError that it throws, on all
+     * ranks. Collective.
+     */
+    template <typename Function>
+    MshData
+    from_first_rank(const MPI_Comm comm, const Function &function)
+    {
+      MshData     data;
+      std::string fault;
+      if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+        try
+          {
+            data = function();
+          }
+        catch (const InputError &error)
+          {
+            fault = error.what();
+          }
+        catch (const std::exception &error)
+          {
+            fault = std::string("the mesh cannot be made: ") + error.what() +
+                    "\n  remedy:  mesh with fewer cells, or on a machine with "
+                    "more memory";
+          }
+      fault = dealii::Utilities::MPI::broadcast(comm, fault);
+      if (!fault.empty())
+        throw InputError(fault);
+      if (dealii::Utilities::MPI::n_mpi_processes(comm) > 1)
+        data = dealii::Utilities::MPI::broadcast(comm, data);
+      return data;
+    }
+
+    std::vector<int>
+    physical_groups(const int dimension, const int tag)
+    {
+      std::vector<int> groups;
+      gmsh::model::getPhysicalGroupsForEntity(dimension, tag, groups);
+      return groups;
+    }
+
+    /**
+     * Copies the present gmsh model. @p chosen: the surfaces or volumes to take, all if
+     * empty.
+     */
+    MshData
+    copy_model(const std::set<int> &chosen, const std::string &what)
+    {
+      MshData                  data;
+      std::vector<std::size_t> node_tags;
+      std::vector<double>      coordinates, parametric;
+      gmsh::model::mesh::getNodes(node_tags, coordinates, parametric);
+      for (std::size_t i = 0; i < node_tags.size(); ++i)
+        data.nodes.push_back({node_tags[i],
+                              {{coordinates[3 * i],
+                                coordinates[3 * i + 1],
+                                coordinates[3 * i + 2]}}});
+
+      for (const int dimension : {int(dim) - 1, int(dim)})
+        {
+          gmsh::vectorpair entities;
+          gmsh::model::getEntities(entities, dimension);
+          for (const auto &entity : entities)
+            {
+              if (dimension == int(dim) && !chosen.empty() &&
+                  chosen.count(entity.second) == 0)
+                continue;
+              const std::vector<int> groups =
+                physical_groups(dimension, entity.second);
+              std::vector<int>                      types;
+              std::vector<std::vector<std::size_t>> elements, nodes;
+              gmsh::model::mesh::getElements(
+                types, elements, nodes, dimension, entity.second);
+              for (std::size_t t = 0; t < types.size(); ++t)
+                {
+                  check_element_type(types[t], what, "");
+                  const unsigned int n = n_nodes_of_type(types[t]);
+                  for (std::size_t e = 0; e < elements[t].size(); ++e)
+                    {
+                      MshData::Element element = {elements[t][e],
+                                                  types[t],
+                                                  entity.second,
+                                                  data.index_of_groups(groups),
+                                                  {}};
+                      for (unsigned int i = 0; i < n; ++i)
+                        element.nodes[i] = nodes[t][n * e + i];
+                      (dimension == int(dim) ? data.cells : data.faces)
+                        .push_back(element);
+                    }
+                }
+              if (dimension == int(dim) - 1)
+                for (const int group : groups)
+                  {
+                    std::string name;
+                    gmsh::model::getPhysicalName(dimension, group, name);
+                    data.face_groups.insert(group);
+                    if (!name.empty())
+                      data.face_names[group] = name;
+                  }
+            }
+        }
+      return data;
+    }
+
+    /** Runs a geo script, meshes what it makes, and copies the mesh. */
+    MshData
+    run_script(const std::string &file_name, const std::string &what)
+    {
+      return with_gmsh(what + " cannot be made by gmsh",
+                       "open the script in gmsh to see what is wrong",
+                       [&]() {
+                         gmsh::open(file_name);
+                         std::vector<int>                      types;
+                         std::vector<std::vector<std::size_t>> elements, nodes;
+                         gmsh::model::mesh::getElements(
+                           types, elements, nodes, dim);
+                         if (types.empty())
+                           gmsh::model::mesh::generate(dim);
+                         // As gmsh saves a mesh: if some surfaces or volumes are physical, these only.
+                         std::set<int>    physical;
+                         gmsh::vectorpair entities;
+                         gmsh::model::getEntities(entities, dim);
+                         for (const auto &entity : entities)
+                           if (!physical_groups(dim, entity.second).empty())
+                             physical.insert(entity.second);
+                         return copy_model(physical, what);
+                       });
+    }
+
+    /** The data of a .msh file, or of a script if that may be run. */
+    MshData
+    data_of_file(const Geometry &geometry, const std::string &what)
+    {
+      const std::filesystem::path path(geometry.file);
+      const std::string           text      = content_of_file(path, what);
+      const bool                  is_script = geometry.is_script();
+      if (begins_as_msh(text))
+        return parse_msh(text, what);
+      if (!is_script)
+        throw InputError("Geometry/File",
+                         path.filename().string(),
+                         "a gmsh .msh file, which begins with $MeshFormat",
+                         "this is something else: mesh the domain in gmsh and "
+                         "save it as .msh, version 4.1 or 2.2");
+      if (!geometry.may_run_script)
+        throw InputError("Geometry/File",
+                         path.filename().string(),
+                         "a gmsh .msh file; a geo script is a program, which "
+                         "can run commands and write files",
+                         std::string("mesh it (gmsh -") + char('0' + dim) +
+                           " NAME.geo) and give the .msh file; "
+                           "or, if you trust the script, give the option "
+                           "--run-gmsh-script");
+      return run_script(geometry.file, what);
+    }
+  } // namespace
+
+  CoarseMesh
+  mesh_of_file(const Geometry &geometry,
+               const Regions  &regions,
+               const Contacts *contacts,
+               const MPI_Comm  comm)
+  {
+    const std::string what =
+      "the mesh '" + std::filesystem::path(geometry.file).filename().string() +
+      "' of 'Geometry/File'";
+    return coarse_mesh(
+      from_first_rank(comm, [&]() { return data_of_file(geometry, what); }),
+      what,
+      regions,
+      contacts);
+  }
+
+  namespace
+  {
+    namespace occ = gmsh::model::occ;
+
+    void
+    limit_sizes(const double smallest, const double largest)
+    {
+      gmsh::option::setNumber("Mesh.MeshSizeMin", smallest);
+      gmsh::option::setNumber("Mesh.MeshSizeMax", largest);
+    }
+
+    /** Sizes as gmsh's background field, by a view that is data. */
+    void
+    set_sizes(const CellSizes &sizes)
+    {
+      // x of the corners, then y, z and the values.
+      std::vector<double> data;
+      data.reserve(12 * sizes.triangles.size());
+      double smallest = std::numeric_limits<double>::max(), largest = 0.;
+      for (std::size_t i = 0; i < sizes.triangles.size(); ++i)
+        {
+          for (unsigned int d = 0; d < dim; ++d)
+            for (const Point<dim> &x : sizes.triangles[i])
+              data.push_back(x[d]);
+          data.insert(data.end(), 3, 0.);
+          for (const double size : sizes.sizes[i])
+            {
+              data.push_back(size);
+              smallest = std::min(smallest, size);
+              largest  = std::max(largest, size);
+            }
+        }
+      const int view = gmsh::view::add("sizes");
+      gmsh::view::addListData(view, "ST", sizes.triangles.size(), data);
+      const int field = gmsh::model::mesh::field::add("PostView");
+      gmsh::model::mesh::field::setNumber(field, "ViewIndex", 0);
+      gmsh::model::mesh::field::setAsBackgroundMesh(field);
+      limit_sizes(smallest, largest);
+    }
+
+    /** The cell size, or the sizes around the grading points (MeshParameters). */
+    void
+    set_sizes(const MeshParameters &parameters)
+    {
+      if (parameters.grading_points.empty())
+        {
+          // A cell is no larger than the domain.
+          double extent = 0.;
+          for (const Point<dim> &x : parameters.outline)
+            extent = std::max(extent, x.distance(parameters.outline[0]));
+          const double size = std::min(parameters.cell_size, extent);
+          return limit_sizes(size, size);
+        }
+      // One field per point, by formula: the options of gmsh's distance
+      // fields have changed names between versions.
+      std::vector<double> fields;
+      for (const Point<dim> &x : parameters.grading_points)
+        {
+          const int field = gmsh::model::mesh::field::add("MathEval");
+          gmsh::model::mesh::field::setString(
+            field,
+            "F",
+            format("%.17g*Sqrt((x-(%.17g))^2+(y-(%.17g))^2+(z-(%.17g))^2)",
+                   parameters.size_ratio,
+                   x[0],
+                   x[1],
+                   dim == 3 ? x[dim - 1] : 0.));
+          fields.push_back(field);
+        }
+      const int smallest = gmsh::model::mesh::field::add("Min");
+      gmsh::model::mesh::field::setNumbers(smallest, "FieldsList", fields);
+      gmsh::model::mesh::field::setAsBackgroundMesh(smallest);
+      limit_sizes(parameters.smallest, parameters.largest);
+    }
+
+    /** A plane surface, or in three dimensions a box. @return its tag */
+    int
+    add_body(const Polygon &polygon)
+    {
+      if constexpr (dim == 3)
+        {
+          const Point<dim>            &a    = polygon[0];
+          const dealii::Tensor<1, dim> size = polygon[1] - a;
+          return occ::addBox(a[0], a[1], a[2], size[0], size[1], size[2]);
+        }
+      std::vector<int> points, lines;
+      for (const Point<dim> &x : polygon)
+        points.push_back(occ::addPoint(x[0], x[1], 0.));
+      for (std::size_t i = 0; i < points.size(); ++i)
+        lines.push_back(
+          occ::addLine(points[i], points[(i + 1) % points.size()]));
+      return occ::addPlaneSurface({occ::addCurveLoop(lines)});
+    }
+
+    /** The domain, fragmented by the borders of the body and the materials, by lines of
+     *  which it takes what is inside, and by the grading points, which so become edges
+     *  and vertices of the mesh. @return the tags of its pieces */
+    std::set<int>
+    add_domain(const MeshParameters &parameters,
+               const Regions        &regions,
+               const MeshLines      &lines)
+    {
+      const gmsh::vectorpair domain = {
+        {int(dim), add_body(parameters.outline)}};
+      gmsh::vectorpair tools;
+      if (!parameters.body.empty())
+        tools.emplace_back(dim, add_body(parameters.body));
+      for (const Polygon &polygon : regions.polygons())
+        tools.emplace_back(dim, add_body(polygon));
+      for (const auto &line : lines)
+        {
+          const int tag =
+            occ::addLine(occ::addPoint(line[0][0], line[0][1], 0.),
+                         occ::addPoint(line[1][0], line[1][1], 0.));
+          gmsh::vectorpair              inside;
+          std::vector<gmsh::vectorpair> from;
+          occ::intersect({{1, tag}}, domain, inside, from, -1, true, false);
+          for (const auto &part : inside)
+            if (part.first == 1)
+              tools.push_back(part);
+        }
+      for (const Point<dim> &x : parameters.grading_points)
+        tools.emplace_back(
+          0, occ::addPoint(x[0], x[1], dim == 3 ? x[dim - 1] : 0.));
+      gmsh::vectorpair              pieces = domain;
+      std::vector<gmsh::vectorpair> origin = {domain};
+      if (!tools.empty())
+        occ::fragment(domain, tools, pieces, origin);
+      occ::synchronize();
+      std::set<int> tags;
+      for (const auto &piece : origin[0])
+        tags.insert(piece.second);
+      return tags;
+    }
+
+    /** The mesh of the domain by gmsh, from numbers only. @param sizes or null */
+    MshData
+    mesh_domain(const MeshParameters &parameters,
+                const Regions        &regions,
+                const MeshLines      &lines,
+                const CellSizes      *sizes,
+                const std::string    &what)
+    {
+      gmsh::model::add("domain");
+      const std::set<int> pieces = add_domain(parameters, regions, lines);
+      if (sizes != nullptr)
+        set_sizes(*sizes);
+      else
+        set_sizes(parameters);
+      gmsh::option::setNumber("Mesh.MeshSizeFromPoints", 0);
+      gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
+      gmsh::option::setNumber("Mesh.Algorithm", parameters.algorithm);
+      if (parameters.cells == MeshParameters::Cells::quadrilaterals)
+        {
+          gmsh::option::setNumber("Mesh.RecombineAll", 1);
+          // Recombined triangles, then each cell cut in four (or three): only
+          // quadrilaterals remain.
+          gmsh::option::setNumber("Mesh.RecombinationAlgorithm", 1);
+          gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 1);
+        }
+      gmsh::model::mesh::generate(dim);
+      return copy_model(pieces, what);
+    }
+
+    CoarseMesh
+    mesh_by_gmsh(const MeshParameters &parameters,
+                 const Regions        &regions,
+                 const MeshLines      &lines,
+                 const CellSizes      *sizes,
+                 const MPI_Comm        comm)
+    {
+      const std::string what = "the mesh that gmsh has made";
+      const auto        mesh = [&]() {
+        return with_gmsh("gmsh cannot mesh the domain",
+                         "change 'Mesh/Smallest size', 'Mesh/Size ratio' or "
+                                "'Mesh/Gmsh algorithm'",
+                         [&]() {
+                           return mesh_domain(
+                             parameters, regions, lines, sizes, what);
+                         });
+      };
+      return coarse_mesh(from_first_rank(comm, mesh), what, regions);
+    }
+  } // namespace
+
+  CoarseMesh
+  unstructured_mesh(const MeshParameters &parameters,
+                    const Regions        &regions,
+                    const MeshLines      &lines,
+                    const MPI_Comm        comm)
+  {
+    return mesh_by_gmsh(parameters, regions, lines, nullptr, comm);
+  }
+
+  CoarseMesh
+  mesh_with_sizes(const MeshParameters &parameters,
+                  const Regions        &regions,
+                  const MeshLines      &lines,
+                  const CellSizes      &sizes,
+                  const MPI_Comm        comm)
+  {
+    return mesh_by_gmsh(parameters, regions, lines, &sizes, comm);
+  }
+} // namespace geocone

@@ -1,0 +1,262 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/log.h>
+#include <geocone/mesh/gmsh_mesh.h>
+#include <geocone/mesh/mesh_parameters.h>
+#include <geocone/mesh/structured_mesh.h>
+
+#include <algorithm>
+
+namespace geocone
+{
+  using dealii::Point;
+
+  MeshParameters::MeshParameters()
+    : dealii::ParameterAcceptor("/Mesh")
+  {
+    type.declare(*this,
+                 "Type",
+                 ". The first two are for boxes, the others are made by gmsh, "
+                 "the last one with sizes that a limit analysis of the scene "
+                 "asks for. Not used where the domain is a .msh file.");
+    add_parameter("Box",
+                  box,
+                  "MPM: lower left and upper right corner x, y; x, y (m) of "
+                  "the background mesh; empty: the smallest box around the "
+                  "body, or the body itself for an unstructured mesh. Leave "
+                  "room for what moves out of it. An unstructured mesh has "
+                  "edges on the border of the body.");
+    cells.declare(*this,
+                  "Cells",
+                  dim == 2
+                    ? ". Automatic: triangles for FEM, quadrilaterals for MPM."
+                    : ". Boxes have hexahedra; files what they hold.");
+    diagonals.declare(
+      *this,
+      "Diagonals",
+      ": how the rectangles of a uniform or graded mesh are cut into "
+      "triangles, two by alternating or parallel diagonals, four by crossed "
+      "ones.");
+    add_parameter(
+      "Cell size",
+      cell_size,
+      "Side of the squares of a uniform mesh (m); it is rounded to "
+      "a whole number of cells. Without grading points also that of "
+      "an unstructured mesh, and of the first one from the bounds.");
+    add_parameter("Grading points",
+                  grading_points,
+                  "Points x, y; x, y; ... (m) around which graded and "
+                  "unstructured meshes are fine. Each becomes a vertex.");
+    add_parameter(
+      "Smallest size", smallest, "Cell size at the grading points (m).");
+    add_parameter("Largest size", largest, "Largest cell size (m).");
+    add_parameter("Growth factor",
+                  growth,
+                  "Graded meshes: ratio of a cell to its smaller neighbour, "
+                  "> 1.");
+    add_parameter("Size ratio",
+                  size_ratio,
+                  "Unstructured meshes: cell size over distance to the nearest "
+                  "grading point, > 0.");
+    add_parameter("Number of cells",
+                  number,
+                  "From the bounds: the mesh has about so many triangles.");
+    add_parameter("Gmsh algorithm",
+                  algorithm,
+                  "gmsh's number of the 2D algorithm: 5 Delaunay, 6 "
+                  "frontal-Delaunay, 1 MeshAdapt.");
+  }
+
+  void
+  MeshParameters::choose_outline(const Geometry &geometry, const Method &method)
+  {
+    fits_body = !method.is_mpm() || (is_unstructured() && box.empty() &&
+                                     geometry.shape != Geometry::Shape::discs);
+    if (fits_body)
+      {
+        outline = geometry.outline;
+        return;
+      }
+    if (is_unstructured())
+      body = geometry.outline;
+    const auto [lower, upper] = geometry.bounding_box();
+    if (box.empty())
+      box = {lower, upper};
+    if (box.size() == 2)
+      check_coordinates(box, "Mesh/Box");
+    const double tolerance = 1e-9 * lower.distance(upper);
+    bool         is_around = box.size() == 2;
+    for (unsigned int c = 0; c < dim && is_around; ++c)
+      is_around =
+        box[0][c] <= lower[c] + tolerance && box[1][c] >= upper[c] - tolerance;
+    if (!is_around)
+      throw InputError("Mesh/Box",
+                       dealii::Patterns::Tools::to_string(box),
+                       "lower left; upper right corner of a box around the "
+                       "body",
+                       "the body reaches from " +
+                         dealii::Patterns::Tools::to_string(lower) + " to " +
+                         dealii::Patterns::Tools::to_string(upper));
+    outline = outline_of_box(box[0], box[1]);
+  }
+
+  void
+  MeshParameters::prepare(const Geometry &geometry, const Method &method)
+  {
+    const auto positive = [](const std::string &entry, const double value) {
+      if (!(value > 0.))
+        throw InputError("Mesh/" + entry, value, "> 0", "give it in m");
+    };
+    if (type == Type::from_bounds)
+      {
+        const std::string remedy = "strict bounds are of plane scenes: set "
+                                   "Mesh/Type = unstructured";
+        if (dim == 3)
+          throw InputError("Mesh/Type",
+                           type.word(),
+                           "another type with Geometry/Dimension = 3",
+                           remedy);
+        geometry.refuse_axis("'Mesh/Type' = " + std::string(type.word()),
+                             remedy);
+        if (geometry.outline.empty() || method.is_explicit() ||
+            (method.is_mpm() && !box.empty()))
+          throw InputError("Mesh/Type",
+                           type.word(),
+                           "a mesh of the body, a box or a polygon, for FEM "
+                           "and implicit MPM without Mesh/Box",
+                           "set Mesh/Type = unstructured");
+        if (cells == Cells::quadrilaterals)
+          throw InputError("Mesh/Cells",
+                           cells.word(),
+                           "triangles where the mesh is from the bounds",
+                           "set Mesh/Cells = triangles");
+        if (number < 20 || number > 200000)
+          throw InputError(
+            "Mesh/Number of cells", number, "20 to 200000", "1500 are usual");
+        cells = Cells::triangles;
+      }
+    if (dim == 3 && geometry.shape != Geometry::Shape::file)
+      {
+        const Cells only =
+          is_unstructured() ? Cells::triangles : Cells::quadrilaterals;
+        if (cells != Cells::automatic && cells != only)
+          throw InputError(
+            "Mesh/Cells",
+            cells.word(),
+            "automatic: tetrahedra for Mesh/Type = unstructured, "
+            "hexahedra for the others",
+            "set Mesh/Cells = automatic");
+        cells = only;
+      }
+    if (cells == Cells::automatic)
+      cells = method.is_mpm() ? Cells::quadrilaterals : Cells::triangles;
+    positive("Cell size", cell_size);
+    positive("Smallest size", smallest);
+    positive("Largest size", largest);
+    positive("Size ratio", size_ratio);
+    if (algorithm == 8) // gmsh 4.8 crashes, whatever the domain
+      throw InputError("Mesh/Gmsh algorithm",
+                       algorithm,
+                       "1 to 7, 9, 11: gmsh's frontal algorithm for "
+                       "quadrilaterals ends with a segmentation fault where "
+                       "sizes are given by a field",
+                       "take 5 or 6; 'Mesh/Cells = quadrilaterals' recombines "
+                       "their triangles");
+    if (largest < smallest)
+      throw InputError("Mesh/Largest size",
+                       largest,
+                       ">= the smallest size",
+                       "exchange the two");
+    if (type == Type::graded && !(growth > 1.))
+      throw InputError("Mesh/Growth factor",
+                       growth,
+                       "> 1",
+                       "1.3 is usual; for equal cells take a uniform mesh");
+    if (geometry.shape == Geometry::Shape::discs && !method.is_mpm())
+      throw InputError("Geometry/Shape",
+                       "discs",
+                       "box | polygon | file with FEM",
+                       "set Discretisation/Method = MPM, or mesh the discs "
+                       "with gmsh");
+    if (!method.is_mpm())
+      geometry.refuse_where("FEM",
+                            "set Discretisation/Method = MPM, or mesh the body "
+                            "with gmsh");
+    if (geometry.shape != Geometry::Shape::file)
+      choose_outline(geometry, method);
+    if (!is_unstructured() && !method.is_mpm() &&
+        geometry.shape == Geometry::Shape::polygon)
+      throw InputError("Mesh/Type",
+                       type.word(),
+                       "unstructured, where the domain is a polygon",
+                       "set Mesh/Type = unstructured");
+    if (type == Type::graded && grading_points.empty())
+      throw InputError("Mesh/Grading points",
+                       "",
+                       "one or more points for a graded mesh",
+                       "give e.g. the edge of the footing: 0.1, 0");
+    if (geometry.shape != Geometry::Shape::file)
+      for (const Point<dim> &x : grading_points)
+        {
+          double distance = 1e300;
+          for (std::size_t i = 0; i < outline.size() && dim == 2; ++i)
+            distance =
+              std::min(distance,
+                       distance_to_segment(
+                         x, outline[i], outline[(i + 1) % outline.size()]));
+          if (distance > 1e-9 && !contains(outline, x))
+            throw InputError("Mesh/Grading points",
+                             dealii::Patterns::Tools::to_string(x),
+                             "points of the domain",
+                             "move it into the domain or onto its border");
+        }
+    if (geometry.shape != Geometry::Shape::file)
+      check_sizes();
+  }
+
+  void
+  MeshParameters::check_sizes() const
+  {
+    const double resolved   = resolved_length(outline);
+    const bool   by_grading = type == Type::graded || !grading_points.empty();
+    const bool   uniform    = type == Type::uniform || !by_grading;
+    const std::string entry = uniform ? "Mesh/Cell size" : "Mesh/Smallest size";
+    const double      size  = uniform ? cell_size : smallest;
+    if (size < resolved)
+      throw InputError(
+        entry,
+        size,
+        format(">= %g at the coordinates of the domain", resolved),
+        "take larger cells, or put the origin nearer to the "
+        "body: double precision resolves no smaller cells there");
+    double n_cells;
+    if (is_unstructured())
+      n_cells = unstructured_size(*this);
+    else
+      {
+        const std::array<double, dim> n = grid_size(*this);
+        n_cells                         = 1.;
+        for (const double intervals : n)
+          n_cells *= intervals;
+        n_cells *= (cells == Cells::quadrilaterals    ? 1.
+                    : diagonals == Diagonals::crossed ? 4.
+                                                      : 2.);
+      }
+    // Their unknowns are counted in 32 bits.
+    constexpr double most_cells = 1e8;
+    if (!(n_cells <= most_cells))
+      throw InputError(entry,
+                       size,
+                       format("sizes that give up to %g cells; these would "
+                              "give about %.3g",
+                              most_cells,
+                              n_cells),
+                       uniform ? std::string("take larger cells")
+                               : "raise it, or 'Mesh/Largest size', or " +
+                                   std::string(type == Type::graded
+                                                 ? "'Mesh/Growth factor'"
+                                                 : "'Mesh/Size ratio'"));
+  }
+} // namespace geocone

@@ -1,0 +1,140 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/log.h>
+#include <geocone/base/stop_request.h>
+#include <geocone/newton/newton_loop.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace geocone
+{
+  std::optional<double>
+  NewtonLoop::factorise(const double asked, const StepWorkspace &work)
+  {
+    const double wanted = std::max(asked, work.problem.least_blend());
+    // A few apex points can make a Jacobian without mass singular.
+    for (const double least : {0., 1e-6, 1e-3, 0.1})
+      {
+        if (least > 0. && least <= wanted)
+          continue;
+        const double weight = std::max(wanted, least);
+        if (work.factorise(weight))
+          {
+            work.report.regularised += least > 0.;
+            return weight;
+          }
+      }
+    return {};
+  }
+
+  void
+  NewtonLoop::give_up(const ResidualReport &state, const StepWorkspace &work)
+  {
+    SolverReport &report = work.report;
+    report.reason = format("the residual stopped at %.1e after %u iterations "
+                           "(%u points on the cone, "
+                           "%u at the apex, %u of them switching)",
+                           report.residual,
+                           report.iterations,
+                           state.n_cone,
+                           state.n_apex,
+                           state.n_switched);
+    report.remedy =
+      state.n_cone + state.n_apex > 0 || work.problem.has_contact()
+        ? ""
+        : format(
+            "no point flows, so that the step is linear and smaller ones do "
+            "not help: its equations are solved to %.1e only, by rounding. "
+            "Stiffnesses differ too much: take a Poisson ratio farther from "
+            "0.5, or materials or cells that differ less; or a "
+            "'Newton/Tolerance' above that",
+            report.residual);
+  }
+
+  void
+  NewtonLoop::run(Globalisation &globalisation, const StepWorkspace &work) const
+  {
+    SolverReport      &report = work.report;
+    const unsigned int start  = report.iterations;
+    report.converged          = false;
+    report.friction_lag       = law.friction_lag;
+
+    NewtonLine          line(work, law);
+    StepWorkspace::Jump jump  = work.jump();
+    const bool          jumps = !jump.is_zero();
+    line.state                = work.evaluate(law);
+    work.record(line.state, 0., 0., law.friction_lag);
+    for (bool first = true;; first = false)
+      {
+        stop_if_asked(work.v.get_mpi_communicator());
+        if (!std::isfinite(line.state.norm))
+          {
+            work.report_not_a_number();
+            return;
+          }
+        if (!(first && (jumps || moves)) &&
+            line.state.local_error <= tolerance &&
+            work.is_balanced(line.state, tolerance, absolute_tolerance))
+          {
+            report.converged = true;
+            report.reason.clear();
+            report.remedy.clear();
+            return;
+          }
+        const bool         flows = line.state.n_cone + line.state.n_apex > 0;
+        const unsigned int spent = report.iterations - start;
+        if (spent >= allowed + (report.residual < near ? allowed : 0) ||
+            (!flows && spent >= allowed_without_flow) ||
+            (report.residual > far && spent >= allowed_if_far))
+          {
+            give_up(line.state, work);
+            return;
+          }
+
+        std::optional<ContactDirection> contact;
+        if (exact_contact)
+          contact.emplace(work);
+        auto blend = factorise(!first ? globalisation.blend(report.residual)
+                               : elastic_first ? 1.
+                                               : 0.,
+                               work);
+        if (!blend)
+          {
+            report.reason = "the Jacobian is singular";
+            report.remedy =
+              "a part of the body is not held, or its soil has no strength "
+              "left: hold it, set 'Time stepping/Inertia' = true, or take "
+              "smaller steps; check whether the body can carry its loads";
+            return;
+          }
+        const Vector *const prescribed =
+          first && jumps ? &jump.prescribed : nullptr;
+        line.contact = contact && contact->is_used() ? &*contact : nullptr;
+        if (line.contact != nullptr)
+          contact->solve(prescribed, jump.defect, line.direction);
+        else
+          work.solve(prescribed, jump.defect, line.direction);
+        // Where the direction does not lead downhill, the tangent of flow that is not
+        // associated is indefinite along it, and the search would go astray. (Particles
+        // in motion have a mass, and full steps take them past such iterates sooner.)
+        if (globalisation.needs_descent() && prescribed == nullptr &&
+            line.contact == nullptr && !work.problem.has_contact() &&
+            !work.problem.points_move() &&
+            work.problem.non_associativity() > 0.)
+          for (const double more : {0.01, 0.05, 0.25})
+            {
+              if (line.slope() < 0. || !work.factorise(more))
+                break;
+              work.solve(prescribed, jump.defect, line.direction);
+              blend = more;
+            }
+        line.begin();
+        const double length = first && jumps ? Globalisation().move(line)
+                                             : globalisation.move(line);
+        jump.defect = work.problem.free_dofs().multipliers.defect(work.v);
+        work.record(line.state, length, *blend, law.friction_lag);
+      }
+  }
+} // namespace geocone

@@ -1,0 +1,50 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/points/particle_transfer.h>
+
+#include <deal.II/base/patterns.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  const char *const ParticleTransfer::parameter =
+    "Material point method/Transfer";
+
+  ParticleTransfer::ParticleTransfer()
+    : ParameterAcceptor("/Material point method")
+  {
+    rule.declare(*this,
+                 "Transfer",
+                 ". FLIP: particles take the change of the nodes' velocities. "
+                 "APIC: they take the velocity and its affine part, which "
+                 "keeps angular momentum and damps vibrations. AFLIP: both the "
+                 "change and the affine part, which damps less. PIC: they take "
+                 "the velocity, which damps most.");
+    add_parameter(
+      "FLIP part",
+      part,
+      "For FLIP and AFLIP: the part of the new velocity that the "
+      "change gives, the rest is interpolated, which damps; 0 to 1.",
+      prm,
+      Patterns::Double(0., 1.));
+  }
+
+  Tensor<2, dim>
+  affine_velocity(const Tensor<2, dim> &B,
+                  const Tensor<2, dim> &D,
+                  const Tensor<2, dim> &gradient,
+                  const double          size)
+  {
+    Tensor<2, dim> C;
+    for (const auto &[moment, e] :
+         eigenvectors(SymmetricTensor<2, dim>(symmetrize(D))))
+      C += outer_product(moment > vanishing_moment * size * size
+                           ? Tensor<1, dim>(B * e / moment)
+                           : Tensor<1, dim>(gradient * e),
+                         e);
+    return C;
+  }
+} // namespace geocone

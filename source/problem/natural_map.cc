@@ -1,0 +1,155 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/problem/natural_map.h>
+
+#include <Eigen/LU>
+
+namespace geocone
+{
+  namespace
+  {
+    /** rho of laws with edges over that of cones, whose best is smaller: there the places
+     *  that are projected hop between planes and edges where rho is small, and beyond them
+     *  where it is large (of 2G, 0.1 to 0.25 do in one layer of cells; 0.03 and 0.4 go in
+     *  circles). */
+    constexpr double rho_with_edges = 5.;
+
+    /** Derivative of the projection by |z_t| through the cone, as a difference
+     *  quotient. @param strain the size of elastic strains */
+    template <typename ConeOf, typename Project>
+    Mandel
+    slope_by_slip(const ConeOf  &cone_of,
+                  const Project &project_on,
+                  const double   slip,
+                  const double   strain)
+    {
+      const double step  = 1e-6 * std::max(slip, strain),
+                   below = std::min(step, slip);
+      Mandel above, under;
+      project_on(cone_of(slip + step), above, nullptr);
+      project_on(cone_of(slip - below), under, nullptr);
+      return (above - under) / (step + below);
+    }
+  } // namespace
+
+  NaturalMap::NaturalMap(const MaterialPoints      &points,
+                         const Materials           &materials,
+                         const StepLaw             &step,
+                         const double               rho,
+                         const std::vector<Mandel> &start)
+    : points(points)
+    , materials(materials)
+    , step(step)
+    , rho(rho)
+    , iterate(start)
+    , slope(start.size())
+  {
+    for (unsigned int i = 0; i < materials.size(); ++i)
+      {
+        cones.push_back(materials[i].initial_cone());
+        // A law may have a history without a cone.
+        varies.push_back(materials[i].has_history() && cones.back());
+        compliance.push_back(materials[i].elasticity().stiffness().inverse());
+      }
+  }
+
+  NaturalMap::Error
+  NaturalMap::update(const std::vector<Mandel> &strain, std::vector<Mode> &mode)
+  {
+    const bool moves = !last_strain.empty();
+    Error      error;
+    double     largest_k = 0.;
+    for (unsigned int p = 0; p < strain.size(); ++p)
+      {
+        const unsigned int material   = points.material[p];
+        const Elasticity  &elasticity = materials[material].elasticity();
+        Mandel             s          = iterate[p];
+        if (moves)
+          s += slope[p] * (strain[p] - last_strain[p]);
+
+        mode[p]            = Mode::elastic;
+        const double rho_p = rho * elasticity.two_G;
+        const Mandel z =
+          elasticity.strain(Mandel(s - points.stress[p])) - strain[p];
+        if (cones[material])
+          {
+            const Mandel z_axes  = to_cone_axes(z);
+            const Mandel x       = to_cone_axes(s);
+            const auto   cone_of = [&](const double slip) {
+              return varies[material]
+                         ? *materials[material].end_cone(
+                           points.stress[p], points.history_of(p), step, slip)
+                         : *cones[material];
+            };
+            const auto project_on =
+              [&](const FlowCone &cone, Mandel &projected, MandelMatrix *J) {
+                const FlowCone convex{cone.a, cone.a, cone.k, cone.tension};
+                return return_map(convex,
+                                  1.,
+                                  1.,
+                                  Mandel(x - rho_p * cone.psi(z_axes)),
+                                  projected,
+                                  J);
+              };
+            const double   slip = FlowCone::tangential_norm(z_axes);
+            const FlowCone cone = cone_of(slip);
+            Mandel         projected;
+            MandelMatrix   J;
+            mode[p]                = project_on(cone, projected, &J);
+            const Mandel R         = x - projected;
+            error.largest_residual = std::max(error.largest_residual, R.norm());
+            error.stress_scale     = std::max(error.stress_scale, x.norm());
+            largest_k              = std::max(largest_k, cone.k);
+            if (mode[p] != Mode::elastic)
+              {
+                const double compliance = 1. / elasticity.two_G;
+                Mandel       S          = Mandel::Constant(compliance);
+                S[0]                    = 1. / elasticity.normal_stiffness();
+                MandelMatrix B          = rho_p * J * cone.psi_slope(z_axes);
+                if (materials[material].hardens())
+                  B -= slope_by_slip(
+                         cone_of, project_on, slip, compliance * x.norm()) *
+                       tangential_direction(z_axes).transpose();
+                const MandelMatrix A =
+                  MandelMatrix::Identity() - J + B * S.asDiagonal();
+                const auto factors = A.partialPivLu();
+                iterate[p] = from_cone_axes(Mandel(x - factors.solve(R)));
+                slope[p]   = from_cone_axes(MandelMatrix(factors.solve(B)));
+              }
+          }
+        else if (const auto at = materials[material].project_natural_map(
+                   s,
+                   z,
+                   rho_with_edges * rho_p,
+                   points.stress[p],
+                   points.history_of(p),
+                   step))
+          {
+            mode[p]                = at->mode;
+            const Mandel R         = s - at->stress;
+            error.largest_residual = std::max(error.largest_residual, R.norm());
+            error.stress_scale     = std::max(error.stress_scale, s.norm());
+            if (mode[p] != Mode::elastic)
+              {
+                const MandelMatrix B = rho_with_edges * rho_p * at->slope *
+                                       at->psi_slope,
+                                   A = MandelMatrix::Identity() - at->slope +
+                                       B * compliance[material];
+                const auto factors = A.partialPivLu();
+                iterate[p]         = s - factors.solve(R);
+                slope[p]           = factors.solve(B);
+              }
+          }
+        if (mode[p] == Mode::elastic)
+          {
+            // J = I, where the linear law is solved at once.
+            iterate[p] = points.stress[p] + elasticity.stress(strain[p]);
+            slope[p]   = elasticity.stiffness();
+          }
+      }
+    error.stress_scale += largest_k;
+    last_strain = strain;
+    return error;
+  }
+} // namespace geocone

@@ -1,0 +1,458 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/lexicographic.h>
+#include <geocone/space/space.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/fe/fe_bernstein.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/fe_tools.h>
+
+#include <numeric>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** dim dofs per node: the owned nodes are a contiguous range. */
+    IndexSet
+    expand(const IndexSet &nodes)
+    {
+      IndexSet set(dim * nodes.size());
+      for (auto interval = nodes.begin_intervals();
+           interval != nodes.end_intervals();
+           ++interval)
+        set.add_range(dim * *interval->begin(), dim * (interval->last() + 1));
+      set.compress();
+      return set;
+    }
+  } // namespace
+
+  Space::Space()
+    : ParameterAcceptor("/Discretisation")
+  {
+    kind.declare(
+      *this,
+      "Element",
+      dim == 2
+        ? ". P1 to P3 on triangles, Q1 to Q3 on quadrilaterals, B-splines on "
+          "uniform and graded grids of them. Automatic: P3 or Q3 for FEM, but "
+          "P2 on triangles where a soil has (a - b)/a > 0.51, a = sin(phi), b "
+          "= "
+          "sin(theta), and its friction no memory; for MPM "
+          "B-spline 3 on grids, P3 on triangles, Q1 on other meshes; for "
+          "explicit "
+          "MPM B-spline 2, P1 or Q1."
+        : ". P1 and P2 on tetrahedra, Q1 to Q3 on hexahedra, B-splines on "
+          "grids of "
+          "them. Automatic: P2 or Q2 for FEM; for MPM B-spline 2, P2 or Q1.");
+    basis.declare(*this,
+                  "Basis",
+                  ", of P2, P3, Q2 and Q3. Automatic: Lagrange's for FEM, "
+                  "Bernstein's, which are not negative, for MPM.");
+    add_parameter(
+      "B-bar",
+      b_bar,
+      "Against locking, for Q1 to Q3 and splines: of the volumetric strain "
+      "of a cell only its mean over the cell's points counts, of Q2 and Q3 "
+      "its projection onto polynomials of one degree less; in implicit steps "
+      "the pressure of a cell where soil dilates is such a polynomial, too.");
+  }
+
+  std::string
+  Space::automatic_element(const bool    simplicial,
+                           const bool    has_grid,
+                           const Method &method,
+                           const bool    hard_flow)
+  {
+    if (simplicial)
+      return dim == 3 || (hard_flow && !method.is_mpm()) ? "P2"
+             : method.is_explicit()                      ? "P1"
+                                                         : "P3";
+    if (!method.is_mpm())
+      return dim == 3 ? "Q2" : "Q3";
+    if (!has_grid)
+      return "Q1";
+    return dim == 3 || method.is_explicit() ? "B-spline 2" : "B-spline 3";
+  }
+
+  void
+  Space::choose_element(const bool    simplicial,
+                        const bool    has_grid,
+                        const Method &method,
+                        const bool    hard_flow)
+  {
+    if (kind == Element::automatic)
+      kind.set(automatic_element(simplicial, has_grid, method, hard_flow));
+    const bool on_simplices = kind <= Element::p3;
+    if (on_simplices != simplicial || (dim == 3 && kind == Element::p3) ||
+        (kind >= Element::spline_2 && !has_grid))
+      throw InputError("Discretisation/Element",
+                       element(),
+                       std::string("automatic | ") +
+                         (!simplicial ? "Q1 | Q2 | Q3"
+                          : dim == 2  ? "P1 | P2 | P3"
+                                      : "P1 | P2") +
+                         (has_grid ? " | B-spline 2 | B-spline 3" : "") +
+                         " on this mesh",
+                       "choose one of them, or change the cells of the mesh");
+    p = element().back() - '0';
+    if (method.is_explicit() && p > 1 && kind < Element::spline_2)
+      throw InputError("Discretisation/Element",
+                       element(),
+                       "P1 | Q1 | B-spline 2 | B-spline 3 with explicit MPM",
+                       "the stable step of elements of higher degree is very "
+                       "small: take splines, or P1 or Q1 on an unstructured "
+                       "mesh");
+    if (basis == Basis::automatic)
+      basis = method.is_mpm() ? Basis::bernstein : Basis::lagrange;
+    if (b_bar && simplicial)
+      throw InputError(
+        "Discretisation/B-bar",
+        "true",
+        "true on quadrilaterals and hexahedra",
+        "set B-bar = false: elements of higher degree lock less");
+  }
+
+  void
+  Space::prepare(const BackgroundMesh &background,
+                 const Method         &method,
+                 const bool            hard_flow)
+  {
+    mesh                  = &background;
+    const bool simplicial = mesh->is_simplicial();
+    choose_element(simplicial, !mesh->grid()[0].empty(), method, hard_flow);
+
+    n_nodes_per_cell = simplicial ? (p + 1) * (p + 2) / 2 : (p + 1) * (p + 1);
+    if (dim == 3)
+      n_nodes_per_cell = simplicial ? n_nodes_per_cell * (p + 3) / 3
+                                    : n_nodes_per_cell * (p + 1);
+    follow_ranks();
+  }
+
+  void
+  Space::follow_ranks()
+  {
+    const IndexSet owned =
+      is_spline() ? prepare_splines(*mesh) : prepare_finite_element(*mesh);
+
+    // Only the nodes of own cells are needed, not those of all ghost cells.
+    IndexSet                             active(owned.size());
+    std::vector<types::global_dof_index> nodes;
+    for (const auto &cell : mesh->own_cells())
+      {
+        cell_nodes(cell, nodes);
+        active.add_indices(nodes.begin(), nodes.end());
+        // What nodes of other bodies in the same place do is asked where they touch.
+        for (unsigned int layer = 0; layer < mesh->n_layers(); ++layer)
+          if (layer != mesh->layer_of(cell))
+            {
+              cell_nodes(mesh->twin(cell, layer), nodes);
+              active.add_indices(nodes.begin(), nodes.end());
+            }
+      }
+    // Bodies that touch may do so anywhere: each rank knows their boundaries.
+    if (mesh->is_parted())
+      for (const auto &cell : mesh->triangulation().active_cell_iterators())
+        if (cell->at_boundary())
+          {
+            cell_nodes(cell, nodes);
+            active.add_indices(nodes.begin(), nodes.end());
+          }
+    active.compress();
+    layout = std::make_shared<Utilities::MPI::Partitioner>(
+      expand(owned), expand(active), mesh->triangulation().get_communicator());
+
+    place_nodes();
+  }
+
+  void
+  Space::follow_grid()
+  {
+    if (is_spline())
+      {
+        splines.clear();
+        for (unsigned int c = 0; c < dim; ++c)
+          splines.emplace_back(p, mesh->grid()[c]);
+      }
+    place_nodes();
+  }
+
+  void
+  Space::place_nodes()
+  {
+    std::vector<types::global_dof_index> nodes;
+    positions.resize(n_local_nodes());
+    for (const auto &cell : mesh->triangulation().active_cell_iterators())
+      if (!cell->is_artificial())
+        {
+          cell_nodes(cell, nodes);
+          const auto place = is_spline() ? mesh->place_in_grid(cell)
+                                         : std::array<unsigned int, dim>();
+          for (unsigned int i = 0; i < nodes.size(); ++i)
+            if (layout->in_local_range(dim * nodes[i]) ||
+                layout->is_ghost_entry(dim * nodes[i]))
+              {
+                Point<dim> &x = positions[local_node(nodes[i])];
+                if (is_spline())
+                  for (unsigned int c = 0; c < dim; ++c)
+                    x[c] = splines[c].greville(place[c] + lattice[i][c]);
+                else
+                  {
+                    Point<dim> unit;
+                    if (basis == Basis::bernstein)
+                      for (unsigned int c = 0; c < dim; ++c)
+                        unit[c] = 1. * lattice[i][c] / p;
+                    else
+                      unit = fe->unit_support_point(i);
+                    x = mesh->mapping().transform_unit_to_real_cell(cell, unit);
+                  }
+              }
+        }
+  }
+
+  IndexSet
+  Space::prepare_finite_element(const BackgroundMesh &mesh)
+  {
+    lattice.clear();
+    if (!mesh.is_simplicial())
+      {
+        if (basis == Basis::bernstein)
+          fe = std::make_unique<FE_Bernstein<dim>>(p);
+        else
+          fe = std::make_unique<FE_Q<dim>>(p);
+        for (const unsigned int i :
+             FETools::hierarchic_to_lexicographic_numbering<dim>(p))
+          lattice.push_back(index_in_grid(i, equal_sizes(p + 1)));
+      }
+    else if (p < 3)
+      fe = std::make_unique<FE_SimplexP<dim>>(p);
+    else if constexpr (dim == 2)
+      fe = make_cubic_simplex();
+    if (mesh.is_simplicial())
+      for (const Point<dim> &x : fe->get_unit_support_points())
+        {
+          lattice.emplace_back();
+          for (unsigned int c = 0; c < dim; ++c)
+            lattice.back()[c] = std::lround(p * x[c]);
+        }
+    dofs = std::make_unique<DoFHandler<dim>>(mesh.triangulation());
+    dofs->distribute_dofs(*fe);
+    return dofs->locally_owned_dofs();
+  }
+
+  IndexSet
+  Space::prepare_splines(const BackgroundMesh &mesh)
+  {
+    splines.clear();
+    lattice.clear();
+    spline_number.clear();
+    for (unsigned int c = 0; c < dim; ++c)
+      splines.emplace_back(p, mesh.grid()[c]);
+    for (unsigned int i = 0; i < n_nodes_per_cell; ++i)
+      lattice.push_back(index_in_grid(i, equal_sizes(p + 1)));
+
+    // A node belongs to the rank of a cell in the middle of its support. The
+    // ranks of all cells are needed: supports reach beyond the ghost cells.
+    const MPI_Comm     comm    = mesh.triangulation().get_communicator();
+    const unsigned int rank    = Utilities::MPI::this_mpi_process(comm);
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
+    GridIndex          n_cells, n_functions;
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        n_cells[c]     = mesh.grid()[c].size() - 1;
+        n_functions[c] = splines[c].n_functions();
+      }
+    std::vector<unsigned int> rank_of_cell(
+      mesh.triangulation().n_active_cells());
+    const std::size_t n_per_layer = grid_volume(n_cells);
+    for (const auto &cell : mesh.triangulation().active_cell_iterators())
+      rank_of_cell[mesh.layer_of(cell) * n_per_layer +
+                   number_in_grid(mesh.place_in_grid(cell), n_cells)] =
+        mesh.owner_of_cell()[cell->active_cell_index()];
+
+    const auto home = [&](const unsigned int function, const unsigned int n) {
+      return std::min(n - 1, function - std::min(function, p / 2));
+    };
+    std::vector<unsigned int> rank_of_node;
+    for (unsigned int layer = 0; layer < mesh.n_layers(); ++layer)
+      for (std::size_t i = 0; i < grid_volume(n_functions); ++i)
+        {
+          GridIndex cell = index_in_grid(i, n_functions);
+          for (unsigned int c = 0; c < dim; ++c)
+            cell[c] = home(cell[c], n_cells[c]);
+          rank_of_node.push_back(
+            rank_of_cell[layer * n_per_layer + number_in_grid(cell, n_cells)]);
+        }
+    std::vector<types::global_dof_index> next(n_ranks + 1, 0);
+    for (const unsigned int r : rank_of_node)
+      ++next[r + 1];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    IndexSet owned(rank_of_node.size());
+    owned.add_range(next[rank], next[rank + 1]);
+    for (const unsigned int r : rank_of_node)
+      spline_number.push_back(next[r]++);
+    return owned;
+  }
+
+  void
+  Space::cell_nodes(const Cell                           &cell,
+                    std::vector<types::global_dof_index> &nodes) const
+  {
+    nodes.resize(n_nodes_per_cell);
+    if (is_spline())
+      {
+        const GridIndex place = mesh->place_in_grid(cell);
+        GridIndex       sizes, function;
+        for (unsigned int c = 0; c < dim; ++c)
+          sizes[c] = splines[c].n_functions();
+        const std::size_t first = mesh->layer_of(cell) * grid_volume(sizes);
+        for (unsigned int i = 0; i < n_nodes_per_cell; ++i)
+          {
+            for (unsigned int c = 0; c < dim; ++c)
+              function[c] = place[c] + lattice[i][c];
+            nodes[i] = spline_number[first + number_in_grid(function, sizes)];
+          }
+        return;
+      }
+    const DoFHandler<dim>::active_cell_iterator dof_cell(
+      &mesh->triangulation(), cell->level(), cell->index(), dofs.get());
+    if (fe->n_dofs_per_line() < 2 || !mesh->is_simplicial())
+      {
+        dof_cell->get_dof_indices(nodes);
+        return;
+      }
+    // The cubic triangle: as the edges store them, turned where the edge runs
+    // against the cell.
+    unsigned int i = 0;
+    for (const unsigned int v : cell->vertex_indices())
+      nodes[i++] = dof_cell->vertex_dof_index(v, 0);
+    for (unsigned int l = 0; l < 3; ++l)
+      {
+        const auto line = dof_cell->line(l);
+        const bool same_direction =
+          line->vertex_index(0) == cell->vertex_index(l);
+        nodes[i++] = line->dof_index(same_direction ? 0 : 1);
+        nodes[i++] = line->dof_index(same_direction ? 1 : 0);
+      }
+    nodes[i] = dof_cell->dof_index(0);
+  }
+
+  void
+  Space::evaluate(const Cell       &cell,
+                  const Point<dim> &unit,
+                  double           *N,
+                  Tensor<1, dim>   *gradient) const
+  {
+    if (!is_spline() && basis == Basis::lagrange)
+      {
+        for (unsigned int i = 0; i < n_nodes_per_cell; ++i)
+          {
+            N[i] = fe->shape_value(i, unit);
+            if (gradient != nullptr)
+              gradient[i] = fe->shape_grad(i, unit);
+          }
+        return;
+      }
+    if (mesh->is_simplicial())
+      {
+        bernstein_on_simplex(p, unit, lattice, N, gradient);
+        return;
+      }
+    double value[dim][max_degree + 1], slope[dim][max_degree + 1];
+    if (is_spline())
+      {
+        const auto place = mesh->place_in_grid(cell);
+        for (unsigned int c = 0; c < dim; ++c)
+          splines[c].evaluate(place[c], unit[c], value[c], slope[c]);
+      }
+    else
+      for (unsigned int c = 0; c < dim; ++c)
+        bernstein(p, unit[c], value[c], slope[c]);
+    for (unsigned int i = 0; i < n_nodes_per_cell; ++i)
+      {
+        N[i] = 1.;
+        for (unsigned int c = 0; c < dim; ++c)
+          N[i] *= value[c][lattice[i][c]];
+        if (gradient != nullptr)
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              gradient[i][d] = 1.;
+              for (unsigned int c = 0; c < dim; ++c)
+                gradient[i][d] *= (c == d ? slope[c] : value[c])[lattice[i][c]];
+            }
+      }
+  }
+
+  std::vector<double>
+  Space::spline_integrals() const
+  {
+    std::vector<double>                  integral(n_local_nodes(), 0.);
+    std::vector<types::global_dof_index> nodes;
+    for (const auto &cell : mesh->own_cells())
+      {
+        cell_nodes(cell, nodes);
+        const auto place = mesh->place_in_grid(cell);
+        for (unsigned int i = 0; i < n_nodes_per_cell; ++i)
+          {
+            double product = 1.;
+            for (unsigned int c = 0; c < dim; ++c)
+              product *= splines[c].integral(place[c] + lattice[i][c]);
+            integral[local_node(nodes[i])] = product;
+          }
+      }
+    return integral;
+  }
+
+  std::vector<unsigned int>
+  Space::nodes_on_sides(const std::set<types::boundary_id> &ids) const
+  {
+    return nodes_on_faces([&](const Cell &cell, const unsigned int f) {
+      return cell->face(f)->at_boundary() &&
+             ids.count(cell->face(f)->boundary_id()) > 0;
+    });
+  }
+
+  std::vector<unsigned int>
+  Space::nodes_on_faces(
+    const std::function<bool(const Cell &, const unsigned int)> &holds) const
+  {
+    const auto on_face = [&](const unsigned int i, const unsigned int f) {
+      if (mesh->is_simplicial())
+        {
+          // What is zero on a face: a coordinate, or the one of the first vertex.
+          unsigned int rest = p;
+          for (const unsigned int a : lattice[i])
+            rest -= a;
+          constexpr unsigned int first         = dim;
+          constexpr unsigned int of_face[2][4] = {{1, first, 0, 0},
+                                                  {2, 1, 0, first}};
+          const unsigned int     c             = of_face[dim - 2][f];
+          return (c == first ? rest : lattice[i][c]) == 0;
+        }
+      return lattice[i][f / 2] == (f % 2 == 0 ? 0 : p);
+    };
+    // The ghost cells are looked at as well: of a node that this rank has, the
+    // boundary face may belong to a cell of another rank.
+    std::set<unsigned int>               found;
+    std::vector<types::global_dof_index> nodes;
+    for (const auto &cell : mesh->triangulation().active_cell_iterators())
+      if (!cell->is_artificial())
+        for (const unsigned int f : cell->face_indices())
+          if (holds(cell, f))
+            {
+              cell_nodes(cell, nodes);
+              for (unsigned int i = 0; i < nodes.size(); ++i)
+                if (on_face(i, f) && (layout->in_local_range(dim * nodes[i]) ||
+                                      layout->is_ghost_entry(dim * nodes[i])))
+                  found.insert(local_node(nodes[i]));
+            }
+    return {found.begin(), found.end()};
+  }
+} // namespace geocone

@@ -1,0 +1,218 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/clipped.h>
+#include <geocone/shapes/edge_normal.h>
+#include <geocone/surfaces/facet.h>
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** A place on a face of a cell, and the way into the cell. */
+    using Plane = std::pair<Point<dim>, Tensor<1, dim>>;
+
+    std::vector<Plane>
+    planes_of(const BackgroundMesh::Cell &cell)
+    {
+      std::vector<Plane> planes;
+      const Point<dim>   middle = cell->center();
+      for (const unsigned int f : cell->face_indices())
+        {
+          Facet corners;
+          for (unsigned int k = 0; k < dim; ++k)
+            corners[k] = cell->face(f)->vertex(k);
+          const Tensor<1, dim> into = area_of(corners);
+          planes.push_back(
+            {corners[0], (middle - corners[0]) * into < 0. ? -into : into});
+        }
+      return planes;
+    }
+
+    /** From where to where the line from a to b is in all of these. */
+    std::pair<double, double>
+    part_between(const std::vector<Plane> &planes,
+                 const Point<dim>         &a,
+                 const Point<dim>         &b)
+    {
+      std::vector<std::pair<double, double>> conditions;
+      for (const auto &[on, into] : planes)
+        conditions.push_back({(a - on) * into, (b - a) * into});
+      return part_of_line(conditions);
+    }
+
+    /** What of a facet is between planes, in facets. */
+    std::vector<Facet>
+    pieces_between(const std::vector<Plane> &planes, const Facet &facet)
+    {
+      std::vector<Facet> pieces;
+      if (dim == 2)
+        {
+          const Point<dim> &a = facet[0], &b = facet[1];
+          const auto [from, to] = part_between(planes, a, b);
+          if (to > from)
+            {
+              Facet piece;
+              piece[0] = a + from * (b - a);
+              piece[1] = a + to * (b - a);
+              pieces.push_back(piece);
+            }
+          return pieces;
+        }
+      std::vector<Point<dim>> rest(facet.begin(), facet.end());
+      for (const auto &[on, into] : planes)
+        rest = clipped(rest, on, into);
+      for (std::size_t i = 2; i < rest.size(); ++i)
+        {
+          Facet piece;
+          piece[0]       = rest[0];
+          piece[1]       = rest[i - 1];
+          piece[dim - 1] = rest[i];
+          pieces.push_back(piece);
+        }
+      return pieces;
+    }
+
+    /** On a facet of the size 1. */
+    Quadrature<dim - 1>
+    rule_of_facets()
+    {
+      if constexpr (dim == 2)
+        return QGauss<dim - 1>(5);
+      else
+        {
+          const QWitherdenVincentSimplex<dim - 1> of_triangle(4);
+          std::vector<double>                     weights;
+          for (const double weight : of_triangle.get_weights())
+            weights.push_back(2. * weight);
+          return Quadrature<dim - 1>(of_triangle.get_points(), weights);
+        }
+    }
+  } // namespace
+
+  Tensor<1, dim>
+  area_of(const Facet &facet)
+  {
+    if constexpr (dim == 2)
+      return edge_normal(facet[0], facet[1]);
+    else
+      return cross_product_3d(facet[1] - facet[0], facet[2] - facet[0]) / 2.;
+  }
+
+  std::pair<double, double>
+  part_of_line(const std::vector<std::pair<double, double>> &conditions)
+  {
+    double from = 0., to = 1.;
+    for (const auto &[c, d] : conditions)
+      if (d > 0.)
+        from = std::max(from, -c / d);
+      else if (d < 0.)
+        to = std::min(to, -c / d);
+      else if (c < 0.)
+        to = from - 1.;
+    return {from, to};
+  }
+
+  double
+  longest_part_in_cell(const BackgroundMesh &mesh,
+                       const Point<dim>     &a,
+                       const Point<dim>     &b)
+  {
+    double longest = 0.;
+    for (const auto &cell : mesh.own_cells())
+      {
+        const auto [from, to] = part_between(planes_of(cell), a, b);
+        longest               = std::max(longest, to - from);
+      }
+    return a.distance(b) * Utilities::MPI::max(
+                             longest, mesh.triangulation().get_communicator());
+  }
+
+  std::vector<double>
+  for_each_point(
+    const BackgroundMesh                                                &mesh,
+    const Space                                                         &space,
+    const std::vector<Facet>                                            &facets,
+    const std::function<void(const std::size_t, const BoundaryPoint &)> &f)
+  {
+    const Quadrature<dim - 1> rule = rule_of_facets();
+    std::vector<double>       parts(facets.size(), 0.);
+    // Boxes tell what may be in which cell. A shift decides for the body where a facet
+    // is on a border of cells.
+    std::vector<BoundingBox<dim>> boxes;
+    std::vector<Facet>            shifted = facets;
+    for (Facet &facet : shifted)
+      {
+        const Tensor<1, dim> area = area_of(facet);
+        const double size = std::pow(area.norm(), 1. / (dim - 1)); // its length
+        for (Point<dim> &corner : facet)
+          corner -= 1e-9 * size / area.norm() * area;
+        boxes.emplace_back(std::vector<Point<dim>>(facet.begin(), facet.end()));
+      }
+    BoundaryPoint point;
+    for (const auto &cell : mesh.own_cells())
+      {
+        const auto         box = cell->bounding_box();
+        std::vector<Plane> planes;
+        for (std::size_t t = 0; t < facets.size(); ++t)
+          {
+            bool meets = true;
+            for (unsigned int d = 0; d < dim; ++d)
+              meets = meets && boxes[t].lower_bound(d) <= box.upper_bound(d) &&
+                      boxes[t].upper_bound(d) >= box.lower_bound(d);
+            if (!meets)
+              continue;
+            if (planes.empty())
+              {
+                planes = planes_of(cell);
+                space.cell_nodes(cell, point.nodes);
+              }
+            const double whole = area_of(shifted[t]).norm();
+            for (const Facet &piece : pieces_between(planes, shifted[t]))
+              {
+                const double share = area_of(piece).norm() / whole;
+                if (!(share > 1e-12))
+                  continue;
+                parts[t] += share;
+                for (unsigned int q = 0; q < rule.size(); ++q)
+                  {
+                    point.position = piece[0];
+                    for (unsigned int k = 0; k + 1 < dim; ++k)
+                      point.position +=
+                        rule.point(q)[k] * (piece[k + 1] - piece[0]);
+                    point.weight    = rule.weight(q) * share;
+                    const auto unit = mesh.unit_point(cell, point.position);
+                    if (!unit)
+                      continue;
+                    point.values.resize(space.nodes_per_cell());
+                    space.evaluate(cell, *unit, point.values.data(), nullptr);
+                    f(t, point);
+                  }
+              }
+          }
+      }
+    return parts;
+  }
+
+  std::vector<BoundaryPoint>
+  points_on_facet(const BackgroundMesh &mesh,
+                  const Space          &space,
+                  const Facet          &facet)
+  {
+    std::vector<BoundaryPoint> points;
+    for_each_point(
+      mesh, space, {facet}, [&](const std::size_t, const BoundaryPoint &point) {
+        points.push_back(point);
+      });
+    return points;
+  }
+} // namespace geocone

@@ -1,0 +1,128 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/over_ranks.h>
+#include <geocone/surfaces/moving_surface.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  MovingSurface::MovingSurface(const std::vector<Panel> &panels,
+                               const double              longest)
+  {
+    for (const Panel &panel : panels)
+      {
+        std::array<unsigned int, 2> n = {
+          {1, 0}}; // of parts; a line has one row
+        for (unsigned int k = 0; k + 1 < dim; ++k)
+          n[k] = std::max(static_cast<unsigned int>(
+                            std::ceil(panel.edges[k].norm() / longest - 1e-9)),
+                          1U);
+        const unsigned int first = places.size(), row = n[0] + 1;
+        for (unsigned int j = 0; j <= n[1]; ++j)
+          for (unsigned int i = 0; i <= n[0]; ++i)
+            {
+              Point<dim - 1> s;
+              s[0] = double(i) / n[0];
+              if (dim == 3)
+                s[dim - 2] = double(j) / n[1];
+              places.push_back(panel.at(s));
+            }
+        const double area = panel.area().norm();
+        const auto   add  = [&](const std::array<unsigned int, 3> &corners) {
+          Part &part = parts.emplace_back();
+          std::copy_n(corners.begin(), dim, part.corners.begin());
+          part.size = dim == 2 ? area / n[0] : area / (2. * n[0] * n[1]);
+        };
+        for (unsigned int j = 0; j < (dim == 2 ? 1 : n[1]); ++j)
+          for (unsigned int i = 0; i < n[0]; ++i)
+            {
+              const unsigned int p = first + j * row + i, q = p + row;
+              add({{p, p + 1, q + 1}});
+              if (dim == 3)
+                add({{p, q + 1, q}});
+            }
+      }
+  }
+
+  std::vector<Facet>
+  MovingSurface::facets() const
+  {
+    std::vector<Facet> all;
+    for (const Part &part : parts)
+      {
+        Facet &facet = all.emplace_back();
+        for (unsigned int k = 0; k < dim; ++k)
+          facet[k] = places[part.corners[k]];
+      }
+    return all;
+  }
+
+  void
+  MovingSurface::move(const BackgroundMesh &mesh,
+                      const Space          &space,
+                      const Vector         &v,
+                      const double          h)
+  {
+    // A place in the body by each corner, towards the middles of its facets.
+    std::vector<Tensor<1, dim>> inward(places.size());
+    for (const Part &part : parts)
+      {
+        Facet      facet;
+        Point<dim> middle;
+        for (unsigned int k = 0; k < dim; ++k)
+          {
+            facet[k] = places[part.corners[k]];
+            middle += facet[k] / dim;
+          }
+        const Tensor<1, dim> area = area_of(facet);
+        const double size = std::pow(area.norm(), 1. / (dim - 1)); // its length
+        for (const unsigned int corner : part.corners)
+          inward[corner] +=
+            1e-6 * (middle - places[corner]) - 1e-9 * size / area.norm() * area;
+      }
+    // The velocity there, and how many cells of all ranks know it.
+    constexpr unsigned int               n_sums = dim + 1;
+    std::vector<double>                  sums(n_sums * places.size(), 0.);
+    std::vector<types::global_dof_index> nodes;
+    std::vector<double>                  N(space.nodes_per_cell());
+    for (const auto &cell : mesh.own_cells())
+      {
+        const auto box = cell->bounding_box();
+        for (std::size_t k = 0; k < places.size(); ++k)
+          {
+            const Point<dim> x = places[k] + inward[k];
+            if (!box.point_inside(x, 1e-6))
+              continue;
+            const auto unit = mesh.unit_point(cell, x);
+            if (!unit)
+              continue;
+            space.cell_nodes(cell, nodes);
+            space.evaluate(cell, *unit, N.data(), nullptr);
+            double *const own = &sums[n_sums * k];
+            own[dim] += 1.;
+            for (unsigned int i = 0; i < nodes.size(); ++i)
+              for (unsigned int d = 0; d < dim; ++d)
+                own[d] +=
+                  N[i] * v.local_element(dim * space.local_node(nodes[i]) + d);
+          }
+      }
+    sum_over_ranks(sums, v.get_mpi_communicator());
+    for (std::size_t k = 0; k < places.size(); ++k)
+      {
+        const double *own = &sums[n_sums * k];
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            if (own[dim] > 0.)
+              places[k][d] += h * own[d] / own[dim];
+            if (!mesh.grid()[d].empty())
+              places[k][d] = std::clamp(
+                places[k][d], mesh.grid()[d].front(), mesh.grid()[d].back());
+          }
+      }
+  }
+} // namespace geocone

@@ -1,0 +1,252 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/shapes/edge_normal.h>
+#include <geocone/surfaces/panel.h>
+
+#include <deal.II/base/geometry_info.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace geocone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** @throws InputError where a condition's box holds no part of its sides */
+    void
+    refuse_no_part(const BoundaryCondition &condition,
+                   const std::size_t        n_parts)
+    {
+      if (n_parts == 0)
+        throw InputError(condition.parameter("Box"),
+                         condition.part(),
+                         "a box that holds a part of the sides of the body",
+                         "check the sides and the box");
+    }
+
+    /** Of a body in the plane, lines. */
+    std::vector<Panel>
+    panels_of_outline(const BoundaryCondition &condition,
+                      const Geometry          &geometry)
+    {
+      if (geometry.outline.empty())
+        throw InputError(
+          condition.parameter("Sides"),
+          Patterns::Tools::to_string(condition.sides),
+          "sides of a body that is a box or a polygon",
+          "describe the body as one of them; velocities may also be "
+          "imposed on nodes of the background mesh");
+      // Outlines may run either way.
+      double area = 0.;
+      for (std::size_t i = 0; i < geometry.outline.size(); ++i)
+        {
+          const Point<dim> &v = geometry.outline[i],
+                           &w = geometry
+                                  .outline[(i + 1) % geometry.outline.size()];
+          area += v[0] * w[1] - w[0] * v[1];
+        }
+      condition.check_sides(geometry.sides, "sides of the body");
+      std::vector<Panel> panels;
+      for (const auto &[name, id] : geometry.sides)
+        if (condition.is_on_side(name))
+          {
+            auto [a, b] = geometry.side_ends(id);
+            if (area < 0.)
+              std::swap(a, b);
+            std::vector<std::pair<double, double>> in_box;
+            if (const auto box = condition.box_corners())
+              for (unsigned int c = 0; c < dim; ++c)
+                {
+                  const double tolerance = 1e-9 * a.distance(b);
+                  in_box.push_back(
+                    {a[c] - (*box)[0][c] + tolerance, b[c] - a[c]});
+                  in_box.push_back(
+                    {(*box)[1][c] - a[c] + tolerance, a[c] - b[c]});
+                }
+            const auto [from, to]      = part_of_line(in_box);
+            const Tensor<1, dim> along = b - a;
+            if (to > from)
+              panels.push_back({a + from * along, {{(to - from) * along}}});
+          }
+      refuse_no_part(condition, panels.size());
+      return panels;
+    }
+
+    /** Of a body that is a box in space, rectangles. */
+    std::vector<Panel>
+    panels_of_box(const BoundaryCondition &condition, const Geometry &geometry)
+    {
+      geometry.refuse_where("conditions on sides of particles",
+                            "they are on sides of a whole box");
+      if (geometry.outline.empty())
+        throw InputError(condition.parameter("Sides"),
+                         Patterns::Tools::to_string(condition.sides),
+                         "sides of a body that is a box",
+                         "describe the body as one, or set "
+                         "Discretisation/Method = FEM; a velocity may also be "
+                         "that of an obstacle");
+      condition.check_sides(geometry.sides, "sides of the body");
+      const auto [lower, upper] = geometry.bounding_box();
+      const auto         box    = condition.box_corners();
+      std::vector<Panel> panels;
+      for (unsigned int d = 0; d < dim; ++d)
+        for (const bool is_upper : {false, true})
+          {
+            if (!condition.is_on_side(side_of_box[d][is_upper]))
+              continue;
+            // A rectangle across d, or its part in the box.
+            Point<dim> low = lower, high = upper;
+            low[d] = high[d] = (is_upper ? upper : lower)[d];
+            bool is_there    = true;
+            for (unsigned int c = 0; c < dim && box; ++c)
+              {
+                const double tolerance = 1e-9 * lower.distance(upper);
+                if (c == d)
+                  is_there = is_there && low[c] >= (*box)[0][c] - tolerance &&
+                             low[c] <= (*box)[1][c] + tolerance;
+                else
+                  {
+                    low[c]   = std::max(low[c], (*box)[0][c]);
+                    high[c]  = std::min(high[c], (*box)[1][c]);
+                    is_there = is_there && high[c] > low[c];
+                  }
+              }
+            if (!is_there)
+              continue;
+            // These, and d, are right-handed.
+            std::array<unsigned int, 2> across = {
+              {(d + 1) % dim, (d + 2) % dim}};
+            if (!is_upper)
+              std::swap(across[0], across[1]);
+            Panel panel;
+            panel.corner = low;
+            for (unsigned int k = 0; k + 1 < dim; ++k)
+              panel.edges[k][across[k]] = high[across[k]] - low[across[k]];
+            panels.push_back(panel);
+          }
+      refuse_no_part(condition, panels.size());
+      return panels;
+    }
+  } // namespace
+
+  Point<dim>
+  Panel::at(const Point<dim - 1> &s) const
+  {
+    Point<dim> x = corner;
+    for (unsigned int k = 0; k + 1 < dim; ++k)
+      x += s[k] * edges[k];
+    return x;
+  }
+
+  Tensor<1, dim>
+  Panel::area() const
+  {
+    if (dim == 2)
+      return edge_normal(corner, Point<dim>(corner + edges[0]));
+    return cross_product_3d(edges[0], edges[dim - 2]);
+  }
+
+  std::vector<Point<dim>>
+  Panel::corners() const
+  {
+    std::vector<Point<dim>> all;
+    for (const unsigned int i : GeometryInfo<dim - 1>::vertex_indices())
+      all.push_back(at(GeometryInfo<dim - 1>::unit_cell_vertex(i)));
+    return all;
+  }
+
+  std::array<Point<dim>, dim>
+  Panel::ends() const
+  {
+    std::array<Point<dim>, dim> ends;
+    ends[0] = corner;
+    for (unsigned int k = 0; k + 1 < dim; ++k)
+      ends[k + 1] = corner + edges[k];
+    return ends;
+  }
+
+  void
+  Panel::span(const std::array<Point<dim>, dim> &ends)
+  {
+    corner = ends[0];
+    for (unsigned int k = 0; k + 1 < dim; ++k)
+      edges[k] = ends[k + 1] - corner;
+  }
+
+  std::vector<Facet>
+  Panel::facets() const
+  {
+    const std::vector<Point<dim>> x = corners();
+    // The first of these corners each, two in the plane.
+    std::vector<std::array<unsigned int, 3>> of_facets = {{{0, 1, 3}}};
+    if (dim == 3)
+      of_facets.push_back({{0, 3, 2}});
+    std::vector<Facet> all;
+    for (const auto &corner : of_facets)
+      {
+        Facet &facet = all.emplace_back();
+        for (unsigned int k = 0; k < dim; ++k)
+          facet[k] = x[corner[k]];
+      }
+    return all;
+  }
+
+  std::vector<Panel>
+  Panel::parts(const std::array<unsigned int, dim - 1> &n) const
+  {
+    std::vector<Panel> all = {*this};
+    for (unsigned int k = 0; k + 1 < dim; ++k)
+      {
+        std::vector<Panel> divided;
+        for (const Panel &panel : all)
+          for (unsigned int i = 0; i < n[k]; ++i)
+            {
+              Panel &part = divided.emplace_back(panel);
+              part.edges[k] /= n[k];
+              part.corner += double(i) * part.edges[k];
+            }
+        all = divided;
+      }
+    return all;
+  }
+
+  std::vector<Panel>
+  panels_of_body(const BoundaryCondition &condition, const Geometry &geometry)
+  {
+    return dim == 3 ? panels_of_box(condition, geometry)
+                    : panels_of_outline(condition, geometry);
+  }
+
+  std::vector<BoundaryPoint>
+  points_on_panel(const BackgroundMesh &mesh,
+                  const Space          &space,
+                  const Panel          &panel)
+  {
+    const std::vector<Facet>   facets = panel.facets();
+    std::vector<BoundaryPoint> points;
+    for_each_point(
+      mesh, space, facets, [&](const std::size_t, const BoundaryPoint &point) {
+        points.push_back(point);
+        points.back().weight /= facets.size();
+      });
+    return points;
+  }
+
+  double
+  cell_size_along(const BackgroundMesh &mesh,
+                  const Panel          &panel,
+                  const unsigned int    edge)
+  {
+    // Not on a border of cells, but in the body.
+    const Tensor<1, dim> &along = panel.edges[edge], area = panel.area();
+    Point<dim> a = panel.corner - 1e-9 * along.norm() / area.norm() * area;
+    for (unsigned int k = 0; k + 1 < dim; ++k)
+      if (k != edge)
+        a += panel.edges[k] / 2.;
+    return longest_part_in_cell(mesh, a, a + along);
+  }
+} // namespace geocone
