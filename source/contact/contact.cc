@@ -359,14 +359,20 @@ namespace geocone
       row.update_ghost_values();
   }
 
-  bool
-  Contact::has_friction(const MPI_Comm comm) const
+  ContactTraits
+  Contact::traits(const MPI_Comm comm) const
   {
-    const bool here =
+    const bool rubs_here =
       std::any_of(list.begin(), list.end(), [](const ContactNode &node) {
         return node.friction > 0. || node.adhesion > 0.;
       });
-    return dealii::Utilities::MPI::max(int(here), comm) > 0;
+    ContactTraits result;
+    result.exists    = true;
+    result.of_bodies = has_pairs;
+    result.rubs      = dealii::Utilities::MPI::max(int(rubs_here), comm) > 0;
+    result.moves_obstacles  = obstacles.n_free() > 0;
+    result.obstacles_loaded = result.moves_obstacles && obstacles.are_loaded();
+    return result;
   }
 
   void

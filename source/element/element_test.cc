@@ -44,7 +44,7 @@ namespace geocone
                        "FEM | MPM | explicit MPM on several ranks",
                        "call it without mpirun: there is one point only");
     materials.prepare();
-    if (const double tau = materials.least_friction_memory();
+    if (const double tau = materials.traits().friction_memory;
         std::isfinite(tau))
       throw InputError("Materials/" + materials.name(0) + "/Friction memory",
                        tau,

@@ -189,7 +189,7 @@ namespace geocone
           remarks);
       }
 
-    if (b_bar && space.is_spline() && scene->materials.dilate())
+    if (b_bar && space.is_spline() && scene->materials.traits().dilates)
       remarks.push_back(
         "in explicit steps B-bar makes soil that dilates too strong with "
         "splines: each point should grow as it is sheared, but the points of a "

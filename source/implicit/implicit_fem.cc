@@ -138,7 +138,7 @@ namespace geocone
     system = std::make_unique<LinearSystem>(
       newton.linear_solver(),
       mesh_.triangulation().get_communicator(),
-      scene->materials.symmetric() && !obstacles->exists());
+      scene->materials.traits().symmetric && !obstacles->exists());
     begin(points, timer);
     constraints->check_axis(mesh_, space_);
     check_resistance(points, mesh_.triangulation().get_communicator());

@@ -107,7 +107,7 @@ namespace geocone
     system = std::make_unique<LinearSystem>(
       newton.linear_solver(),
       mesh->triangulation().get_communicator(),
-      scene->materials.symmetric() && !obstacles->exists());
+      scene->materials.traits().symmetric && !obstacles->exists());
     force.reinit(space->partitioner());
     if (space->is_spline() && advection != Advection::none)
       ghost_places.emplace(*mesh, *space);

@@ -78,7 +78,7 @@ namespace geocone
   TimeIntegration::check_theta_scheme(const Scene       &scene,
                                       const std::string &section) const
   {
-    if (scene.materials.are_spatial())
+    if (scene.materials.traits().spatial)
       throw InputError(section + "Integration",
                        word(),
                        "backward Euler or Newmark with laws that are spatial",

@@ -38,7 +38,7 @@ namespace geocone
       refuse("another one without inertia",
              "the stresses alone determine the velocities by the mass: set "
              "Time stepping/Inertia = true, or take automatic");
-    if (materials.are_undrained())
+    if (materials.traits().undrained)
       refuse("another one with undrained soil",
              "it solves for effective stresses alone: take automatic");
     if (problem.inertia->consistent_part() > 0.)

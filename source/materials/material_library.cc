@@ -59,6 +59,22 @@ namespace geocone
     const List laws = all_laws();
   } // namespace
 
+  namespace
+  {
+    /** Whether a law checks the flow of a step, Material::check_flow(). */
+    bool
+    checks_flow(const Material &law)
+    {
+      const std::vector<double> history(law.n_history(), 0.);
+      PointStep                 none;
+      none.strain.setZero();
+      none.stress_n.setZero();
+      none.stress.setZero();
+      none.history_n = history.data();
+      return law.check_flow(none, {}).has_value();
+    }
+  } // namespace
+
   std::vector<std::string>
   material_types()
   {
@@ -144,6 +160,7 @@ namespace geocone
         law->prepare();
         in_closed_form.push_back(dynamic_cast<const Material *>(law.get()));
       }
+    found = gather();
   }
 
   void
@@ -159,58 +176,37 @@ namespace geocone
                          "strains are axisymmetric",
                          "around an axis the stress out of the plane counts: "
                          "choose one of these");
+    found = gather();
   }
 
-  bool
-  Materials::are_spatial() const
+  LawTraits
+  Materials::gather() const
   {
-    return std::any_of(
-      in_closed_form.begin(), in_closed_form.end(), [](const Material *law) {
-        return law != nullptr && law->is_spatial();
-      });
-  }
-
-  bool
-  Materials::have_natural_map() const
-  {
-    return std::all_of(
-      in_closed_form.begin(), in_closed_form.end(), [](const Material *law) {
-        return law == nullptr || law->has_natural_map();
-      });
-  }
-
-  bool
-  Materials::have_flow_check() const
-  {
-    return std::any_of(
-      in_closed_form.begin(), in_closed_form.end(), [](const Material *law) {
+    LawTraits    all;
+    unsigned int n_cones = 0, n_cylinders = 0;
+    for (const auto &law : list)
+      all.undrained = all.undrained || law->fluid_modulus() > 0.;
+    for (const Material *const law : in_closed_form)
+      {
         if (law == nullptr)
-          return false;
-        const std::vector<double> history(law->n_history(), 0.);
-        PointStep                 none;
-        none.strain.setZero();
-        none.stress_n.setZero();
-        none.stress.setZero();
-        none.history_n = history.data();
-        return law->check_flow(none, {}).has_value();
-      });
-  }
-
-  bool
-  Materials::are_undrained() const
-  {
-    return std::any_of(list.begin(), list.end(), [](const auto &law) {
-      return law->fluid_modulus() > 0.;
-    });
-  }
-
-  bool
-  Materials::dilate() const
-  {
-    return std::any_of(
-      in_closed_form.begin(), in_closed_form.end(), [](const Material *law) {
-        return law != nullptr && law->dilates();
-      });
+          continue;
+        const double flow = law->non_associativity();
+        const double tau  = law->friction_memory();
+        if (tau > 0.)
+          all.friction_memory = std::min(all.friction_memory, tau);
+        if (const auto cone = law->initial_cone())
+          ++(cone->a > 0. ? n_cones : n_cylinders);
+        all.symmetric       = all.symmetric && law->has_symmetric_tangent();
+        all.has_natural_map = all.has_natural_map && law->has_natural_map();
+        all.spatial         = all.spatial || law->is_spatial();
+        all.can_yield       = all.can_yield || checks_flow(*law);
+        all.dilates         = all.dilates || law->dilates();
+        all.has_hard_flow =
+          all.has_hard_flow || (flow > Material::hard_flow && !(tau > 0.));
+        all.non_associativity = std::max(all.non_associativity, flow);
+      }
+    all.frictionless = n_cylinders > 0 && n_cones == 0;
+    return all;
   }
 
   void
@@ -244,7 +240,7 @@ namespace geocone
     unsigned int most = 0;
     for (const auto &law : list)
       most = std::max(most, law->n_history());
-    return most + are_undrained();
+    return most + found.undrained;
   }
 
   std::vector<std::string>
@@ -258,46 +254,13 @@ namespace geocone
     return names;
   }
 
-  bool
-  Materials::symmetric() const
-  {
-    for (const Material *material : in_closed_form)
-      if (material != nullptr && !material->has_symmetric_tangent())
-        return false;
-    return true;
-  }
-
-  bool
-  Materials::yield_without_friction() const
-  {
-    bool yields = false;
-    for (const Material *material : in_closed_form)
-      if (material != nullptr)
-        if (const auto cone = material->initial_cone())
-          {
-            yields = true;
-            if (cone->a > 0.)
-              return false;
-          }
-    return yields;
-  }
-
-  double
-  Materials::least_friction_memory() const
-  {
-    double least = std::numeric_limits<double>::infinity();
-    for (const Material *material : in_closed_form)
-      if (material != nullptr && material->friction_memory() > 0.)
-        least = std::min(least, material->friction_memory());
-    return least;
-  }
-
   void
   Materials::set_friction_memory(const double tau)
   {
     for (const auto &law : list)
       if (auto *material = dynamic_cast<Material *>(law.get()))
         material->set_friction_memory(tau);
+    found = gather();
   }
 
   void
@@ -307,6 +270,7 @@ namespace geocone
       if (auto *material = dynamic_cast<Material *>(law.get()))
         if (material->is_reduced())
           material->reduce_strength(F);
+    found = gather();
   }
 
   std::string
@@ -327,28 +291,5 @@ namespace geocone
         text += line + "\n";
       }
     return text;
-  }
-
-  bool
-  Materials::have_hard_flow() const
-  {
-    return std::any_of(in_closed_form.begin(),
-                       in_closed_form.end(),
-                       [](const Material *material) {
-                         return material != nullptr &&
-                                material->non_associativity() >
-                                  Material::hard_flow &&
-                                !(material->friction_memory() > 0.);
-                       });
-  }
-
-  double
-  Materials::non_associativity() const
-  {
-    double largest = 0.;
-    for (const Material *material : in_closed_form)
-      if (material != nullptr)
-        largest = std::max(largest, material->non_associativity());
-    return largest;
   }
 } // namespace geocone

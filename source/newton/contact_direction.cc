@@ -21,12 +21,13 @@ namespace geocone
     , contact(work.problem.contact())
     , is_chosen(contact.nodes().size(), false)
   {
-    const std::vector<unsigned int> chosen = work.problem.choose_contact();
+    const std::vector<unsigned int> chosen =
+      contact.choose(work.v.get_mpi_communicator());
     add(chosen, true);
     if (n_components > most_components)
       n_components = 0;
     if (is_used())
-      work.problem.relax_contact(chosen);
+      work.problem.contact().relax(chosen);
   }
 
   void
@@ -266,7 +267,7 @@ namespace geocone
               most_components)
           {
             if (motion.size() > 0)
-              work.problem.change_motions(motion);
+              work.problem.contact().change_motions(motion);
             break;
           }
         add(more, false);

@@ -13,7 +13,10 @@ namespace geocone
   std::optional<double>
   NewtonLoop::factorise(const double asked, const StepWorkspace &work)
   {
-    const double wanted = std::max(asked, work.problem.least_blend());
+    // Where loads are raised to the limit, the Jacobian without their row is singular, as
+    // the body flows. What the blend changes is next to nothing, since the row fixes how
+    // fast it does.
+    const double wanted = std::max(asked, work.traits.raises_loads ? 1e-8 : 0.);
     // A few apex points can make a Jacobian without mass singular.
     for (const double least : {0., 1e-6, 1e-3, 0.1})
       {
@@ -42,7 +45,7 @@ namespace geocone
                            state.n_apex,
                            state.n_switched);
     report.remedy =
-      state.n_cone + state.n_apex > 0 || work.problem.has_contact()
+      state.n_cone + state.n_apex > 0 || work.traits.contact.exists
         ? ""
         : format(
             "no point flows, so that the step is linear and smaller ones do "
@@ -120,9 +123,8 @@ namespace geocone
         // associated is indefinite along it, and the search would go astray. (Particles
         // in motion have a mass, and full steps take them past such iterates sooner.)
         if (globalisation.needs_descent() && prescribed == nullptr &&
-            line.contact == nullptr && !work.problem.has_contact() &&
-            !work.problem.points_move() &&
-            work.problem.non_associativity() > 0.)
+            line.contact == nullptr && !work.traits.contact.exists &&
+            !work.traits.points_move && work.traits.law.non_associativity > 0.)
           for (const double more : {0.01, 0.05, 0.25})
             {
               if (line.slope() < 0. || !work.factorise(more))

@@ -7,8 +7,6 @@
 #include <geocone/newton/lag_continuation.h>
 #include <geocone/newton/nonsmooth_newton.h>
 
-#include <algorithm>
-
 #include <cmath>
 
 namespace geocone
@@ -150,8 +148,9 @@ namespace geocone
     const bool        natural = formulation == Formulation::natural_map;
     const std::string with =
       " with the formulation '" + formulation.word() + "'";
-    if (globalisation != Method::automatic && globalisation != Method::none &&
-        !(natural && globalisation == Method::elastic_blend))
+    if (globalisation != GlobalisationMethod::automatic &&
+        globalisation != GlobalisationMethod::none &&
+        !(natural && globalisation == GlobalisationMethod::elastic_blend))
       throw InputError(
         "Newton/Globalisation",
         globalisation.word(),
@@ -183,8 +182,9 @@ namespace geocone
   void
   NonsmoothNewton::check(const IncrementalProblem &problem) const
   {
-    const bool pressures = problem.has_cell_pressures();
-    if (problem.needs_return_map() && formulation == Formulation::natural_map)
+    const StepTraits traits    = problem.traits();
+    const bool       pressures = traits.has_cell_pressures;
+    if (traits.needs_return_map() && formulation == Formulation::natural_map)
       throw InputError(
         "Newton/Formulation",
         formulation.word(),
@@ -207,133 +207,81 @@ namespace geocone
   }
 
   void
-  NonsmoothNewton::attempt(const Method               method,
-                           const std::vector<Mandel> *natural_map_start,
-                           const unsigned int         automatic,
+  NonsmoothNewton::iterate(const Try                 &next,
                            const bool                 elastic_first,
+                           const std::vector<Mandel> &start_of_s,
                            const StepWorkspace       &work) const
   {
     NewtonLoop newton;
-    newton.tolerance          = relative_tolerance;
-    newton.absolute_tolerance = absolute_tolerance;
-    newton.elastic_first      = elastic_first;
-    const auto run            = [&](const unsigned int most, const bool rubs) {
-      std::optional<NaturalMap> map;
-      newton.allowed           = allowed(most);
-      newton.law.obstacles_rub = rubs;
-      newton.law.natural_map   = nullptr;
-      if (natural_map_start != nullptr)
-        newton.law.natural_map =
-          &map.emplace(work.problem.make_natural_map(rho, *natural_map_start));
-      LineSearch    search;
-      ElasticBlend  blend(map ? ElasticBlend::with_natural_map
-                             : ElasticBlend::with_return_map);
-      MeritSearch   merit;
-      Globalisation full_steps;
-      newton.run(method == Method::line_search     ? search
-                 : method == Method::elastic_blend ? blend
-                 : method == Method::merit_search
-                   ? static_cast<Globalisation &>(merit)
-                   : full_steps,
-                 work);
-    };
-    const Vector start = work.v;
-    const bool   can_be_exact =
-      work.problem.free_dofs().multipliers.n_rows() == 0;
-    // Where obstacles are free, their motions follow from all of the contact, and steps
-    // in which its states change much wander. Without inertia nothing else bears their
-    // loads: the laws are solved exactly from the start, in a tenth of the iterations.
-    // Where they only follow a try without that comes first, which costs less.
-    const bool moves_obstacles = work.problem.has_contact() &&
-                                 work.problem.contact().motions().n_free() > 0;
-    const bool bears_obstacles = moves_obstacles &&
-                                 !work.problem.has_inertia() &&
-                                 work.problem.contact().motions().are_loaded();
-    // An obstacle that gives way leaves nodes of an iterate without a support, soil flows
-    // there, and the search does not find back. So what touches it stays in touch until
-    // the iterate is near, or far even after three iterations: then it parts.
-    if (work.problem.has_contact() && work.problem.may_flow() &&
-        !moves_obstacles && !work.problem.contact().is_of_bodies() &&
-        natural_map_start == nullptr)
+    newton.tolerance = next.is_rough ? NewtonLoop::near : relative_tolerance;
+    newton.absolute_tolerance   = absolute_tolerance;
+    newton.allowed              = next.iterations;
+    newton.allowed_without_flow = next.iterations_without_flow;
+    newton.allowed_if_far       = next.iterations_if_far;
+    newton.elastic_first        = elastic_first && next.elastic_first;
+    newton.exact_contact        = next.contact == ContactLaw::exact;
+    newton.law.contact_holds    = next.contact == ContactLaw::closed;
+    newton.law.obstacles_rub    = next.contact != ContactLaw::without_friction;
+    std::optional<NaturalMap> map;
+    if (next.natural_map)
+      newton.law.natural_map =
+        &map.emplace(work.problem.make_natural_map(rho, start_of_s));
+    LineSearch    search;
+    ElasticBlend  blend(map ? ElasticBlend::with_natural_map
+                           : ElasticBlend::with_return_map);
+    MeritSearch   merit;
+    Globalisation full_steps;
+    switch (next.globalisation)
       {
-        newton.law.contact_holds = true;
-        newton.tolerance         = NewtonLoop::near;
-        newton.allowed_if_far    = 3;
-        run(10, true);
-        newton.law.contact_holds = false;
-        newton.tolerance         = relative_tolerance;
-        newton.allowed_if_far    = NewtonLoop().allowed_if_far;
-        if (std::isfinite(work.report.residual))
-          newton.elastic_first = false;
-        else
-          work.v = start;
+        case GlobalisationMethod::line_search:
+          newton.run(search, work);
+          break;
+        case GlobalisationMethod::elastic_blend:
+          newton.run(blend, work);
+          break;
+        case GlobalisationMethod::merit_search:
+          newton.run(merit, work);
+          break;
+        default:
+          newton.run(full_steps, work);
       }
-    const auto run_with_exact_contact = [&]() {
-      newton.exact_contact = true;
-      run(automatic, true);
-      newton.exact_contact = false;
-    };
-    if (bears_obstacles && can_be_exact)
-      {
-        run_with_exact_contact();
-        if (work.report.converged)
-          return;
-        work.v = start;
-      }
-    if (!work.problem.has_contact_friction())
-      {
-        run(automatic, true);
-        return;
-      }
-    // Where many nodes come down in a step, those that would stick hinder each other:
-    // then, too, the laws of contact are solved exactly in each iteration; or else the
-    // step without friction may be a better start.
-    newton.allowed_without_flow = 6;
-    if (moves_obstacles)
-      newton.allowed_if_far = 20;
-    run(std::min(automatic, 30U), true);
-    newton.allowed_without_flow = NewtonLoop().allowed_without_flow;
-    newton.allowed_if_far       = NewtonLoop().allowed_if_far;
-    if (work.report.converged)
-      return;
-    if (can_be_exact && !bears_obstacles)
-      {
-        // Where points flow much is won already, but with obstacles that went astray.
-        const NewtonIteration &last = work.report.table.back();
-        if (moves_obstacles || last.n_cone + last.n_apex == 0)
-          work.v = start;
-        run_with_exact_contact();
-        if (work.report.converged)
-          return;
-      }
-    work.v = start;
-    run(30, false);
-    newton.elastic_first = false;
-    run(automatic, true);
   }
 
   void
-  NonsmoothNewton::solve_with_memory(const LagContinuation &continuation,
-                                     const StepWorkspace   &work) const
+  NonsmoothNewton::continue_from_lag(const Try           &next,
+                                     const bool           elastic_first,
+                                     const double         accepted_excess,
+                                     const StepWorkspace &work) const
   {
-    // A step that the line search does not solve soon it hardly ever does. The
-    // natural map then may, but not for particles at their apex; these start
-    // from explicit friction. What neither solves soon is better cut.
-    const bool   points_move = work.problem.points_move();
-    const bool   elastic     = continuation.elastic_first;
-    const Vector start       = work.v;
-    attempt(Method::line_search, nullptr, points_move ? 40 : 20, elastic, work);
-    if (work.report.converged)
+    LagContinuation continuation;
+    continuation.tolerance          = relative_tolerance;
+    continuation.absolute_tolerance = absolute_tolerance;
+    continuation.allowed            = next.with_one_lag;
+    continuation.allowed_on_path    = next.iterations;
+    continuation.elastic_first      = elastic_first;
+    continuation.keeps_lag = friction.kind == Friction::Kind::automatic &&
+                             !work.traits.law.remembers();
+    if (next.globalisation == GlobalisationMethod::explicit_friction)
+      {
+        continuation.solve_from_explicit_friction(work);
+        return;
+      }
+    continuation.solve_on_path(work);
+    SolverReport &report = work.report;
+    if (!report.converged)
       return;
-    work.v = start;
-    if (points_move)
-      continuation.solve_from_explicit_friction(work);
-    else
-      attempt(Method::elastic_blend,
-              &work.problem.stress_at_start(),
-              30,
-              elastic,
-              work);
+    report.excess_share = work.problem.internal_forces().excess_share();
+    report.exceeds      = report.excess_share > accepted_excess;
+    if (report.exceeds)
+      {
+        report.converged = false;
+        report.reason =
+          format("the exact law was not reached: a friction lag of %.2g is "
+                 "left, by which the strength is off by %.2g %% of the "
+                 "plastic work",
+                 report.friction_lag,
+                 100. * report.excess_share);
+      }
   }
 
   SolverReport
@@ -345,21 +293,17 @@ namespace geocone
                          const Hints        &hints) const
   {
     SolverReport        report;
-    const StepWorkspace work{problem, system, timer, v, residual, report};
+    const StepTraits    traits = problem.traits();
+    const StepWorkspace work{
+      problem, traits, system, timer, v, residual, report};
     if (const auto *const stresses = of_stresses())
       {
         stresses->solve(limits(), work);
         return report;
       }
 
-    const Formulation formulation = problem.needs_return_map()
-                                      ? Formulation::return_map
-                                      : Formulation(this->formulation);
-    const bool        associated  = problem.non_associativity() == 0.;
-    const bool        hard = problem.non_associativity() > Material::hard_flow;
-    bool              elastic_first = hints.elastic_first;
-    std::vector<Mandel>        first_stress; // of the first iterate
-    const std::vector<Mandel> *start_of_s = &problem.stress_at_start();
+    bool                elastic_first = hints.elastic_first;
+    std::vector<Mandel> first_stress; // of the first iterate
     if (first_iterate != Start::at_t_n)
       {
         elastic_first = false;
@@ -367,79 +311,29 @@ namespace geocone
           first_iterate == Start::fixed_point
             ? fixed_point_iterate(first_iterate_sweeps, work)
             : first_iterate_of_stresses()->make(first_iterate_sweeps, work);
-        start_of_s = &first_stress;
       }
-    LagContinuation continuation;
-    continuation.tolerance          = relative_tolerance;
-    continuation.absolute_tolerance = absolute_tolerance;
-    continuation.allowed            = allowed(40);
-    continuation.allowed_on_path    = allowed(60);
-    continuation.elastic_first      = elastic_first;
-    continuation.keeps_lag = friction.kind == Friction::Kind::automatic &&
-                             !problem.remembers_friction();
-    const Vector start    = v;
-    const auto   try_with = [&](const Method               method,
-                              const std::vector<Mandel> *natural_map_start,
-                              const unsigned int         automatic) {
-      v = start;
-      attempt(method, natural_map_start, automatic, elastic_first, work);
-    };
-    // Where flow is associated, friction does not lag: the first point of the
-    // path is its end.
-    const Method chosen =
-      globalisation == Method::lag_continuation && associated
-        ? Method::line_search
-        : Method(globalisation);
-    if (chosen != Method::automatic && chosen != Method::lag_continuation)
+    const Vector start = v;
+    for (const Try &next :
+         plan(traits, {formulation, globalisation, max_iterations}))
       {
-        try_with(chosen,
-                 formulation == Formulation::natural_map ? start_of_s : nullptr,
-                 associated ? 150 : 60);
-        return report;
-      }
-    if (chosen == Method::automatic && problem.remembers_friction() &&
-        formulation == Formulation::automatic)
-      {
-        solve_with_memory(continuation, work);
-        return report;
-      }
-    if (chosen == Method::automatic)
-      {
-        const bool both = formulation == Formulation::automatic;
-        // Tresca's law, which has no apex.
-        const bool natural_first = both && problem.yields_without_friction();
-        if (natural_first)
-          try_with(Method::elastic_blend, start_of_s, 40);
-        if (report.converged)
-          return report;
-        if (formulation == Formulation::return_map || (both && !hard))
-          try_with(hard ? Method::elastic_blend : Method::line_search,
-                   nullptr,
-                   hard || natural_first                 ? 30
-                   : associated && !problem.is_spatial() ? 150
-                                                         : 60);
-        if (!report.converged && !natural_first &&
-            formulation != Formulation::return_map)
-          try_with(Method::elastic_blend, start_of_s, both ? 40 : 100);
-      }
-    if (!report.converged && !associated &&
-        formulation != Formulation::natural_map)
-      {
-        v = start;
-        continuation.solve_on_path(work);
-        report.excess_share =
-          report.converged ? problem.internal_forces().excess_share() : 0.;
-        report.exceeds = report.excess_share > hints.accepted_excess;
-        if (report.exceeds)
-          {
-            report.converged = false;
-            report.reason =
-              format("the exact law was not reached: a friction lag of %.2g is "
-                     "left, by which the strength is off by %.2g %% of the "
-                     "plastic work",
-                     report.friction_lag,
-                     100. * report.excess_share);
-          }
+        const auto is_good = [&]() { // the iterate of the try before
+          const NewtonIteration &last = report.table.back();
+          return std::isfinite(report.residual) &&
+                 (next.start == Try::Start::iterate ||
+                  last.n_cone + last.n_apex > 0);
+        };
+        if (next.start == Try::Start::of_step || !is_good())
+          v = start;
+        if (next.with_one_lag > 0)
+          continue_from_lag(next, elastic_first, hints.accepted_excess, work);
+        else
+          iterate(next,
+                  elastic_first,
+                  first_stress.empty() ? problem.stress_at_start()
+                                       : first_stress,
+                  work);
+        if (report.converged && !next.prepares)
+          break;
       }
     return report;
   }

@@ -87,7 +87,7 @@ namespace geocone
         names.push_back(std::string("stress_") + tensor_component[i]);
       names.push_back("plastic_strain_rate");
       names.push_back("cumulative_plastic_strain");
-      if (materials.are_undrained())
+      if (materials.traits().undrained)
         names.push_back("excess_pore_pressure");
       return names;
     }
@@ -119,7 +119,7 @@ namespace geocone
         });
       add([&](const auto p) { return points.plastic_strain_rate[p]; });
       add([&](const auto p) { return points.cumulative_plastic_strain[p]; });
-      if (materials.are_undrained())
+      if (materials.traits().undrained)
         add([&](const auto p) { return points.excess_pressure(p); });
       return means;
     }
@@ -247,7 +247,7 @@ namespace geocone
                                               points.history_of(p));
           });
         }
-      if (materials.are_undrained())
+      if (materials.traits().undrained)
         add("excess_pore_pressure",
             [&](const std::size_t p) { return points.excess_pressure(p); });
       add_tensor("plastic_strain", points.plastic_strain);

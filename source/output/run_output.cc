@@ -100,7 +100,7 @@ namespace geocone
               [](const Record &r) { return r.last.newton.friction_lag; });
     add_quality("cone excess (Pa)", &Quality::cone_excess);
     add_quality("excess work (-)", &Quality::excess_share);
-    if (scene->materials.have_flow_check())
+    if (scene->materials.traits().can_yield)
       {
         add_quality("natural-map error (-)", &Quality::natural_map);
         add_quality("natural-map error of the exact law (-)",
@@ -187,7 +187,7 @@ namespace geocone
       [](const Record &r, const unsigned int i, const unsigned int d) {
         return r.displacements[i][d];
       });
-    if (scene->materials.are_undrained())
+    if (scene->materials.traits().undrained)
       for (unsigned int i = 0; i < scene->observation.points.size(); ++i)
         table.add(
           format("excess pore pressure of point %u (Pa)", i + 1),
@@ -324,6 +324,6 @@ namespace geocone
   bool
   RunOutput::remembers() const
   {
-    return std::isfinite(scene->materials.least_friction_memory());
+    return scene->materials.traits().remembers();
   }
 } // namespace geocone

@@ -104,7 +104,7 @@ namespace geocone
     // The strength of an instant ago is in the load: by tau dF/dt.
     Json         delay;
     const auto   n           = records.size();
-    const double tau         = scene->materials.least_friction_memory();
+    const double tau         = scene->materials.traits().friction_memory;
     const double work        = balance.works().of_excess;
     const double dissipation = balance.works().dissipation;
     if (n > 1 && scene->observation.has_load())
@@ -287,7 +287,7 @@ namespace geocone
                       {"excess_work_step_max", quality.excess_share},
                       {"excess_work_relative",
        dissipation > 0. ? balance.works().of_excess / dissipation : 0.}};
-    if (scene->materials.have_flow_check())
+    if (scene->materials.traits().can_yield)
       of_state.update(
         Json{{"natural_map_error_max", quality.natural_map},
              {"complementarity_max", quality.complementarity},
@@ -378,7 +378,7 @@ namespace geocone
                      newton_part["iterations_mean"].get<double>(),
                      newton_part["iterations_max"].get<unsigned int>(),
                      newton_part["failures"].get<unsigned int>()));
-    if (scene->materials.have_flow_check())
+    if (scene->materials.traits().can_yield)
       log.print(
         format("natural-map error <= %.1e, complementarity <= %.1e, cone "
                "violation <= %.1e",

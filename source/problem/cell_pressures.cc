@@ -56,7 +56,7 @@ namespace geocone
   CellPressures::are_those_of(const MaterialPoints &points,
                               const Materials      &materials)
   {
-    return points.n_volumetric_modes > 0 && materials.dilate();
+    return points.n_volumetric_modes > 0 && materials.traits().dilates;
   }
 
   CellPressures::CellPressures(const MaterialPoints &points,
@@ -83,7 +83,7 @@ namespace geocone
   double
   CellPressures::pore_pressure(const unsigned int point) const
   {
-    return materials.are_undrained() ? points.excess_pressure(point) : 0.;
+    return materials.traits().undrained ? points.excess_pressure(point) : 0.;
   }
 
   void

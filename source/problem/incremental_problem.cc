@@ -150,6 +150,21 @@ namespace geocone
     return Utilities::MPI::sum(sum, layout->get_mpi_communicator());
   }
 
+  StepTraits
+  IncrementalProblem::traits() const
+  {
+    StepTraits step;
+    step.law = materials.traits();
+    if (contact_term)
+      step.contact = contact_term->traits(layout->get_mpi_communicator());
+    step.has_inertia        = has_inertia();
+    step.has_constraints    = unknowns.multipliers.n_rows() > 0;
+    step.has_cell_pressures = internal.has_cell_pressures();
+    step.points_move        = of_particles;
+    step.raises_loads       = unknowns.multipliers.has_loads();
+    return step;
+  }
+
   SparseMatrix
   IncrementalProblem::make_pattern(const bool one_triangle)
   {

@@ -36,14 +36,14 @@ namespace geocone
         ++runs.back().end;
     if (CellPressures::are_those_of(points, materials))
       cell_pressures.emplace(points, materials);
-    if (dim == 2 && materials.are_spatial())
+    if (dim == 2 && materials.traits().spatial)
       stress_zz.resize(points.n_points());
     if (is_axisymmetric())
       {
         strain_zz.resize(points.n_points());
         tangent_zz.resize(points.n_points());
       }
-    if (materials.are_undrained())
+    if (materials.traits().undrained)
       {
         pressure.resize(points.n_points());
         total.resize(points.n_points());

@@ -71,7 +71,7 @@ namespace geocone
     std::string
     text_of_memory(const Scene &scene)
     {
-      const double tau = scene.materials.least_friction_memory();
+      const double tau = scene.materials.traits().friction_memory;
       if (!std::isfinite(tau))
         return "";
       double longest = 0.;
@@ -199,14 +199,15 @@ namespace geocone
       check_size();
     // The exact law is easy for particles, unless volume hardly changes at all.
     if ((!method.is_mpm() || is_nearly_incompressible(scene.materials)) &&
-        !newton.wants_exact_friction() && scene.materials.have_hard_flow())
+        !newton.wants_exact_friction() &&
+        scene.materials.traits().has_hard_flow)
       scene.materials.set_friction_memory(scene.time_of_small_motion(
         mesh.bounding_box(), [&](const BoundaryCondition &condition) {
           return mesh.faces_of(condition);
         }));
     if (const std::string text = text_of_memory(scene); !text.empty())
       log.print(options.name + ": " + text);
-    space.prepare(mesh, method, scene.materials.have_hard_flow());
+    space.prepare(mesh, method, scene.materials.traits().has_hard_flow);
     if (method.is_mpm())
       stepper = &implicit_mpm;
     else
@@ -233,7 +234,7 @@ namespace geocone
     warnings.push_back(outside_strength(points, scene.materials, comm));
     warnings.erase(std::remove(warnings.begin(), warnings.end(), ""),
                    warnings.end());
-    if (scene.materials.are_undrained() && !space.has_b_bar() &&
+    if (scene.materials.traits().undrained && !space.has_b_bar() &&
         (method.is_mpm() || space.degree() < 3))
       warnings.push_back("undrained soil keeps its volume, which " +
                          space.element() +
@@ -241,7 +242,7 @@ namespace geocone
                          "quadrilaterals with Discretisation/B-bar = true" +
                          (method.is_mpm() ? "" : ", or a cubic element"));
     if (!method.is_mpm() && space.element() == "P3" &&
-        scene.materials.have_hard_flow())
+        scene.materials.traits().has_hard_flow)
       warnings.push_back(
         "cubic triangles and the exact law of soil with little dilatancy: "
         "where "
@@ -330,7 +331,7 @@ namespace geocone
     // convex, and longer ones follow by themselves.
     constexpr double first_part = 1. / 16.;
     substep                     = std::min(stage.step_sizes()[0],
-                       first_part * scene.materials.least_friction_memory());
+                       first_part * scene.materials.traits().friction_memory);
   }
 
   Simulation::Ended
@@ -466,7 +467,7 @@ namespace geocone
   ImplicitSimulation::largest_substep(const double h) const
   {
     // Equal ones.
-    const double most = scene.materials.least_friction_memory() / 2.;
+    const double most = scene.materials.traits().friction_memory / 2.;
     return h <= most ? h : h / std::ceil(h / most - 1e-6);
   }
 
@@ -528,7 +529,7 @@ namespace geocone
       }
     present.displacements =
       observed_points.displacements(points, kinematics.displacement);
-    if (scene.materials.are_undrained())
+    if (scene.materials.traits().undrained)
       present.pressures = observed_points.pressures(points);
     present.raised = raised;
     if (observation.of_raised_loads)

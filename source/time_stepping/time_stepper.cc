@@ -103,7 +103,7 @@ namespace geocone
     for (unsigned int p = 0; p < points.n_points(); ++p)
       sum += points.volume[p] * materials[points.material[p]].elastic_energy(
                                   points.stress[p], points.history_of(p));
-    if (materials.are_undrained())
+    if (materials.traits().undrained)
       for (unsigned int p = 0; p < points.n_points(); ++p)
         sum += points.volume[p] * materials[points.material[p]].fluid_energy(
                                     points.excess_pressure(p));

@@ -7,6 +7,7 @@
 #include <geocone/base/sparse_matrix.h>
 #include <geocone/conditions/jacobian_pattern.h>
 #include <geocone/conditions/unknowns.h>
+#include <geocone/contact/contact_traits.h>
 #include <geocone/contact/low_rank.h>
 #include <geocone/contact/obstacle_motions.h>
 
@@ -292,16 +293,9 @@ namespace geocone
       return touch[i].state != State::open || list[i].tension > 0.;
     }
 
-    /** Whether bodies may touch each other, on any rank. */
-    bool
-    is_of_bodies() const
-    {
-      return has_pairs;
-    }
-
-    /** Whether a node of any rank has friction. Collective. */
-    bool
-    has_friction(const MPI_Comm comm) const;
+    /** Of all ranks. Collective. */
+    ContactTraits
+    traits(const MPI_Comm comm) const;
 
     /** The velocities of the obstacles, at the last replace(). */
     const ObstacleMotions &

@@ -5,6 +5,7 @@
 #define geocone_materials_material_library_h
 
 #include <geocone/base/parameter_file.h>
+#include <geocone/materials/law_traits.h>
 #include <geocone/materials/material.h>
 
 #include <deal.II/base/exceptions.h>
@@ -51,25 +52,12 @@ namespace geocone
     void
     set_axisymmetric();
 
-    /** Whether a law is spatial. */
-    bool
-    are_spatial() const;
-
-    /** Whether all laws have a natural map, see Material::has_natural_map(). */
-    bool
-    have_natural_map() const;
-
-    /** Whether a law checks the flow of a step, which Quality tells of. */
-    bool
-    have_flow_check() const;
-
-    /** Whether there is undrained soil (ConstitutiveLaw::fluid_modulus()). */
-    bool
-    are_undrained() const;
-
-    /** Whether a law has a cone along which soil dilates. */
-    bool
-    dilate() const;
+    /** What prepare() has found, and changes of the laws since then. */
+    const LawTraits &
+    traits() const
+    {
+      return found;
+    }
 
     /** @throws InputError if there is undrained soil, with what knows none */
     void
@@ -109,24 +97,6 @@ namespace geocone
       return names[i];
     }
 
-    /** Largest non-associativity of all materials, 0 to 1. */
-    double
-    non_associativity() const;
-
-    /** Whether the exact law of one of them is hard (Material::hard_flow) and its friction
-     *  has no memory. */
-    bool
-    have_hard_flow() const;
-
-    /** Whether some of them yield, and all of those by cylinders (a = 0). */
-    bool
-    yield_without_friction() const;
-
-    /** The least relaxation time of friction with memory of all materials (s);
-     *  infinite if none has a memory. */
-    double
-    least_friction_memory() const;
-
     /** Gives tau (s) to those that leave it to the scene. */
     void
     set_friction_memory(const double tau);
@@ -139,10 +109,6 @@ namespace geocone
     std::string
     as_parameters() const;
 
-    /** Whether all tangents are symmetric. */
-    bool
-    symmetric() const;
-
     /** Most history variables of a law, and after those, where there is undrained
      *  soil, the excess pore pressure. */
     unsigned int
@@ -153,6 +119,11 @@ namespace geocone
     shown_names() const;
 
   private:
+    /** The traits of the laws as they are now. */
+    LawTraits
+    gather() const;
+
+    LawTraits                                     found;
     std::vector<std::string>                      names;
     std::vector<std::string>                      types;
     std::vector<std::unique_ptr<ConstitutiveLaw>> list;

@@ -6,6 +6,7 @@
 
 #include <geocone/base/choice.h>
 #include <geocone/linear/linear_solver.h>
+#include <geocone/newton/plan.h>
 #include <geocone/newton/step_workspace.h>
 #include <geocone/newton/stress_formulation.h>
 
@@ -16,18 +17,10 @@
 
 namespace geocone
 {
-  struct LagContinuation;
-
   /**
-   * The nonsmooth solver of a step: which formulation, globalisation and law are
-   * tried, and in which order. NewtonLoop is the iteration, Globalisation and
-   * LagContinuation make it converge from afar.
-   * Formulation and globalisation automatic: for theta >= phi/2 the return map
-   * with the line search. Otherwise, and where that fails, the natural map with
-   * the elastic blend: the stress is an unknown that obeys the law at the end
-   * only, and iterations that would cycle between modes of points get around.
-   * What is not solved so, without associated flow, the lag continuation tries
-   * (doc/performance.md compares them).
+   * The nonsmooth solver of a step, which runs the tries of its plan() until one is
+   * solved. NewtonLoop is the iteration, Globalisation and LagContinuation make it
+   * converge from afar.
    *
    * Friction, by name:
    *  - exact: the law at t_{n+1}, or the step is not solved;
@@ -106,31 +99,15 @@ namespace geocone
   private:
     const StressMethods others;
 
-    enum class Formulation
-    {
-      automatic,
-      return_map,
-      natural_map,
-      of_stresses ///< the first of StressMethods::formulations; others follow
-    };
     Choice<Formulation> formulation;
 
-    enum class Method
-    {
-      automatic,
-      line_search,
-      elastic_blend,
-      merit_search,
-      lag_continuation,
-      none
-    };
-    Choice<Method> globalisation = {
-      {{"automatic", Method::automatic},
-       {"line search", Method::line_search},
-       {"elastic blend", Method::elastic_blend},
-       {"merit search", Method::merit_search},
-       {"lag continuation", Method::lag_continuation},
-       {"none", Method::none}}};
+    Choice<GlobalisationMethod> globalisation = {
+      {{"automatic", GlobalisationMethod::automatic},
+       {"line search", GlobalisationMethod::line_search},
+       {"elastic blend", GlobalisationMethod::elastic_blend},
+       {"merit search", GlobalisationMethod::merit_search},
+       {"lag continuation", GlobalisationMethod::lag_continuation},
+       {"none", GlobalisationMethod::none}}};
 
     enum class Start
     {
@@ -170,27 +147,21 @@ namespace geocone
     const FirstIterate *
     first_iterate_of_stresses() const;
 
-    /** The iterations that are allowed, unless the file says so. */
-    unsigned int
-    allowed(const unsigned int automatic) const
-    {
-      return max_iterations > 0 ? max_iterations : automatic;
-    }
-
-    /** The tries for friction that remembers, whose tangent is nearly elliptic. */
+    /** Newton iterations by a line of the plan, from the iterate.
+     *  @param start_of_s start of s for the natural map (Pa) */
     void
-    solve_with_memory(const LagContinuation &continuation,
-                      const StepWorkspace   &work) const;
-
-    /** A try at the exact law from the iterate, by one globalisation.
-     *  @param natural_map_start start of s for the natural map (Pa), or null: the
-     *  return map */
-    void
-    attempt(const Method               method,
-            const std::vector<Mandel> *natural_map_start,
-            const unsigned int         automatic,
+    iterate(const Try                 &next,
             const bool                 elastic_first,
+            const std::vector<Mandel> &start_of_s,
             const StepWorkspace       &work) const;
+
+    /** The lag continuation of a line of the plan, from the iterate.
+     *  @param accepted_excess see Hints */
+    void
+    continue_from_lag(const Try           &next,
+                      const bool           elastic_first,
+                      const double         accepted_excess,
+                      const StepWorkspace &work) const;
   };
 } // namespace geocone
 

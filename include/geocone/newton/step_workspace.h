@@ -16,6 +16,7 @@ namespace geocone
   struct StepWorkspace
   {
     IncrementalProblem  &problem;
+    const StepTraits    &traits; ///< of the problem
     LinearSystem        &system;
     dealii::TimerOutput &timer;
     Vector              &v;        ///< the iterate

@@ -83,7 +83,7 @@ namespace geocone
     }
 
     /** Excess pore pressure p (Pa), the last history variable where there is
-     *  undrained soil (Materials::are_undrained()). */
+     *  undrained soil (LawTraits::undrained). */
     double
     excess_pressure(const unsigned int point) const
     {

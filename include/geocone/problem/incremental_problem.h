@@ -10,6 +10,7 @@
 #include <geocone/problem/ghost_stiffness.h>
 #include <geocone/problem/inertia.h>
 #include <geocone/problem/internal_forces.h>
+#include <geocone/problem/step_traits.h>
 
 #include <memory>
 #include <optional>
@@ -108,74 +109,21 @@ namespace geocone
       return NaturalMap(points, materials, {h}, rho, start);
     }
 
-    /** Whether friction has a memory in some of the materials. */
-    bool
-    remembers_friction() const
-    {
-      return std::isfinite(materials.least_friction_memory());
-    }
-
-    /** Whether the yield surfaces are cylinders (phi = 0), without a tip. */
-    bool
-    yields_without_friction() const
-    {
-      return materials.yield_without_friction();
-    }
-
-    /** Whether there is soil with a strength that flows. */
-    bool
-    may_flow() const
-    {
-      return materials.have_flow_check();
-    }
-
-    /** Whether the points are particles, also if this rank has none. */
-    bool
-    points_move() const
-    {
-      return of_particles;
-    }
+    /** Of the step that has begun, all ranks together. Collective. */
+    StepTraits
+    traits() const;
 
     /** Whether the Jacobian is symmetric positive definite. */
     bool
     is_symmetric() const
     {
-      return materials.symmetric() && !contact_term;
+      return materials.traits().symmetric && !contact_term;
     }
 
     bool
     has_inertia() const
     {
       return inertia.has_value();
-    }
-
-    /** Largest (a - b)/a of the materials. */
-    double
-    non_associativity() const
-    {
-      return materials.non_associativity();
-    }
-
-    /** Whether points have a local solver of their own, beside which the natural map
-     *  cannot stand: laws without one, and pressures of cells. */
-    bool
-    needs_return_map() const
-    {
-      return !materials.have_natural_map() || internal.has_cell_pressures();
-    }
-
-    /** Whether there are CellPressures. */
-    bool
-    has_cell_pressures() const
-    {
-      return internal.has_cell_pressures();
-    }
-
-    /** Whether a law is spatial. */
-    bool
-    is_spatial() const
-    {
-      return materials.are_spatial();
     }
 
     /**
@@ -236,37 +184,19 @@ namespace geocone
       return contact_term.has_value();
     }
 
-    /** Whether what may touch rubs. Collective. */
-    bool
-    has_contact_friction() const
-    {
-      return contact_term &&
-             contact_term->has_friction(layout->get_mpi_communicator());
-    }
-
-    /** What touches, where something may. */
+    /** @name What touches, where something may */
+    /** @{ */
     const Contact &
     contact() const
     {
       return *contact_term;
     }
-
-    /** See Contact. Collective. */
-    std::vector<unsigned int>
-    choose_contact() const
+    Contact &
+    contact()
     {
-      return contact_term->choose(layout->get_mpi_communicator());
+      return *contact_term;
     }
-    void
-    relax_contact(const std::vector<unsigned int> &chosen)
-    {
-      contact_term->relax(chosen);
-    }
-    void
-    change_motions(const Eigen::VectorXd &change)
-    {
-      contact_term->change_motions(change);
-    }
+    /** @} */
 
     const GhostStiffness &
     ghost_stiffness() const
@@ -305,18 +235,6 @@ namespace geocone
     make_vector() const
     {
       return Vector(layout);
-    }
-
-    /**
-     * The least elastic blend of linearise() that the solver should take: where loads
-     * are raised to the limit, the Jacobian without their row is singular, as the
-     * body flows. What the blend changes is next to nothing, since the row fixes how
-     * fast it does.
-     */
-    double
-    least_blend() const
-    {
-      return unknowns.multipliers.has_loads() ? 1e-8 : 0.;
     }
 
     /** Size h of the step (s). */

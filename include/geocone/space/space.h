@@ -78,7 +78,7 @@ namespace geocone
 
     /**
      * The element that 'automatic' stands for.
-     * @param hard_flow Materials::have_hard_flow(): of FEM's triangles the quadratic ones
+     * @param hard_flow LawTraits::has_hard_flow: of FEM's triangles the quadratic ones
      * then follow the exact law, of whose localised solutions cubic ones find one that
      * is too soft (doc/small_dilatancy.md)
      */

@@ -1,0 +1,102 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_newton_plan_h
+#define geocone_newton_plan_h
+
+#include <geocone/problem/step_traits.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /** Formulation of a step, a word of 'Newton/Formulation'. */
+  enum class Formulation
+  {
+    automatic,
+    return_map,
+    natural_map,
+    of_stresses ///< the first of StressMethods::formulations; others follow
+  };
+
+  /** Method by which iterates far from a solution get there, a word of
+   *  'Newton/Globalisation'. */
+  enum class GlobalisationMethod
+  {
+    automatic,
+    line_search,
+    elastic_blend,
+    merit_search,
+    lag_continuation,
+    none,
+    explicit_friction ///< no word: the solution with explicit friction is the start
+  };
+
+  /** Law of contact in an iteration. */
+  enum class ContactLaw
+  {
+    linearised, ///< with the rest of the step
+    without_friction,
+    closed, ///< what touches stays in touch
+    exact   ///< solved by ContactDirection for each direction
+  };
+
+  /** A Newton iteration, as a line of a plan. */
+  struct Try
+  {
+    static constexpr unsigned int unlimited =
+      std::numeric_limits<unsigned int>::max();
+
+    enum class Start
+    {
+      of_step,        ///< velocities of t_n, or the first iterate
+      iterate,        ///< of the try before, if it is finite
+      flowing_iterate ///< the same if points flow there
+    };
+
+    GlobalisationMethod globalisation = GlobalisationMethod::line_search;
+    bool                natural_map   = false; ///< or the return map
+    unsigned int        iterations = 60;  ///< allowed; of all of the lag's path
+    unsigned int        with_one_lag = 0; ///< allowed, of the lag continuation
+
+    ContactLaw contact = ContactLaw::linearised;
+    Start      start   = Start::of_step;
+
+    unsigned int iterations_without_flow =
+      unlimited;                                ///< only contact is nonlinear
+    unsigned int iterations_if_far = unlimited; ///< NewtonLoop::far
+
+    bool prepares = false; ///< only makes the start of the next try
+    bool is_rough = false; ///< ends at NewtonLoop::near
+    /** Takes the elastic tangent first, if the time stepper hints at it. */
+    bool elastic_first = true;
+  };
+
+  /** Parameters on which a plan depends. */
+  struct PlanOptions
+  {
+    Formulation         formulation   = Formulation::automatic;
+    GlobalisationMethod globalisation = GlobalisationMethod::automatic;
+    /** Iterations of each try; 0: as the plan proposes. */
+    unsigned int max_iterations = 0;
+  };
+
+  /**
+   * The tries for a step, in their order: the first that converges and does not only
+   * prepare another ends it. A pure function: for theta >= phi/2 the return map with the
+   * line search; otherwise, and where that fails, the natural map with the elastic
+   * blend, whose stresses obey the law at the end only, so that iterations that would
+   * cycle between modes of points get around; and then, without associated flow, the lag
+   * continuation. doc/performance.md compares them.
+   */
+  std::vector<Try>
+  plan(const StepTraits &step, const PlanOptions &options = {});
+
+  /** The plans of typical steps, a paragraph each. */
+  std::string
+  text_of_plans();
+} // namespace geocone
+
+#endif

@@ -1,0 +1,34 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_problem_step_traits_h
+#define geocone_problem_step_traits_h
+
+#include <geocone/contact/contact_traits.h>
+#include <geocone/materials/law_traits.h>
+
+namespace geocone
+{
+  /** Properties of the incremental problem of a step on which it depends how it is
+   *  solved best. */
+  struct StepTraits
+  {
+    LawTraits     law;
+    ContactTraits contact;
+    bool          has_inertia        = false;
+    bool          has_constraints    = false; ///< H v = q has rows
+    bool          has_cell_pressures = false; ///< CellPressures
+    bool          points_move        = false; ///< they are particles
+    bool          raises_loads       = false; ///< to the limit load
+
+    /** Whether points have a local solver of their own, beside which the natural map
+     *  cannot stand: laws without one, and pressures of cells. */
+    bool
+    needs_return_map() const
+    {
+      return !law.has_natural_map || has_cell_pressures;
+    }
+  };
+} // namespace geocone
+
+#endif

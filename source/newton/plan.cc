@@ -1,0 +1,260 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/log.h>
+#include <geocone/materials/material.h>
+#include <geocone/newton/plan.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace geocone
+{
+  using Method = GlobalisationMethod;
+  using Start  = Try::Start;
+
+  namespace
+  {
+    /** The tries of one law, which solve what touches, too. */
+    void
+    add_tries(const Try         &law,
+              const StepTraits  &step,
+              const PlanOptions &options,
+              std::vector<Try>  &tries)
+    {
+      const auto allowed = [&](const unsigned int automatic) {
+        return options.max_iterations > 0 ? options.max_iterations : automatic;
+      };
+      const auto variant = [&](const ContactLaw   contact,
+                               const Start        start,
+                               const unsigned int iterations) {
+        Try next        = law;
+        next.contact    = contact;
+        next.start      = start;
+        next.iterations = allowed(iterations);
+        return next;
+      };
+      const ContactTraits &contact      = step.contact;
+      const bool           can_be_exact = !step.has_constraints;
+      // An obstacle that gives way leaves nodes of an iterate without a support, soil
+      // flows there, and the search does not find back. So what touches it stays in
+      // touch until the iterate is near, or far even after three iterations: then it
+      // parts.
+      const bool closed_first = contact.exists && step.law.can_yield &&
+                                !contact.moves_obstacles &&
+                                !contact.of_bodies && !law.natural_map;
+      if (closed_first)
+        {
+          Try closed      = variant(ContactLaw::closed, Start::of_step, 10);
+          closed.prepares = closed.is_rough = true;
+          closed.iterations_if_far          = 3;
+          tries.push_back(closed);
+        }
+      const Start start = closed_first ? Start::iterate : Start::of_step;
+      // Where obstacles are free, their motions follow from all of the contact, and steps
+      // in which its states change much wander. Without inertia nothing else bears their
+      // loads: the laws are solved exactly from the start, in a tenth of the iterations.
+      // Where they only follow a try without that comes first, which costs less.
+      const bool exact_first = contact.moves_obstacles && !step.has_inertia &&
+                               contact.obstacles_loaded && can_be_exact;
+      if (exact_first)
+        tries.push_back(variant(ContactLaw::exact, start, law.iterations));
+      if (!contact.rubs)
+        tries.push_back(variant(ContactLaw::linearised, start, law.iterations));
+      else
+        {
+          // Where many nodes come down in a step, those that would stick hinder each
+          // other: then, too, the laws of contact are solved exactly in each iteration;
+          // or else the step without friction may be a better start.
+          Try first = variant(
+            ContactLaw::linearised, start, std::min(law.iterations, 30U));
+          first.iterations_without_flow = 6;
+          if (contact.moves_obstacles)
+            first.iterations_if_far = 20;
+          tries.push_back(first);
+          // Where points flow much is won already, but with obstacles that went astray.
+          if (can_be_exact && !exact_first)
+            tries.push_back(variant(
+              ContactLaw::exact,
+              contact.moves_obstacles ? Start::of_step : Start::flowing_iterate,
+              law.iterations));
+          Try smooth =
+            variant(ContactLaw::without_friction, Start::of_step, 30);
+          smooth.prepares = true;
+          tries.push_back(smooth);
+          tries.push_back(
+            variant(ContactLaw::linearised, Start::iterate, law.iterations));
+          tries.back().elastic_first = false;
+        }
+      if (closed_first)
+        for (auto next = tries.end(); (--next)->contact != ContactLaw::closed;)
+          next->elastic_first = false;
+    }
+  } // namespace
+
+  std::vector<Try>
+  plan(const StepTraits &step, const PlanOptions &options)
+  {
+    std::vector<Try> tries;
+    const auto       add = [&](const Method       method,
+                         const bool         natural_map,
+                         const unsigned int iterations) {
+      Try law;
+      law.globalisation = method;
+      law.natural_map   = natural_map;
+      law.iterations    = iterations;
+      add_tries(law, step, options, tries);
+    };
+    const auto add_lag = [&](const Method method) {
+      const unsigned int most = options.max_iterations;
+      Try                lag;
+      lag.globalisation = method;
+      lag.iterations    = most > 0 ? most : 60;
+      lag.with_one_lag  = most > 0 ? most : 40;
+      tries.push_back(lag);
+    };
+    const LawTraits  &law        = step.law;
+    const bool        associated = law.non_associativity == 0.;
+    const bool        hard       = law.non_associativity > Material::hard_flow;
+    const Formulation formulation =
+      step.needs_return_map() ? Formulation::return_map : options.formulation;
+    const bool by_itself = formulation == Formulation::automatic;
+    // Where flow is associated, friction does not lag: the first point of the path is
+    // its end.
+    const Method chosen =
+      options.globalisation == Method::lag_continuation && associated
+        ? Method::line_search
+        : options.globalisation;
+
+    if (chosen != Method::automatic && chosen != Method::lag_continuation)
+      {
+        add(chosen,
+            formulation == Formulation::natural_map,
+            associated ? 150 : 60);
+        return tries;
+      }
+    if (chosen == Method::automatic && law.remembers() && by_itself)
+      {
+        // The tangent of friction with memory is nearly elliptic. A step that the line
+        // search does not solve soon it hardly ever does. The natural map then may, but
+        // not for particles at their apex; these start from explicit friction. What
+        // neither solves soon is better cut.
+        add(Method::line_search, false, step.points_move ? 40 : 20);
+        if (step.points_move)
+          add_lag(Method::explicit_friction);
+        else
+          add(Method::elastic_blend, true, 30);
+        return tries;
+      }
+    if (chosen == Method::automatic)
+      {
+        // Tresca's law, which has no apex.
+        const bool natural_first = by_itself && law.frictionless;
+        if (natural_first)
+          add(Method::elastic_blend, true, 40);
+        if (formulation == Formulation::return_map || (by_itself && !hard))
+          add(hard ? Method::elastic_blend : Method::line_search,
+              false,
+              hard || natural_first        ? 30
+              : associated && !law.spatial ? 150
+                                           : 60);
+        if (!natural_first && formulation != Formulation::return_map)
+          add(Method::elastic_blend, true, by_itself ? 40 : 100);
+      }
+    if (!associated && formulation != Formulation::natural_map)
+      add_lag(Method::lag_continuation);
+    return tries;
+  }
+
+  namespace
+  {
+    std::string
+    text_of(const Try &line)
+    {
+      if (line.globalisation == Method::lag_continuation)
+        return format("lag continuation: %u iterations on its path, %u with "
+                      "one lag",
+                      line.iterations,
+                      line.with_one_lag);
+      if (line.globalisation == Method::explicit_friction)
+        return format("return map from the solution with explicit friction: "
+                      "%u iterations each",
+                      line.with_one_lag);
+      std::string text =
+        std::string(line.natural_map ? "natural map" : "return map") +
+        (line.globalisation == Method::elastic_blend ? ", elastic blend"
+                                                     : ", line search");
+      text +=
+        line.contact == ContactLaw::closed  ? ", what touches stays in touch"
+        : line.contact == ContactLaw::exact ? ", exact directions of contact"
+        : line.contact == ContactLaw::without_friction
+          ? ", without friction of contact"
+          : "";
+      text += line.start == Start::iterate ? ", from there"
+              : line.start == Start::flowing_iterate
+                ? ", from there if points flow"
+                : "";
+      text += format(": %u iterations", line.iterations);
+      if (line.iterations_if_far != Try::unlimited)
+        text += format(", %u if far", line.iterations_if_far);
+      if (line.iterations_without_flow != Try::unlimited)
+        text += format(", %u without flow", line.iterations_without_flow);
+      return text;
+    }
+  } // namespace
+
+  std::string
+  text_of_plans()
+  {
+    const double mild = Material::hard_flow / 2., hard = 1.;
+    std::vector<std::pair<std::string, StepTraits>> steps;
+    const auto add = [&](const std::string &name, const double flow) -> auto &
+    {
+      steps.emplace_back(name, StepTraits());
+      steps.back().second.law.can_yield         = true;
+      steps.back().second.law.non_associativity = flow;
+      return steps.back().second;
+    };
+    add("Associated flow", 0.);
+    add("Associated flow, a law of all principal stresses", 0.).law.spatial =
+      true;
+    add("theta >= phi/2", mild);
+    add("theta < phi/2", hard);
+    {
+      LawTraits &tresca   = add("phi = 0", 0.).law;
+      tresca.frictionless = true;
+    }
+    add("theta < phi/2 without a natural map: B-bar of soil that dilates", hard)
+      .has_cell_pressures                                        = true;
+    add("Friction with a memory, FEM", hard).law.friction_memory = 1.;
+    {
+      StepTraits &particles = add("Friction with a memory, particles", hard);
+      particles.law.friction_memory = 1.;
+      particles.points_move         = true;
+    }
+    add("theta >= phi/2, fixed obstacles without friction", mild)
+      .contact.exists = true;
+    {
+      ContactTraits &contact =
+        add("theta >= phi/2, fixed obstacles with friction", mild).contact;
+      contact.exists = contact.rubs = true;
+    }
+    {
+      ContactTraits &contact =
+        add("theta >= phi/2, loaded free obstacles with friction, no inertia",
+            mild)
+          .contact;
+      contact.exists = contact.rubs = true;
+      contact.moves_obstacles = contact.obstacles_loaded = true;
+    }
+    std::string text;
+    for (const auto &[name, step] : steps)
+      {
+        text += (text.empty() ? "" : "\n") + name + "\n";
+        unsigned int n = 0;
+        for (const Try &line : plan(step))
+          text += format("  %u. ", ++n) + text_of(line) + "\n";
+      }
+    return text;
+  }
+} // namespace geocone
