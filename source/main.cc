@@ -12,8 +12,8 @@
 
 #include <dlfcn.h>
 
-// The same program for scenes in three dimensions (CMakeLists.txt).
-namespace geocone_3d
+// The program for scenes in three dimensions, beside that of the plane (program.h).
+namespace geocone::dim3
 {
   int
   run_geocone(int argc, char **argv);
@@ -78,6 +78,7 @@ main(int argc, char **argv)
   if (const auto set_blas_threads = reinterpret_cast<void (*)(int)>(
         dlsym(RTLD_DEFAULT, "openblas_set_num_threads")))
     set_blas_threads(1);
-  return dimension_of(argc, argv) == "3" ? geocone_3d::run_geocone(argc, argv)
-                                         : geocone::run_geocone(argc, argv);
+  return dimension_of(argc, argv) == "3"
+           ? geocone::dim3::run_geocone(argc, argv)
+           : geocone::dim2::run_geocone(argc, argv);
 }

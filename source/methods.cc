@@ -8,7 +8,7 @@
 #include <geocone/run/explicit_simulation.h>
 #include <geocone/run/implicit_simulation.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   struct Methods::Runs
   {
@@ -43,4 +43,4 @@ namespace geocone
       return runs->explicit_mpm;
     return runs->implicit;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

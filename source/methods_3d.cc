@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   struct Methods::Runs
   {
@@ -62,4 +62,4 @@ namespace geocone
       return runs->explicit_mpm;
     return runs->implicit;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

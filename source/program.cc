@@ -7,6 +7,7 @@
 #include <geocone/command_line.h>
 #include <geocone/materials/material_library.h>
 #include <geocone/methods.h>
+#include <geocone/newton/plan.h>
 #include <geocone/output/run_folder.h>
 #include <geocone/program.h>
 #include <geocone/replay.h>
@@ -19,7 +20,7 @@
 #include <iostream>
 #include <sstream>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -61,7 +62,8 @@ namespace geocone
       "                       into a new file;\n"
       "                       --set 'Materials/soil/Type = LAW' tells those of "
       "other laws\n"
-      "  --help               this text and all parameters\n"
+      "  --help               this text, all parameters and the plans of "
+      "Newton's method\n"
       "  --version            versions of geocone and its libraries\n"
       "\n"
       "The exit code is 0 if the run has finished and its expectations hold, "
@@ -154,7 +156,10 @@ namespace geocone
         << "\nAll parameters, with their defaults; absorbing boundaries, "
            "obstacles and contacts are\nnamed to show theirs, and there "
            "are none by default:\n\n"
-        << text.str() << std::flush;
+        << text.str()
+        << "\nTries of Newton's method for a step, by what it is like, until one "
+           "is solved:\n\n"
+        << text_of_plans() << std::flush;
       if (!std::cout)
         std::_Exit(0); // or else libraries complain of the closed pipe
     }
@@ -262,4 +267,4 @@ namespace geocone
     return run_program(
       argv, [&](Drawing &drawing) { return run(argc, argv, drawing); });
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -17,7 +17,7 @@
 #include <filesystem>
 #include <iostream>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -63,7 +63,7 @@ namespace geocone
         {"unknowns", problem.free_dofs().n_rows},
         {"points", frozen.points.n_points()},
         {"constraints", problem.free_dofs().multipliers.n_rows()},
-        {"non_associativity", problem.non_associativity()},
+        {"non_associativity", materials.traits().non_associativity},
         {"converged", report.converged},
         {"iterations", report.iterations},
         {"factorisations", report.factorisations},
@@ -150,4 +150,4 @@ namespace geocone
       }
     return summary["converged"].get<bool>();
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <filesystem>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -73,4 +73,4 @@ namespace geocone
       outcome.stress.push_back(from_cone_axes(Mandel(s.segment<3>(3 * p))));
     return outcome;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -6,11 +6,12 @@
 
 #include <geocone/base/log.h>
 #include <geocone/base/parameter_file.h>
+#include <geocone/base/types.h>
 #include <geocone/run/simulation.h>
 
 #include <memory>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** The runs of all methods that there are in this dimension, so that a file may hold
    *  the parameters of all. */
@@ -28,6 +29,6 @@ namespace geocone
     struct Runs;
     std::unique_ptr<Runs> runs;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -4,12 +4,14 @@
 #ifndef geocone_program_h
 #define geocone_program_h
 
-namespace geocone
+#include <geocone/base/types.h>
+
+namespace geocone::GEOCONE_DIM
 {
   /** All that the program does with its arguments, for scenes of one dimension: that of
    *  the build. @return its exit code */
   int
   run_geocone(int argc, char **argv);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -5,11 +5,12 @@
 #define geocone_replay_h
 
 #include <geocone/base/log.h>
+#include <geocone/base/types.h>
 
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Solves a frozen problem again, without its scene, on one rank: an incremental
@@ -29,6 +30,6 @@ namespace geocone
          const std::vector<std::string> &overrides,
          const std::string              &folder,
          Log                            &log);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

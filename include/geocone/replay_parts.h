@@ -16,7 +16,7 @@
 #include <vector>
 
 // What replays of incremental and of reduced problems share.
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** Where the results go. */
   class ResultFolder : public dealii::ParameterAcceptor
@@ -79,6 +79,6 @@ namespace geocone
   replay_reduced(const std::string              &file_name,
                  const std::vector<std::string> &overrides,
                  ResultFolder                   &folder);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

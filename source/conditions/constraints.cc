@@ -18,7 +18,7 @@
 #include <limits>
 #include <set>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -659,4 +659,4 @@ namespace geocone
       sum += field.local_element(dim * node + component);
     return Utilities::MPI::sum(sum, comm) / n_nodes[condition];
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

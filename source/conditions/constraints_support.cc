@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -217,4 +217,4 @@ namespace geocone
           "('Time stepping/Inertia')");
       }
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

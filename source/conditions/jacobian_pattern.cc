@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   JacobianPattern::JacobianPattern(
     const MaterialPoints                           &points,
@@ -105,4 +105,4 @@ namespace geocone
     for (int row = 0; row < matrix.n_rows(); ++row)
       diagonal[row] = matrix.entry(row, row);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

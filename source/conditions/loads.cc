@@ -6,7 +6,7 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -170,4 +170,4 @@ namespace geocone
           }
       }
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

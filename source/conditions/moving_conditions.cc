@@ -11,7 +11,7 @@
 
 #include <algorithm>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -574,4 +574,4 @@ namespace geocone
             corners.push_back(x);
     return BoundingBox<dim>(corners).get_boundary_points();
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <map>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
   using Eigen::MatrixXd;
@@ -547,4 +547,4 @@ namespace geocone
         }
     return weight > 0. ? sum / weight : 0.;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

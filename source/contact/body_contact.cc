@@ -14,7 +14,7 @@
 #include <cmath>
 #include <set>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -382,4 +382,4 @@ namespace geocone
                  -at.gap,
                  text_of_place(place(at.node.node)).c_str()));
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

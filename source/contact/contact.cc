@@ -11,7 +11,7 @@
 #include <cmath>
 #include <utility>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using dealii::Tensor;
 
@@ -608,4 +608,4 @@ namespace geocone
             }
       }
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

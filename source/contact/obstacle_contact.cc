@@ -13,7 +13,7 @@
 #include <map>
 #include <set>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -687,4 +687,4 @@ namespace geocone
         bonds.update_ghost_values();
       }
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

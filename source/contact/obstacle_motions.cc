@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -178,4 +178,4 @@ namespace geocone
         motion[o][k] += by[number];
       });
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -17,7 +17,7 @@
 #include <string>
 #include <utility>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -425,4 +425,4 @@ namespace geocone
                                  "make cells smaller");
     return found;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

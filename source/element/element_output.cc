@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -153,4 +153,4 @@ namespace geocone
       }
     write_file("output", [&](std::ostream &out) { out << report; });
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

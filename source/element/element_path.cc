@@ -8,7 +8,7 @@
 #include <cmath>
 #include <sstream>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -267,4 +267,4 @@ namespace geocone
     for (const auto &stage : stages)
       stage->prepare(point, columns);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   const std::array<const char *, 6> component_names = {
     {"xx", "yy", "zz", "xy", "yz", "zx"}};
@@ -338,4 +338,4 @@ namespace geocone
       }
     return std::make_unique<InSpacePoint>(*subloading, stress, changed);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

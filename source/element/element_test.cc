@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   ElementTest::ElementTest(const MPI_Comm       comm,
                            const ParameterFile &file,
@@ -398,4 +398,4 @@ namespace geocone
     StateRow row = archive.read_row("point");
     state(row);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

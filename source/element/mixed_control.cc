@@ -11,7 +11,7 @@
 #include <cmath>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   MixedControl::MixedControl()
     : dealii::ParameterAcceptor("/Element")
@@ -130,4 +130,4 @@ namespace geocone
     report.converged = true;
     return report;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -135,4 +135,4 @@ namespace geocone
     v.update_ghost_values();
     moving->move(v, dt, 0.);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

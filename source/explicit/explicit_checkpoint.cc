@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -147,4 +147,4 @@ namespace geocone
       }
     must_refresh = true;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

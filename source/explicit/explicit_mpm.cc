@@ -18,7 +18,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -477,4 +477,4 @@ namespace geocone
     progress.begun = false;
     return report;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -329,4 +329,4 @@ namespace geocone
           group.position[d][p] = nearest[d];
       }
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

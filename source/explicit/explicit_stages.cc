@@ -16,7 +16,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -376,4 +376,4 @@ namespace geocone
         "body can stand; the limit is " +
         section + "Largest kinetic energy'");
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -177,4 +177,4 @@ namespace geocone
       bytes += group.memory();
     return bytes;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

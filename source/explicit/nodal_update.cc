@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -261,4 +261,4 @@ namespace geocone
     taken.swap(support_impulse);
     return taken;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -16,7 +16,7 @@
 #include <limits>
 #include <map>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -396,4 +396,4 @@ namespace geocone
              ? record->end()
              : std::numeric_limits<double>::infinity();
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <limits>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using dealii::Point;
   using dealii::Tensor;
@@ -180,4 +180,4 @@ namespace geocone
     return format(
       "(%g, %g) to (%g, %g)", xs.front(), ys.front(), xs.back(), ys.back());
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

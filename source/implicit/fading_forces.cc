@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   void
   FadingForces::add(Vector       difference,
@@ -68,4 +68,4 @@ namespace geocone
           archive, "fading " + std::to_string(i), mesh, space, list[i].force);
       }
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -4,7 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/implicit/following_grid.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -90,4 +90,4 @@ namespace geocone
     mesh.move_grid(to);
     space.follow_grid();
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

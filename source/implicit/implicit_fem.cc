@@ -13,7 +13,7 @@
 
 #include <algorithm>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using dealii::TimerOutput;
 
@@ -590,4 +590,4 @@ namespace geocone
           points.set(first++, row);
       }
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

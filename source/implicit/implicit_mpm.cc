@@ -13,7 +13,7 @@
 
 #include <algorithm>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -574,4 +574,4 @@ namespace geocone
                      front_of(points)};
     return report;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

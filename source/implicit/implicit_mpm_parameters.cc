@@ -5,7 +5,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/implicit/implicit_mpm.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -178,4 +178,4 @@ namespace geocone
             }
       }
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

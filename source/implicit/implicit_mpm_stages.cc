@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -153,4 +153,4 @@ namespace geocone
     for (unsigned int i = 0; i < mass.locally_owned_size(); ++i)
       had_mass[i] = mass.local_element(i) > 0.;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

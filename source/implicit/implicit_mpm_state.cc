@@ -15,7 +15,7 @@
 #include <cmath>
 #include <limits>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -400,4 +400,4 @@ namespace geocone
           }
       }
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

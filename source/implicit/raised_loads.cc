@@ -4,7 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/implicit/raised_loads.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   void
   RaisedLoads::check(const Scene &scene)
@@ -46,4 +46,4 @@ namespace geocone
         residual.local_element(i) -= factor * raised.local_element(i);
     return factor;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -5,7 +5,7 @@
 #include <geocone/base/log.h>
 #include <geocone/implicit/time_integration.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   void
   TimeIntegration::declare(dealii::ParameterAcceptor &acceptor,
@@ -229,4 +229,4 @@ namespace geocone
     points.history = std::move(history);
     return ends;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
 #ifdef GEOCONE_HAS_AVX2_UNITS
   namespace avx2
@@ -65,4 +65,4 @@ namespace geocone
     numbers.place       = place;
     advance_by_best(numbers, block);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -5,7 +5,7 @@
 #if defined(__AVX2__) && defined(__FMA__)
 #include <geocone/kernels/cone_kernel.templates.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace avx2
   {
@@ -18,5 +18,5 @@ namespace geocone
       advance_cone_block<xsimd::avx2>(cone, block);
     }
   } // namespace avx2
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 #endif

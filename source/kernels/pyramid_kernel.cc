@@ -5,7 +5,7 @@
 #include <geocone/kernels/pyramid_kernel.h>
 #include <geocone/kernels/pyramid_kernel.templates.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
 #ifdef GEOCONE_HAS_AVX2_UNITS
   namespace avx2
@@ -24,4 +24,4 @@ namespace geocone
 #endif
     advance_pyramid_block<BaselineArch>(pyramid, block);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -88,4 +88,4 @@ namespace geocone
   subloading_curves(const SubloadingModel<6> &,
                     const SubloadingState<6> &,
                     const SectionPlane &);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -1,7 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/base/types.h>
+#include <geocone/base/constants.h>
 #include <geocone/kernels/subloading_model.h>
 
 #include <algorithm>

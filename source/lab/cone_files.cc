@@ -20,7 +20,7 @@
 #include <sstream>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using Eigen::VectorXd;
 
@@ -583,4 +583,4 @@ namespace geocone
         entries.emplace_back(it.row(), it.col(), it.value());
     return contact_problem(entries, q, mu, d, fail);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

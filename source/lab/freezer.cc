@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -85,4 +85,4 @@ namespace geocone
       }
     n_failures += failed;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <sstream>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -612,4 +612,4 @@ namespace geocone
                                     vector(frozen.velocity_L),
                                     vector(frozen.prescribed));
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <ctime>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using Eigen::VectorXd;
 
@@ -159,4 +159,4 @@ namespace geocone
     report.cpu_seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
     return report;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

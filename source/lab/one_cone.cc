@@ -12,7 +12,7 @@
 #include <limits>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -234,4 +234,4 @@ namespace geocone
     (solutions.colwise() - guess).colwise().squaredNorm().minCoeff(&nearest);
     return solutions.col(nearest);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

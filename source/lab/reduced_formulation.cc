@@ -7,7 +7,7 @@
 #include <geocone/lab/reduced_newton.h>
 #include <geocone/lab/reduction.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using dealii::TimerOutput;
 
@@ -59,4 +59,4 @@ namespace geocone
              report.iterations,
              solver == Solver::gauss_seidel ? "sweeps" : "iterations");
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

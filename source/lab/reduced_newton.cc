@@ -9,7 +9,7 @@
 
 #include <ctime>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using Eigen::MatrixXd;
   using Eigen::VectorXd;
@@ -329,4 +329,4 @@ namespace geocone
     report.cpu_seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
     return report;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

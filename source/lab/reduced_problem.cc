@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using Eigen::MatrixXd;
   using Eigen::VectorXd;
@@ -110,4 +110,4 @@ namespace geocone
       return std::numeric_limits<double>::infinity();
     return error > 0. ? error / (size + cohesion) : 0.;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -7,7 +7,7 @@
 
 #include <deal.II/base/mpi.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using Eigen::MatrixXd;
   using Eigen::VectorXd;
@@ -159,4 +159,4 @@ namespace geocone
         velocity.local_element(i) +
         (unknowns.is_free(i) ? change[unknowns.free_row[i]] : 0.);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

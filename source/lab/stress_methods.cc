@@ -7,7 +7,7 @@
 #include <geocone/lab/reduction.h>
 #include <geocone/lab/stress_methods.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -107,4 +107,4 @@ namespace geocone
       solver.map = ReducedNewton::Map::natural_map;
     return solver.solve(problem, s);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

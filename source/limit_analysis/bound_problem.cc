@@ -12,7 +12,7 @@
 #include <set>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using dealii::Point;
   using dealii::Tensor;
@@ -625,4 +625,4 @@ namespace geocone
       problem);
     return problem;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -13,7 +13,7 @@
 #include <limits>
 #include <optional>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using dealii::Point;
   using dealii::Tensor;
@@ -429,4 +429,4 @@ namespace geocone
            : chosen == LoadFactor::all    ? "weight and tractions"
                                           : "tractions";
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

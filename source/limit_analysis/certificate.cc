@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using dealii::Point;
   using dealii::Tensor;
@@ -391,4 +391,4 @@ namespace geocone
         }
     return gap;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

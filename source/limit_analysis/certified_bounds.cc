@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using Eigen::VectorXd;
 
@@ -177,4 +177,4 @@ namespace geocone
       }
     return sizes;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using dealii::Point;
   using dealii::Tensor;
@@ -112,4 +112,4 @@ namespace geocone
       }
     return all;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -12,7 +12,7 @@
 #include <limits>
 #include <numeric>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -676,4 +676,4 @@ namespace geocone
   {
     return Solver(problem, options).solve();
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

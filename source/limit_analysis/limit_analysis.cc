@@ -12,7 +12,7 @@
 #include <cmath>
 #include <utility>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -538,4 +538,4 @@ namespace geocone
           }
       }
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   void
   BoundLevel::state(StateRow &row)
@@ -230,4 +230,4 @@ namespace geocone
     OutputBase::state_of_run(row);
     fields->state(row);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -14,7 +14,7 @@
 #include <cmath>
 #include <optional>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace mpi = dealii::Utilities::MPI;
 
@@ -108,4 +108,4 @@ namespace geocone
           }
       }
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <utility>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -170,4 +170,4 @@ namespace geocone
         factor = next_factor();
       }
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

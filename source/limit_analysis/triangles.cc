@@ -10,7 +10,7 @@
 #include <cmath>
 #include <set>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using dealii::Point;
   using dealii::Tensor;
@@ -151,4 +151,4 @@ namespace geocone
       }
     return g;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -207,7 +207,7 @@ namespace geocone
         Teuchos::ParameterList list;
         ML_Epetra::SetDefaults(symmetric ? "SA" : "NSSA", list);
         list.set("ML output", 0);
-        list.set("PDE equations", int(dim));
+        list.set("PDE equations", int(rows.n_components));
         list.set("aggregation: type", "Uncoupled");
         list.set("aggregation: threshold", 0.01);
         list.set("smoother: type",

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   ConstitutiveLaw::ConstitutiveLaw(const std::string &section)
     : dealii::ParameterAcceptor("/" + section)
@@ -96,4 +96,4 @@ namespace geocone
     law->show(stress, history, values.data());
     return values[place];
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

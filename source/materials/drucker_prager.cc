@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -110,4 +110,4 @@ namespace geocone
     return cone_with(grown_cohesion(history))
       .yield_function(SpatialMandel(spatial_axes() * stress));
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <optional>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   void
   FrictionMemory::declare(dealii::ParameterAcceptor &section)
@@ -64,4 +64,4 @@ namespace geocone
     constexpr double least = 0.2;
     return non_associativity > Material::hard_flow && aperture_left > least;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/constants.h>
 #include <geocone/base/exceptions.h>
-#include <geocone/base/types.h>
 #include <geocone/materials/frictional_strength.h>
 
 #include <algorithm>

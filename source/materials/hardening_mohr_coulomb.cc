@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   HardeningMohrCoulomb::HardeningMohrCoulomb(const std::string &section)
     : MohrCoulomb(section)
@@ -250,4 +250,4 @@ namespace geocone
   {
     history[plastic_shear()] = sheared(history, slip);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

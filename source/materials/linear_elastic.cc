@@ -6,7 +6,7 @@
 
 #include <limits>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   void
   LinearElastic::update(const Increment &increment,
@@ -46,4 +46,4 @@ namespace geocone
     everything.k = std::numeric_limits<double>::max();
     advance_cone(everything, elasticity(), block);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

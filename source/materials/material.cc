@@ -8,7 +8,7 @@
 
 #include <array>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   Material::Material(const std::string &section)
     : Material(section, Stiffness::constant)
@@ -261,4 +261,4 @@ namespace geocone
     const double at_tip = cone->a > 0. ? 0. : sqrt2 * cone->k;
     return {{{p, -q}, {tip, -at_tip}, {tip, at_tip}, {p, q}}};
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -17,7 +17,7 @@
 #include <limits>
 #include <sstream>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -292,4 +292,4 @@ namespace geocone
       }
     return text;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

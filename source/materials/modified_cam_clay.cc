@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -514,4 +514,4 @@ namespace geocone
       }
     return {ellipse};
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   void
   MohrCoulomb::prepare()
@@ -174,4 +174,4 @@ namespace geocone
             elastic ? elastic_tangent : from_cone_axes(tangent);
       }
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

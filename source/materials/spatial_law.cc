@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   void
   SpatialLaw::update(const Increment &increment, const Response &response) const
@@ -105,4 +105,4 @@ namespace geocone
   {
     return 1. - std::sin(radians(given.phi));
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -380,4 +380,4 @@ namespace geocone
     *tangent = slope_in_axes(at, s, C, elastic.two_G);
     return mode;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -422,4 +422,4 @@ namespace geocone
   template std::string
   Subloading::initial_state<6>(const SubloadingModel<6>::Vector &,
                                SubloadingState<6> &) const;
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -13,7 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -264,4 +264,4 @@ namespace geocone
   {
     return subloading_curves(model<n_spatial>(), state(stress, history), plane);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -23,7 +23,7 @@
 #include <filesystem>
 #include <numeric>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -457,4 +457,4 @@ namespace geocone
       return std::nullopt;
     return GeometryInfo<dim>::project_to_unit_cell(unit);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

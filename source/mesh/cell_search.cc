@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -82,4 +82,4 @@ namespace geocone
           found = Place{cell, *unit};
     return found;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

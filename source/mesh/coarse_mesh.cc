@@ -9,7 +9,7 @@
 #include <numeric>
 #include <tuple>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using dealii::Point;
 
@@ -247,4 +247,4 @@ namespace geocone
         boundary.boundary_quads.push_back(quad);
       }
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -9,7 +9,7 @@
 
 #include <limits>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -121,4 +121,4 @@ namespace geocone
       }
     return ids;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -21,7 +21,7 @@
 // whatever their names are: it gets our own numbers, and a file only if the
 // parameter file says that it is a script to be run.
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using dealii::Point;
 
@@ -480,4 +480,4 @@ namespace geocone
   {
     return mesh_by_gmsh(parameters, regions, lines, &sizes, comm);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using dealii::Point;
 
@@ -259,4 +259,4 @@ namespace geocone
                                                  ? "'Mesh/Growth factor'"
                                                  : "'Mesh/Size ratio'"));
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -13,7 +13,7 @@
 #include <limits>
 #include <numeric>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -521,4 +521,4 @@ namespace geocone
   {
     return Reader(text, what).read();
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

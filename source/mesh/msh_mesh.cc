@@ -16,7 +16,7 @@
 #include <optional>
 #include <set>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using dealii::Point;
 
@@ -568,4 +568,4 @@ namespace geocone
       dealii::GridTools::consistently_order_cells(mesh.cells);
     return mesh;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

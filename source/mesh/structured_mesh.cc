@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using dealii::Point;
 
@@ -279,4 +279,4 @@ namespace geocone
         }
     return mesh;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using dealii::Point;
 
@@ -124,4 +124,4 @@ namespace geocone
                                                                       : 1.) *
            n_triangles;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

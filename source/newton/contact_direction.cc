@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using dealii::Tensor;
   using Eigen::MatrixXd;
@@ -299,4 +299,4 @@ namespace geocone
     return work.problem.free_dot(work.residual, direction) +
            dealii::Utilities::MPI::sum(sum, work.v.get_mpi_communicator());
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

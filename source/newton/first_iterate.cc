@@ -3,7 +3,7 @@
 
 #include <geocone/newton/first_iterate.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   std::vector<Mandel>
   fixed_point_iterate(const unsigned int   n_iterations,
@@ -24,4 +24,4 @@ namespace geocone
       }
     return work.problem.internal_forces().trial_stress();
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   NewtonLine::NewtonLine(const StepWorkspace &work, const LocalLaw &law)
     : direction(work.problem.make_vector())
@@ -84,4 +84,4 @@ namespace geocone
       damping = damping / 4. < 0.01 ? 0. : damping / 4.;
     return length;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

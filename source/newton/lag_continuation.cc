@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   NewtonLoop
   LagContinuation::loop(const double       lag,
@@ -122,4 +122,4 @@ namespace geocone
           return;
       }
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

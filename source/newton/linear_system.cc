@@ -8,7 +8,7 @@
 
 #include <Eigen/LU>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using dealii::TimerOutput;
 
@@ -115,4 +115,4 @@ namespace geocone
     Eigen::Map<Eigen::VectorXd>(x.data(), n) =
       solved.col(0) + solved.rightCols(m) * change;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

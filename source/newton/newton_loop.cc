@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   std::optional<double>
   NewtonLoop::factorise(const double asked, const StepWorkspace &work)
@@ -139,4 +139,4 @@ namespace geocone
         work.record(line.state, length, *blend, law.friction_lag);
       }
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

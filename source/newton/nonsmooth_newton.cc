@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using dealii::TimerOutput;
   using dealii::Patterns::Double;
@@ -337,4 +337,4 @@ namespace geocone
       }
     return report;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using Method = GlobalisationMethod;
   using Start  = Try::Start;
@@ -257,4 +257,4 @@ namespace geocone
       }
     return text;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -5,7 +5,7 @@
 
 #include <deal.II/base/mpi.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using dealii::TimerOutput;
 
@@ -138,4 +138,4 @@ namespace geocone
           ? rhs[unknowns.free_row[i]]
           : (prescribed != nullptr ? prescribed->local_element(i) : 0.);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -127,4 +127,4 @@ namespace geocone
                           "'Exact solution'");
     return {std::sqrt(sums[0] / sums[1]), std::sqrt(sums[2] / sums[3])};
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -466,4 +466,4 @@ namespace geocone
             << s.n_points << "\n";
       });
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -19,7 +19,7 @@
 
 #include <zlib.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   std::vector<double>
   FieldTable::values(const Fill &fill, const unsigned int n_components) const
@@ -526,4 +526,4 @@ namespace geocone
       }
     out.close();
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

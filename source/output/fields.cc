@@ -6,7 +6,7 @@
 #include <array>
 #include <utility>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -322,4 +322,4 @@ namespace geocone
         {"obstacle", 1, [&](std::vector<double> &values) { values = numbers; }}};
     solids.write(table, folder, time, comm);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   void
   add_points(const std::vector<dealii::Tensor<1, dim>> &displacements,
@@ -24,4 +24,4 @@ namespace geocone
                    std::isfinite(u) ? Json(u) : Json();
         }
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

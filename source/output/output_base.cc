@@ -12,7 +12,7 @@
 #include <cmath>
 #include <new>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -216,4 +216,4 @@ namespace geocone
         }
     return dealii::Utilities::MPI::broadcast(comm, hold);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   RunOutput::RunOutput(const MPI_Comm comm, Log &log)
     : OutputBase(comm, log)
@@ -326,4 +326,4 @@ namespace geocone
   {
     return scene->materials.traits().remembers();
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

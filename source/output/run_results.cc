@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -534,4 +534,4 @@ namespace geocone
     out << "unknowns " << summary["size"]["dofs"] << " points "
         << summary["size"]["points"] << "\n";
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

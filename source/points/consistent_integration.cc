@@ -9,7 +9,7 @@
 #include <numeric>
 #include <optional>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -305,4 +305,4 @@ namespace geocone
         match_integrals(exact, c, room.filled * room.volume, points);
       }
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

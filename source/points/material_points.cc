@@ -11,7 +11,7 @@
 #include <array>
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -117,4 +117,4 @@ namespace geocone
           M * (M.transpose() * (w.asDiagonal() * g));
       }
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <limits>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -250,4 +250,4 @@ namespace geocone
             }
     return gather(sums);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -15,7 +15,7 @@
 #include <fstream>
 #include <map>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -327,4 +327,4 @@ namespace geocone
                  in.gcount()
              : 0.;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -6,7 +6,7 @@
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/symmetric_tensor.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -47,4 +47,4 @@ namespace geocone
                          e);
     return C;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -13,7 +13,7 @@
 #include <numeric>
 #include <tuple>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -317,4 +317,4 @@ namespace geocone
         "\n  remedy:  enlarge 'Mesh/Box', or let them go with "
         "'Particles/Outflow = count'");
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -4,7 +4,7 @@
 #include <geocone/kernels/point_block.h>
 #include <geocone/points/point_arrays.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   PointArrays::PointArrays(const unsigned int of_material,
                            const unsigned int n_history,
@@ -72,4 +72,4 @@ namespace geocone
     n = order.size();
     pad();
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

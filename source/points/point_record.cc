@@ -6,7 +6,7 @@
 
 #include <deal.II/base/mpi.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   void
   check_variables(const std::string &written, const std::string &here)
@@ -77,4 +77,4 @@ namespace geocone
       of_cell.push_back(&rows[i * size]);
     return of_cell;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -14,7 +14,7 @@
 
 #include <map>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -197,4 +197,4 @@ namespace geocone
                          "  remedy:  take smaller cells, or check 'Region "
                          "polygon' and 'Region number'");
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

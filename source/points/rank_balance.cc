@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -72,4 +72,4 @@ namespace geocone
     space.follow_ranks();
     ++n;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -19,7 +19,7 @@
 #include <numeric>
 #include <random>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -555,4 +555,4 @@ namespace geocone
     if (!block.empty())
       take(block, given);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

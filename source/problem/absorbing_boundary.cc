@@ -11,7 +11,7 @@
 #include <array>
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -213,4 +213,4 @@ namespace geocone
     add_product(force, v);
     return -(force * v);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -9,7 +9,7 @@
 #include <limits>
 #include <numeric>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -363,4 +363,4 @@ namespace geocone
       }
     choose_basis(cell, softness_of, result.basis);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

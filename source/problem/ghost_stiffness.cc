@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -214,4 +214,4 @@ namespace geocone
       n += unknowns.has_mass(dim * node) && fill(volume, node) < least_fill;
     return Utilities::MPI::sum(n, volume.get_mpi_communicator());
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -185,6 +185,7 @@ namespace geocone
   IncrementalProblem::nodal_rows() const
   {
     NodalRows rows;
+    rows.n_components         = dim;
     rows.layout               = layout;
     const unsigned int n_dofs = layout->locally_owned_size();
     for (unsigned int i = 0; i < unknowns.free_row.size(); ++i)
@@ -268,4 +269,4 @@ namespace geocone
         sum += a.local_element(i) * b.local_element(i);
     return Utilities::MPI::sum(sum, layout->get_mpi_communicator());
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
   using namespace kernels;
@@ -141,4 +141,4 @@ namespace geocone
       dst.local_element(i) +=
         (1. - consistent) * mass.local_element(i) * x.local_element(i);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
   using namespace kernels;
@@ -679,4 +679,4 @@ namespace geocone
       elastic -= pressure[p] * trace(whole_strain(p));
     return {elastic, s.dot(plastic_strain_increment(p))};
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

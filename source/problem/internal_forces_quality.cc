@@ -12,7 +12,7 @@
 #include <cmath>
 #include <limits>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -118,4 +118,4 @@ namespace geocone
             largest.exact_map / stress_scale,
             excess_share()};
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -5,7 +5,7 @@
 
 #include <Eigen/LU>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -152,4 +152,4 @@ namespace geocone
     last_strain = strain;
     return error;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -7,7 +7,7 @@
 
 #include <map>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   TurnedDofs::TurnedDofs(const MaterialPoints &points, const Unknowns &unknowns)
   {
@@ -82,4 +82,4 @@ namespace geocone
     for (unsigned int i = 0; i < n_dofs; ++i)
       forces_to_dofs(c, K + n_dofs * i);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -9,7 +9,7 @@
 
 #include <deal.II/base/mpi.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -185,4 +185,4 @@ namespace geocone
             {"cpu_ns_per_point_step", updates > 0. ? 1e9 * cpu / updates : 0.},
             {"bytes_per_point", bytes / std::max<double>(state.n_points, 1.)}};
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

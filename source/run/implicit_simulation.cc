@@ -17,7 +17,7 @@
 #include <iostream>
 #include <limits>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -688,4 +688,4 @@ namespace geocone
              linear > 0. ? Json(steps / linear) : Json()},
             {"peak_memory_MB", megabytes}};
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

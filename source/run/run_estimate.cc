@@ -12,7 +12,7 @@
 
 #include <sys/resource.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -174,4 +174,4 @@ namespace geocone
       }
     return e;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

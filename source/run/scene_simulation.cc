@@ -3,7 +3,7 @@
 
 #include <geocone/run/scene_simulation.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   SceneSimulation::SceneSimulation(const MPI_Comm       comm,
                                    const ParameterFile &file,
@@ -84,4 +84,4 @@ namespace geocone
     const unsigned int every = stage_of(place).output_every;
     return every > 0 && place.in_stage % every == 0;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

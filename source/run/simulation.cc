@@ -7,7 +7,7 @@
 
 #include <deal.II/base/mpi.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   Simulation::Simulation(const MPI_Comm comm, Log &log)
     : comm(comm)
@@ -178,4 +178,4 @@ namespace geocone
                      place.step,
                      n_steps));
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   BoundaryCondition::BoundaryCondition(const std::string &list,
                                        const std::string &name,
@@ -365,4 +365,4 @@ namespace geocone
                        "none with " + method,
                        remedy);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

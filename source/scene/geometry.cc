@@ -12,7 +12,7 @@
 
 #include <filesystem>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using dealii::Point;
 
@@ -615,4 +615,4 @@ namespace geocone
         return i;
     return 0;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -374,4 +374,4 @@ namespace geocone
              ? component_zz.value(x, 0.)
              : in_plane[0];
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

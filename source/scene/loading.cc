@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -582,4 +582,4 @@ namespace geocone
     return ramp_duration > 0. ? std::min(1., t / ramp_duration) * acceleration
                               : acceleration;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   double
   bearing_capacity_factor_q(const double phi)
@@ -218,4 +218,4 @@ namespace geocone
     reference      = load;
     reference_name = "Prandtl";
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using dealii::Point;
   using dealii::Tensor;
@@ -499,4 +499,4 @@ namespace geocone
                        "none with " + what,
                        remedy);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

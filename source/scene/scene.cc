@@ -15,7 +15,7 @@
 #include <functional>
 #include <limits>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -503,4 +503,4 @@ namespace geocone
       }
     return least;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

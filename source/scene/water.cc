@@ -8,7 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using dealii::Point;
   using dealii::Tensor;
@@ -237,4 +237,4 @@ namespace geocone
                        "empty with " + what,
                        remedy);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using dealii::Point;
   using dealii::Tensor;
@@ -144,4 +144,4 @@ namespace geocone
       }
     return way.norm() > rounding * size ? way / way.norm() : Tensor<1, dim>();
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -10,7 +10,7 @@
 #include <limits>
 #include <set>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -505,4 +505,4 @@ namespace geocone
           all.push_back({{side.middle, end.a, end.b}});
     return all;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

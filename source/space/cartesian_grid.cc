@@ -5,7 +5,7 @@
 
 #include <Eigen/LU>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   namespace
   {
@@ -105,4 +105,4 @@ namespace geocone
       }
     return begin;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

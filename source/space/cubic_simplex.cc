@@ -7,7 +7,7 @@
 
 #include <deal.II/fe/fe_simplex_p.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -107,4 +107,4 @@ namespace geocone
   {
     return std::make_unique<CubicSimplex>();
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

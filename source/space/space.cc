@@ -14,7 +14,7 @@
 
 #include <numeric>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -455,4 +455,4 @@ namespace geocone
             }
     return {found.begin(), found.end()};
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

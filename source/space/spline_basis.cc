@@ -3,7 +3,7 @@
 
 #include <geocone/space/spline_basis.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   SplineBasis::SplineBasis(const unsigned int         degree,
                            const std::vector<double> &breaks)
@@ -127,4 +127,4 @@ namespace geocone
             gradient[i][d] = product(d) - product(dim);
       }
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

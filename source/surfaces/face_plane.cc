@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -178,4 +178,4 @@ namespace geocone
       }
     return FlatOutline(corners);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -210,4 +210,4 @@ namespace geocone
                        what + ": check its sides, its box, and the size of the "
                               "cells there");
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -215,4 +215,4 @@ namespace geocone
       });
     return points;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

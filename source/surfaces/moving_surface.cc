@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -125,4 +125,4 @@ namespace geocone
           }
       }
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

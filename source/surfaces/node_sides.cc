@@ -10,7 +10,7 @@
 #include <limits>
 #include <map>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -90,4 +90,4 @@ namespace geocone
         sum += side.integral;
     return sum;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -249,4 +249,4 @@ namespace geocone
         a += panel.edges[k] / 2.;
     return longest_part_in_cell(mesh, a, a + along);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

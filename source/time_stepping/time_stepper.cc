@@ -12,7 +12,7 @@
 
 #include <deal.II/base/mpi.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -297,4 +297,4 @@ namespace geocone
     for (double &strain : points.cumulative_plastic_strain)
       strain = 0.;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

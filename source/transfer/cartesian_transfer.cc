@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <map>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -567,4 +567,4 @@ namespace geocone
   {
     return std::string("uniform grid, ") + kernels.name + " kernels";
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -3,7 +3,7 @@
 
 #include <geocone/transfer/grid_transfer.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   void
   GridTransfer::clear_cells()
@@ -36,4 +36,4 @@ namespace geocone
         means[k]           = from[0] > 0. ? from[1] / from[0] : 0.;
       }
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

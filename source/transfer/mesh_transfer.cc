@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <map>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
@@ -338,4 +338,4 @@ namespace geocone
       }
     return bytes;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

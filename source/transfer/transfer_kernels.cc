@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
 #ifdef GEOCONE_HAS_AVX2_UNITS
   extern const TransferKernels transfer_kernels_avx2;
@@ -39,4 +39,4 @@ namespace geocone
         upper[d] = std::max(upper[d], other.upper[d]);
       }
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM

@@ -5,11 +5,11 @@
 #if defined(__AVX2__) && defined(__FMA__)
 #include <geocone/transfer/transfer_kernels.templates.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   extern const TransferKernels transfer_kernels_avx2;
   // Constant: nothing of this unit may run on a machine without AVX2.
   constexpr TransferKernels transfer_kernels_avx2 =
     make_transfer_kernels<xsimd::avx2>("AVX2");
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 #endif

@@ -9,7 +9,7 @@
 #include <array>
 #include <cstddef>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** What is counted along each direction of a grid, the first one running fastest. */
   using GridIndex = std::array<unsigned int, dim>;
@@ -55,6 +55,6 @@ namespace geocone
       n *= size;
     return n;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -11,7 +11,7 @@
 
 #include <string>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** The components, each written by this format. */
   inline std::string
@@ -29,6 +29,6 @@ namespace geocone
   {
     return text_of_vector(x, "%g");
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -4,6 +4,8 @@
 #ifndef geocone_base_types_h
 #define geocone_base_types_h
 
+#include <geocone/base/constants.h>
+
 #include <Eigen/Core>
 
 #include <array>
@@ -12,13 +14,23 @@
 
 /**
  * The space dimension of a scene, which the build gives: all that depends on it is
- * compiled once for each, with the namespace geocone renamed to geocone_3d in the
- * second (CMakeLists.txt), so that both are in one program and neither pays for the
- * other. CONTRIBUTING.md tells how this is written.
+ * compiled once for each, in the namespace geocone::dim2 or geocone::dim3, so that both
+ * are in one program and neither pays for the other. It is an inline namespace: nobody
+ * but main.cc has to name it. CONTRIBUTING.md tells how this is written.
  */
 #ifndef GEOCONE_DIMENSION
 #define GEOCONE_DIMENSION 2
 #endif
+#if GEOCONE_DIMENSION == 2
+#define GEOCONE_DIM dim2
+#else
+#define GEOCONE_DIM dim3
+#endif
+namespace geocone
+{
+  inline namespace GEOCONE_DIM
+  {}
+} // namespace geocone
 
 /**
  * Conventions of the whole code, stated once:
@@ -31,11 +43,8 @@
  *  - symmetric tensors are Mandel vectors, so that the scalar product of two
  *    vectors is the double contraction of the two tensors.
  */
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
-  constexpr double pi    = 3.14159265358979323846;
-  constexpr double sqrt2 = 1.41421356237309504880;
-
   constexpr unsigned int dim = GEOCONE_DIMENSION;
   static_assert(dim == 2 || dim == 3);
 
@@ -207,12 +216,6 @@ namespace geocone
     whole.head<n_mandel>() = t;
     return whole;
   }
-
-  inline double
-  radians(const double degrees)
-  {
-    return degrees * (pi / 180.);
-  }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -12,7 +12,7 @@
 #include <map>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Prescribed velocities of nodes. These dofs are eliminated; the others, the
@@ -221,6 +221,6 @@ namespace geocone
     std::vector<unsigned int> first_part;
     std::vector<Part>         parts;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

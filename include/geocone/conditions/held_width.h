@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** Warnings of conditions on nodes whose nodes do not reach as far as the part of the
    *  sides that is in their box: the velocity is that of a narrower strip. Collective. */
@@ -19,6 +19,6 @@ namespace geocone
   warn_of_held_width(const Scene          &scene,
                      const BackgroundMesh &mesh,
                      const Space          &space);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

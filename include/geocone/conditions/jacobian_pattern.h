@@ -11,7 +11,7 @@
 #include <array>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The Jacobian of the free dofs: nodes that share a cell with points meet in it.
@@ -90,6 +90,6 @@ namespace geocone
     /** Place of the diagonal entry of each free row. */
     std::vector<int> diagonal;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

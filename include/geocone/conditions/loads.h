@@ -9,7 +9,7 @@
 
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Nodal integrals of the density over the cells that have points, each stored for
@@ -71,6 +71,6 @@ namespace geocone
     /** Of each of its lines, under the whole gravity (N/m). */
     std::vector<Vector> of_water;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -11,7 +11,7 @@
 
 #include <optional>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The conditions of a scene on what moves through the mesh: prescribed
@@ -192,6 +192,6 @@ namespace geocone
     std::vector<HeldSide>   supports;
     std::vector<LoadedSide> loads;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   class Constraints;
   struct Unknowns;
@@ -245,6 +245,6 @@ namespace geocone
     };
     std::vector<Asked> asked;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -10,7 +10,7 @@
 
 #include <deal.II/base/point.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** A component of a node's velocity that a condition prescribes. */
   struct PrescribedNode
@@ -57,6 +57,6 @@ namespace geocone
       row(force, moment);
     }
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -10,7 +10,7 @@
 
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Which dofs are unknown: those that are neither prescribed nor of a node
@@ -70,6 +70,6 @@ namespace geocone
     /** Where the local nodes are; null in a problem that is replayed. */
     const std::vector<dealii::Point<dim>> *node_positions = nullptr;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

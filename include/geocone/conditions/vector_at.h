@@ -8,7 +8,7 @@
 
 #include <deal.II/base/tensor.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** The vector whose components begin at a place. */
   inline dealii::Tensor<1, dim>
@@ -26,6 +26,6 @@ namespace geocone
     for (unsigned int d = 0; d < dim; ++d)
       at[d] = x[d];
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

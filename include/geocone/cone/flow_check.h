@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * How well the end of a step obeys a law whose change of variable y maps its flow to
@@ -100,6 +100,6 @@ namespace geocone
     SpatialMandel stress;    ///< at t_{n+1} (Pa)
     const double *history_n; ///< of the point at t_n
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Coordinates in which the yield surface is a circular cone: a vector x is
@@ -352,6 +352,6 @@ namespace geocone
   {
     return s - project(cone.a, cone.k, V(s - rho * y));
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -10,7 +10,7 @@
 
 #include <cstdint>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * return_map() of a cone that the plastic shear g = |z_t| of the step itself
@@ -92,6 +92,6 @@ namespace geocone
       }
     return mode;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -15,7 +15,7 @@
 #include <map>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Where deformable bodies touch: by mortar elements with dual functions (Wohlmuth
@@ -141,6 +141,6 @@ namespace geocone
     };
     std::vector<Pair> pairs;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -19,7 +19,7 @@
 #include <cmath>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** A gap that counts as none, over the size of a cell. */
   constexpr double closed_gap = 1e-9;
@@ -389,6 +389,6 @@ namespace geocone
     bool                     holds      = false; ///< in the last replace()
     bool                     relaxed    = false; ///< since the last replace()
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

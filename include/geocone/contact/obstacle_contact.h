@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** What touches in a step, of all ranks. */
   struct ContactReport
@@ -300,6 +300,6 @@ namespace geocone
 
     std::optional<BodyContact> bodies; ///< where there are contacts
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -13,7 +13,7 @@
 #include <functional>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** How an obstacle moves in a step. */
   struct ObstacleBody
@@ -140,6 +140,6 @@ namespace geocone
     unsigned int              n_free_motions = 0;
     double                    lack_of_all    = 0.;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -12,7 +12,7 @@
 
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Per obstacle the gap to it of the nearest particle that a node moves (m), by the
@@ -118,6 +118,6 @@ namespace geocone
     std::vector<std::vector<unsigned int>> nodes;
     std::vector<unsigned int>              place_of, layer_of;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** The folder of an element test: path.csv, surfaces.csv, summary.json. */
   class ElementOutput : public OutputBase
@@ -55,6 +55,6 @@ namespace geocone
     unsigned int             n_lines = 0;
     Json                     start, last, stages, extremes;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

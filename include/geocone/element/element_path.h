@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** A condition on a column of the results, "NAME <= NUMBER" or ">=". */
   struct StopCondition
@@ -127,6 +127,6 @@ namespace geocone
   private:
     std::vector<std::string> names;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

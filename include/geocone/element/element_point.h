@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** Names of the components of a Tensor6. */
   extern const std::array<const char *, 6> component_names;
@@ -94,6 +94,6 @@ namespace geocone
                      const StressComponents components,
                      const Tensor6         &stress,
                      std::string           &changed);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * One material point that is driven along a path in stages, of which an
@@ -129,6 +129,6 @@ namespace geocone
     double       worst_residual = 0.;
     LawCounts    before; ///< counts before the increment
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

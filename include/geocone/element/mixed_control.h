@@ -11,7 +11,7 @@
 #include <array>
 #include <string>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** How an increment ended. */
   struct ControlReport
@@ -53,6 +53,6 @@ namespace geocone
     double       tolerance      = 1e-10;
     unsigned int max_iterations = 25;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

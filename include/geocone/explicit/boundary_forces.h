@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * What acts in explicit steps on sides: tractions T on those of the body, which move
@@ -80,6 +80,6 @@ namespace geocone
     std::unique_ptr<AbsorbingBoundary> absorbing;
     Vector                             tractions, coefficient, incoming;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -23,7 +23,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** The state of the points at one time, of all ranks. */
   struct ExplicitState
@@ -479,6 +479,6 @@ namespace geocone
     LawCounts counts;
     Seconds   clock;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -12,7 +12,7 @@
 
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * What has come into and gone out of the body since the start: sums over all
@@ -183,6 +183,6 @@ namespace geocone
     std::vector<Reaction>      support_impulse; ///< per condition
     double                     unbalanced = 0.;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

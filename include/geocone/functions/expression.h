@@ -14,7 +14,7 @@
 #include <optional>
 #include <string>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * A scalar function of (x, y, t) given as text in muParser's language, with
@@ -54,6 +54,6 @@ namespace geocone
     std::unique_ptr<dealii::FunctionParser<dim>> function;
     std::unique_ptr<Record>                      record;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -4,9 +4,10 @@
 #ifndef geocone_functions_formula_h
 #define geocone_functions_formula_h
 
+#include <geocone/base/types.h>
 #include <string>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** Variables of a formula. */
   enum class FormulaOf
@@ -31,6 +32,6 @@ namespace geocone
   check_formula(const std::string &text,
                 const std::string &parameter,
                 const FormulaOf    variables = FormulaOf::place_and_time);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Pore pressures on a rectangular grid from a .csv file with the columns x, y (m) and u
@@ -64,6 +64,6 @@ namespace geocone
     std::vector<double> xs, ys;
     std::vector<double> values; ///< u by rows of equal y
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -10,7 +10,7 @@
 
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * What a change of the body would do to the forces on its nodes at once, and does
@@ -50,6 +50,6 @@ namespace geocone
     };
     std::vector<Fading> list; ///< one of what is removed, one of what is added
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -7,7 +7,7 @@
 #include <geocone/conditions/moving_conditions.h>
 #include <geocone/space/space.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * A tensor grid that goes with a side that is pushed: between steps its lines
@@ -46,6 +46,6 @@ namespace geocone
     const std::array<std::vector<double>, dim>        lines; ///< at the start
     std::pair<dealii::Point<dim>, dealii::Point<dim>> side;  ///< at the start
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -13,7 +13,7 @@
 #include <geocone/problem/absorbing_boundary.h>
 #include <geocone/time_stepping/time_stepper.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Steps of the finite element method with points that do not move (small strains).
@@ -157,6 +157,6 @@ namespace geocone
     Vector                              force;
     Vector velocity_L; ///< along turned dofs: v^n, or Newmark's prediction
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -17,7 +17,7 @@
 #include <geocone/problem/absorbing_boundary.h>
 #include <geocone/time_stepping/time_stepper.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The implicit material point method. In a step the particles give mass and
@@ -404,6 +404,6 @@ namespace geocone
     FadingForces                        fading;
     std::vector<unsigned int>           added; ///< materials, so far
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

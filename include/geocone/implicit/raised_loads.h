@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The loads F that a stage raises, in one step of FEM or MPM: while it is solved a
@@ -48,6 +48,6 @@ namespace geocone
   private:
     Vector raised; ///< empty: none
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** How a step from t to t + h is integrated. */
   enum class Integration
@@ -163,6 +163,6 @@ namespace geocone
            const InternalForces &solved,
            const Materials      &materials,
            MaterialPoints       &points);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

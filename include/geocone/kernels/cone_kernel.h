@@ -8,7 +8,7 @@
 #include <geocone/kernels/elasticity.h>
 #include <geocone/kernels/point_block.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * An explicit step of a linear elastic material with a cone, for a block of
@@ -36,6 +36,6 @@ namespace geocone
                const PointBlock  &block,
                const double       part,
                const unsigned int place);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -8,7 +8,7 @@
 #include <geocone/kernels/point_block.h>
 #include <geocone/kernels/spin.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** The numbers of advance_cone(), in d dimensions. */
   struct ConeNumbers
@@ -212,6 +212,6 @@ namespace geocone
     else
       advance_cone_block<Arch, false>(cone, block);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -6,7 +6,7 @@
 
 #include <geocone/base/types.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Isotropic linear elasticity,
@@ -85,6 +85,6 @@ namespace geocone
     double lambda = 0.; ///< first Lame modulus (Pa)
     double two_G  = 0.; ///< twice the shear modulus (Pa)
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

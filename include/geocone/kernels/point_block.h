@@ -8,7 +8,7 @@
 
 #include <array>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * A block of points of one material that an explicit step updates in place:
@@ -112,6 +112,6 @@ namespace geocone
       most = most > other.most ? most : other.most;
     }
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -6,7 +6,7 @@
 
 #include <geocone/kernels/point_block.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** The numbers of advance_pyramid(). */
   struct PyramidNumbers
@@ -37,6 +37,6 @@ namespace geocone
    */
   void
   advance_pyramid(const PyramidNumbers &pyramid, const PointBlock &block);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

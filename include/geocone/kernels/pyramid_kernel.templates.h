@@ -8,7 +8,7 @@
 #include <geocone/kernels/pyramid_kernel.h>
 #include <geocone/kernels/spin.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** Principal values in falling order, and what stands for their directions n: the
    *  components of n n in the plane, those of n in three dimensions. */
@@ -368,6 +368,6 @@ namespace geocone
         wave_modulus.store(block.wave_modulus + p);
       }
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -9,7 +9,7 @@
 #include <array>
 #include <type_traits>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The rotation of a spin increment w = (l_yx - l_xy)/2 by Cayley's transform,
@@ -100,6 +100,6 @@ namespace geocone
 
   using Spin =
     std::conditional_t<dim == 2, PlaneSpin<double>, SpatialSpin<double>>;
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

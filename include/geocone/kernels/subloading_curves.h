@@ -10,7 +10,7 @@
 
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** Mandel vector, compression positive, of a tensor, tension positive. */
   template <int n>
@@ -49,6 +49,6 @@ namespace geocone
   subloading_curves(const SubloadingModel<6> &,
                     const SubloadingState<6> &,
                     const SectionPlane &);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

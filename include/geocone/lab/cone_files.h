@@ -8,7 +8,7 @@
 
 #include <string>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Reads a problem in the text format of Siconos: dimension, number n of cones, type of
@@ -44,6 +44,6 @@ namespace geocone
    */
   ReducedProblem
   read_fclib(const std::string &file_name);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

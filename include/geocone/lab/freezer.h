@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Writes incremental problems as data into the folder of the run: those of
@@ -59,6 +59,6 @@ namespace geocone
     std::string  path;
     unsigned int step = 0, n_taken = 0, n_failures = 0;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * An incremental problem as data: what a step asked of its solver, without the
@@ -84,6 +84,6 @@ namespace geocone
     Vector                              mass, force, v_start;
     std::unique_ptr<IncrementalProblem> incremental_problem;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -7,7 +7,7 @@
 #include <geocone/lab/reduced_problem.h>
 #include <geocone/lab/reduced_report.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Nonsmooth Gauss-Seidel method for a ReducedProblem: cone after cone is
@@ -33,6 +33,6 @@ namespace geocone
     ReducedReport
     solve(const ReducedProblem &problem, Eigen::VectorXd &s) const;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

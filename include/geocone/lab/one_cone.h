@@ -6,7 +6,7 @@
 
 #include <geocone/cone/second_order_cone.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** Stresses (Pa) in the columns; at most one inside, the apex, four more. */
   using OneConeSolutions = Eigen::
@@ -44,6 +44,6 @@ namespace geocone
                  const MandelMatrix &W,
                  const Mandel       &q,
                  const Mandel       &guess);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

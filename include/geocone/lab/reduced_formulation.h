@@ -6,7 +6,7 @@
 
 #include <geocone/newton/step_workspace.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Solves a step for its stresses alone (Reduction), and then evaluates R(v) of
@@ -32,6 +32,6 @@ namespace geocone
     void
     solve(const StepWorkspace &work) const;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

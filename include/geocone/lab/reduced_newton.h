@@ -7,7 +7,7 @@
 #include <geocone/lab/reduced_problem.h>
 #include <geocone/lab/reduced_report.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Semismooth Newton method (eq 76) for a ReducedProblem in s, with
@@ -52,6 +52,6 @@ namespace geocone
     ReducedReport
     solve(const ReducedProblem &problem, Eigen::VectorXd &s) const;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * An incremental problem of which only the stresses are left (Guillet et al.
@@ -119,6 +119,6 @@ namespace geocone
   {
     return natural_map(cone, s, Mandel(cone.psi(z)), rho).norm();
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

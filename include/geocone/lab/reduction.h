@@ -7,7 +7,7 @@
 #include <geocone/lab/reduced_problem.h>
 #include <geocone/problem/incremental_problem.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * A step of an IncrementalProblem as a ReducedProblem for its stresses (paper,
@@ -64,6 +64,6 @@ namespace geocone
     ReducedProblem            reduced;
     Vector                    velocity; ///< v*
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

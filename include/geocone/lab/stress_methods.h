@@ -8,7 +8,7 @@
 #include <geocone/lab/reduced_report.h>
 #include <geocone/newton/nonsmooth_newton.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** Reduced formulations, by Newton's method and by Gauss-Seidel, and first iterates
    *  of sweeps. */
@@ -25,6 +25,6 @@ namespace geocone
   solve_reduced(const NonsmoothNewton &newton,
                 const ReducedProblem  &problem,
                 Eigen::VectorXd       &s);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

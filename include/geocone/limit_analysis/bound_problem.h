@@ -13,7 +13,7 @@
 
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** What the load factor of a limit analysis multiplies. */
   enum class LoadFactor
@@ -163,6 +163,6 @@ namespace geocone
    */
   BoundProblem
   lower_problem(const BoundScene &scene);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * What a limit analysis bounds: the load that a factor multiplies, the strengths
@@ -124,6 +124,6 @@ namespace geocone
     std::vector<Material::Growth> growth;
     bool                          less_dilatant = false;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** What stresses may be beyond their cones where they cannot be scaled back, over the
    *  largest of them. */
@@ -77,6 +77,6 @@ namespace geocone
   /** The dissipation of a point at a strain rate in cone axes, per volume. */
   double
   dissipation(const PointCone &cone, const Eigen::Vector3d &rate);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

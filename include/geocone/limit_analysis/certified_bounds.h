@@ -11,7 +11,7 @@
 #include <array>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** Both bounds of the load on a mesh, in units of the problem. */
   struct CertifiedBounds
@@ -72,6 +72,6 @@ namespace geocone
   sizes_by_gap(const Triangles           &triangles,
                const std::vector<double> &gap,
                const double               n_wanted);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

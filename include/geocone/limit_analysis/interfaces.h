@@ -9,7 +9,7 @@
 
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * An edge of the boundary on which the body slides: on an obstacle, or along a
@@ -52,6 +52,6 @@ namespace geocone
   /** Whether a normal is along x or y, where nodes are held without an interface. */
   bool
   is_along_axis(const dealii::Tensor<1, dim> &normal);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

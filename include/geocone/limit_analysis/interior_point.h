@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** Where an interior-point method ended. */
   struct BoundSolution
@@ -65,6 +65,6 @@ namespace geocone
     static BoundSolution
     solve(const BoundProblem &problem, const Options &options);
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** What is computed of a scene. */
   enum class AnalysisKind
@@ -155,6 +155,6 @@ namespace geocone
     CertifiedBounds          bounds;
     /** @} */
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** A level of a limit analysis: a mesh with both bounds, in the unit of the
    *  load. */
@@ -92,6 +92,6 @@ namespace geocone
   private:
     std::unique_ptr<FieldFiles> fields;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

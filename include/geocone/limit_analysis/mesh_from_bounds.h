@@ -10,7 +10,7 @@
 
 #include <utility>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The sizes of a mesh of about MeshParameters::number triangles on which a step
@@ -27,6 +27,6 @@ namespace geocone
                     const Scene          &scene,
                     const MPI_Comm        comm,
                     Log                  &log);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -10,7 +10,7 @@
 #include <functional>
 #include <optional>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The factor of safety F of a body: that by which c and tan(phi) of all its
@@ -58,6 +58,6 @@ namespace geocone
     double factor   = 1.; ///< from where the next mesh begins
     double exponent = 1.; ///< -d log lambda/d log F
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

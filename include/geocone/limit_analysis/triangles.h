@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** The triangles of a mesh as plain arrays. */
   struct Triangles
@@ -54,6 +54,6 @@ namespace geocone
     std::array<dealii::Tensor<1, dim>, 3>
     gradients(const unsigned int cell) const;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -4,8 +4,6 @@
 #ifndef geocone_linear_nodal_rows_h
 #define geocone_linear_nodal_rows_h
 
-#include <geocone/base/types.h>
-
 #include <deal.II/base/partitioner.h>
 
 #include <memory>
@@ -19,6 +17,8 @@ namespace geocone
    */
   struct NodalRows
   {
+    unsigned int n_components = 2; ///< of the velocity of a node
+
     /** Layout of velocities; the dofs of a node stand one after another. */
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
 

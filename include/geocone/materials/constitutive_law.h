@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * What every constitutive law can do: it has a density, and it carries points
@@ -235,6 +235,6 @@ namespace geocone
       t[i] = sqrt2 * s[i];
     return t;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

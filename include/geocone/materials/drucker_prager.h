@@ -8,7 +8,7 @@
 #include <geocone/cone/second_order_cone.h>
 #include <geocone/materials/spatial_law.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The circular cone of all principal stresses (Drucker and Prager 1952),
@@ -140,6 +140,6 @@ namespace geocone
       : DruckerPrager(section, "Strength c (Pa) in pure shear, > 0.")
     {}
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -4,11 +4,12 @@
 #ifndef geocone_materials_friction_memory_h
 #define geocone_materials_friction_memory_h
 
+#include <geocone/base/types.h>
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <string>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The time tau in which the strength of a soil follows the normal stress on which it
@@ -73,6 +74,6 @@ namespace geocone
     std::string text;
     double      tau = 0.;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * A law with cohesion, friction and dilatancy, and what of its strength is a point's
@@ -117,6 +117,6 @@ namespace geocone
 
     FrictionalStrength given;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -7,7 +7,7 @@
 #include <geocone/materials/mohr_coulomb.h>
 #include <geocone/materials/strain_curve.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * MohrCoulomb whose parameters change with the plastic shear strain kappa, the
@@ -133,6 +133,6 @@ namespace geocone
     double      slope      = 0.; ///< h = dk/d|z_t| (Pa)
     double      length     = 0.; ///< L (m)
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -6,7 +6,7 @@
 
 #include <geocone/materials/spatial_law.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** Isotropic linear elasticity, s = s_n + D e. No parameters of its own. */
   class LinearElastic : public SpatialReturnMap
@@ -58,6 +58,6 @@ namespace geocone
   private:
     bool axisymmetric = false;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

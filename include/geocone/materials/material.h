@@ -14,7 +14,7 @@
 #include <optional>
 #include <string>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** What the law of a step depends on besides the state of its points at t_n. */
   struct StepLaw
@@ -422,6 +422,6 @@ namespace geocone
     bool       reduced       = true;
     Elasticity elastic;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

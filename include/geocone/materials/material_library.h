@@ -13,7 +13,7 @@
 #include <memory>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Makes the material of a section, e.g. "Materials/soil".
@@ -129,6 +129,6 @@ namespace geocone
     std::vector<std::unique_ptr<ConstitutiveLaw>> list;
     std::vector<const Material *>                 in_closed_form; ///< or null
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

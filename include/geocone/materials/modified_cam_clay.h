@@ -9,7 +9,7 @@
 
 #include <string>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Modified Cam-Clay (Roscoe and Burland 1968), a law with a cap, for all methods.
@@ -194,6 +194,6 @@ namespace geocone
     Choice<Outside> if_outside = {
       {{"refuse", Outside::refuse}, {"raise size", Outside::raise_size}}};
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -6,7 +6,7 @@
 
 #include <geocone/materials/frictional.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Perfectly plastic Mohr-Coulomb law in plane strain, the in-plane cone of
@@ -164,6 +164,6 @@ namespace geocone
       : MohrCoulomb(section, "Undrained shear strength c (Pa), > 0.")
     {}
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -9,7 +9,7 @@
 
 #include <string>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * A law of the whole stress, for plane strain, axisymmetric scenes and three
@@ -174,6 +174,6 @@ namespace geocone
       return normal_stress(spatial_of(stress));
     }
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

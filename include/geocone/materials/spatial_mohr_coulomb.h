@@ -10,7 +10,7 @@
 
 #include <limits>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Mohr-Coulomb's law of all principal stresses s_1 >= s_2 >= s_3: for each pair i < j
@@ -215,6 +215,6 @@ namespace geocone
       : SpatialMohrCoulomb(section, "Undrained shear strength c (Pa), > 0.")
     {}
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The subloading soil model (SubloadingModel) as a law of explicit steps:
@@ -153,6 +153,6 @@ namespace geocone
   extern template std::string
   Subloading::initial_state<6>(const SubloadingModel<6>::Vector &,
                                SubloadingState<6> &) const;
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

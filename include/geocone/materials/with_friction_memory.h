@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * A law whose friction may remember the stress on which it depends, p (Pa): where it
@@ -104,6 +104,6 @@ namespace geocone
 
     FrictionMemory memory;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

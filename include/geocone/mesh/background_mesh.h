@@ -24,7 +24,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The triangulation, distributed over the ranks, with its mapping, material
@@ -267,6 +267,6 @@ namespace geocone
     std::optional<CellSizes>  sizes;
     std::vector<unsigned int> owners; ///< owner_of_cell()
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Which of the records of a checkpoint belong to which cell: cells have names
@@ -75,6 +75,6 @@ namespace geocone
     using Name = dealii::CellId::binary_type;
     std::map<Name, std::pair<std::size_t, std::size_t>> ranges;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

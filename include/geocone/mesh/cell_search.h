@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The search for the cell of a place, in meshes of triangles and of
@@ -79,6 +79,6 @@ namespace geocone
     std::vector<unsigned int> first_neighbour, neighbours;
     double                    smallest;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** Vertices, cells with material ids, and boundary faces with side ids. */
   struct CoarseMesh
@@ -71,6 +71,6 @@ namespace geocone
     void
     add_boundary(const Face &face, const dealii::types::boundary_id side);
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

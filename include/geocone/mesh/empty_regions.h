@@ -8,13 +8,13 @@
 
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** @throws InputError if a material that must have a part of the body has no cell
    *  @param n_cells by material, of all ranks */
   void
   refuse_empty_regions(const Scene                     &scene,
                        const std::vector<unsigned int> &n_cells);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

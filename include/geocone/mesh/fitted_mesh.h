@@ -11,7 +11,7 @@
 #include <set>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The mesh of a scene, with the materials of its cells and the sides of its
@@ -39,6 +39,6 @@ namespace geocone
   side_ids(const BoundaryCondition                                 &condition,
            const std::map<std::string, dealii::types::boundary_id> &sides,
            const std::vector<dealii::types::boundary_id>           &all);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

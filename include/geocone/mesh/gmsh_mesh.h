@@ -11,7 +11,7 @@
 #include <array>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The number of cells to be expected of an unstructured mesh with the size
@@ -60,6 +60,6 @@ namespace geocone
                const Regions  &regions,
                const Contacts *contacts,
                const MPI_Comm  comm);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -13,7 +13,7 @@
 #include <array>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * How the domain is cut into cells:
@@ -104,6 +104,6 @@ namespace geocone
 
     std::vector<dealii::Point<dim>> box;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

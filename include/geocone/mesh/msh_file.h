@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Nodes, elements and physical groups in gmsh's terms, as they are in a .msh
@@ -153,6 +153,6 @@ namespace geocone
    */
   MshData
   parse_msh(const std::string &text, const std::string &what);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

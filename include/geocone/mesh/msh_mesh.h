@@ -11,7 +11,7 @@
 
 #include <string>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The mesh of the cells: vertices in the order in which the cells use them,
@@ -28,6 +28,6 @@ namespace geocone
               const std::string &what,
               const Regions     &regions,
               const Contacts    *contacts = nullptr);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

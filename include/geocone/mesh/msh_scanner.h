@@ -16,7 +16,7 @@
 #include <limits>
 #include <string>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** What can be read, for messages. */
   inline const std::string msh_versions =
@@ -292,6 +292,6 @@ namespace geocone
     bool               binary   = false;
     bool               swapped  = false;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

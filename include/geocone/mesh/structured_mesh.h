@@ -10,7 +10,7 @@
 #include <array>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The numbers of intervals of a uniform or graded mesh of a box along x and y,
@@ -31,6 +31,6 @@ namespace geocone
   /** Uniform and graded meshes of a box. */
   CoarseMesh
   structured_mesh(const MeshParameters &parameters);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

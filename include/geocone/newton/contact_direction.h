@@ -6,7 +6,7 @@
 
 #include <geocone/newton/step_workspace.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The direction of Newton's method in which only the momentum balance is made linear,
@@ -105,6 +105,6 @@ namespace geocone
                  end_force;        ///< of Contact::nodes() (N/m)
     unsigned int n_components = 0; ///< of all ranks
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

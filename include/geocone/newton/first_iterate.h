@@ -6,7 +6,7 @@
 
 #include <geocone/newton/step_workspace.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Moves v by fixed-point iterations v -= K^-1 R(v), with K the elastic Jacobian
@@ -17,6 +17,6 @@ namespace geocone
   std::vector<Mandel>
   fixed_point_iterate(const unsigned int   n_iterations,
                       const StepWorkspace &work);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -7,7 +7,7 @@
 #include <geocone/newton/contact_direction.h>
 #include <geocone/newton/step_workspace.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** A line v + x d from an iterate along a Newton direction. */
   class NewtonLine
@@ -130,6 +130,6 @@ namespace geocone
   private:
     double damping = 0.; ///< w
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

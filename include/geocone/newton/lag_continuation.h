@@ -6,7 +6,7 @@
 
 #include <geocone/newton/newton_loop.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Friction that lags is easy (its law is nearer to associated flow, and explicit
@@ -54,6 +54,6 @@ namespace geocone
          const double       accuracy,
          const unsigned int most) const;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The linear systems of Newton's method,
@@ -89,6 +89,6 @@ namespace geocone
 
     bool has_pattern = false;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

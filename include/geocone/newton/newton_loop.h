@@ -8,7 +8,7 @@
 
 #include <limits>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The semismooth Newton iteration for R(v) = 0 by one local law, with the
@@ -56,6 +56,6 @@ namespace geocone
     static void
     give_up(const ResidualReport &state, const StepWorkspace &work);
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

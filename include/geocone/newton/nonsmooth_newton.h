@@ -15,7 +15,7 @@
 #include <limits>
 #include <string>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The nonsmooth solver of a step, which runs the tries of its plan() until one is
@@ -163,6 +163,6 @@ namespace geocone
                       const double         accepted_excess,
                       const StepWorkspace &work) const;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

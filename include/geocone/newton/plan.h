@@ -4,13 +4,14 @@
 #ifndef geocone_newton_plan_h
 #define geocone_newton_plan_h
 
+#include <geocone/base/types.h>
 #include <geocone/problem/step_traits.h>
 
 #include <limits>
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** Formulation of a step, a word of 'Newton/Formulation'. */
   enum class Formulation
@@ -97,6 +98,6 @@ namespace geocone
   /** The plans of typical steps, a paragraph each. */
   std::string
   text_of_plans();
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -5,11 +5,12 @@
 #define geocone_newton_solver_report_h
 
 #include <geocone/base/state_row.h>
+#include <geocone/base/types.h>
 
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** A line of the Newton table: a state and how it was reached. */
   struct NewtonIteration
@@ -65,6 +66,6 @@ namespace geocone
     void
     add_earlier(const SolverReport &earlier);
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

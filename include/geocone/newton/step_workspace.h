@@ -10,7 +10,7 @@
 
 #include <deal.II/base/timer.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** What all attempts at a step work on, and the parts that they share. */
   struct StepWorkspace
@@ -83,6 +83,6 @@ namespace geocone
           const Eigen::VectorXd &defect,
           Vector                &direction) const;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** Accuracy and cost that are allowed to a step. */
   struct StepLimits
@@ -58,6 +58,6 @@ namespace geocone
     std::string                    formulation_help; ///< of these words
     std::string                    first_iterate_help;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -13,7 +13,7 @@
 #include <array>
 #include <string>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** Relative errors in the L2 norm, against given exact fields. */
   struct FieldErrors
@@ -57,6 +57,6 @@ namespace geocone
     std::array<Expression, dim + n_mandel>  fields;
     bool                                    given = false;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** The points and the balance at the end of a step of the loading programme. */
   struct ExplicitRecord
@@ -139,6 +139,6 @@ namespace geocone
     EnergyBalance balance;
     double        largest_impulse = 0.; ///< of all records, for scales
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -5,6 +5,7 @@
 #define geocone_output_field_files_h
 
 #include <geocone/base/state_row.h>
+#include <geocone/base/types.h>
 
 #include <mpi.h>
 
@@ -14,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * What a file of fields holds of this rank: cells that share no nodes, and
@@ -184,6 +185,6 @@ namespace geocone
     std::vector<std::pair<double, std::string>> vtu;
     std::vector<Hdf5State>                      hdf5;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

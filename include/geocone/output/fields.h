@@ -12,7 +12,7 @@
 
 #include <string>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Fields as files for ParaView, and, the VTU files, for scripts/plot:
@@ -69,6 +69,6 @@ namespace geocone
   private:
     FieldFiles cells, point_clouds, solids;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Adds what both kinds of runs report of Scene::observation to their tables.
@@ -59,6 +59,6 @@ namespace geocone
   add_points(const std::vector<dealii::Tensor<1, dim>> &displacements,
              const std::vector<double>                 &excess_pressures,
              Json                                      &summary);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -22,7 +22,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** Which fields a run writes. */
   struct FieldsAsked
@@ -148,6 +148,6 @@ namespace geocone
 
     std::chrono::steady_clock::time_point summary_written;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

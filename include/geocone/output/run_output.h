@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** An accepted step of the loading programme, with all its substeps. */
   struct StepRecord
@@ -257,6 +257,6 @@ namespace geocone
     bool          points_leave = false;
     unsigned int  n_load_jumps = 0;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -10,7 +10,7 @@
 
 #include <deal.II/base/bounding_box.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** A part of a held side of the body normal to an axis: soil is on one side of it. */
   struct SoilLimit
@@ -46,6 +46,6 @@ namespace geocone
                   const Space                  &space,
                   const std::vector<SoilLimit> &limits,
                   MaterialPoints               &points);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** Sets the histories of points from their stresses, and gathers what the
    *  laws say of that. */
@@ -80,6 +80,6 @@ namespace geocone
     unsigned long n_changed = 0;
     std::string   change, refusal;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -10,7 +10,7 @@
 
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Where the continuum lives, on this rank: contiguous arrays over points that
@@ -105,6 +105,6 @@ namespace geocone
    *  the mean. With no more points than polynomials nothing changes in a cell. */
   void
   project_gradients(const unsigned int degree, MaterialPoints &points);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

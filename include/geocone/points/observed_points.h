@@ -11,7 +11,7 @@
 
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Displacements at the places of "Observation/Points": of the field, by the
@@ -86,6 +86,6 @@ namespace geocone
     std::vector<InCell>       in_cell;
     std::vector<unsigned int> id; ///< of material points
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

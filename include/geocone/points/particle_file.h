@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** A particle before its life: what the scene says of it. */
   struct Seed
@@ -73,6 +73,6 @@ namespace geocone
     const std::string       file_name;
     std::unique_ptr<Reader> reader;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -10,7 +10,7 @@
 #include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/tensor.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * A rule by which particles take their velocities from the nodes:
@@ -94,6 +94,6 @@ namespace geocone
 
   /** d/size^2 below which a moment counts as none in affine_velocity(). */
   constexpr double vanishing_moment = 1e-10;
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

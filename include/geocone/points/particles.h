@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The particles of the material point method: seeds them, finds their cells, sends
@@ -163,6 +163,6 @@ namespace geocone
     MPI_Comm              comm;
     unsigned int          n_lost_all = 0;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -9,7 +9,7 @@
 #include <array>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The points of one material on this rank, as explicit steps want them: a
@@ -94,6 +94,6 @@ namespace geocone
   private:
     unsigned int n = 0;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -7,7 +7,7 @@
 #include <geocone/materials/material_library.h>
 #include <geocone/points/material_points.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** Elasticity of a point at t_n. */
   inline Elasticity
@@ -18,6 +18,6 @@ namespace geocone
     return materials[points.material[p]].elasticity_at(points.stress[p],
                                                        points.history_of(p));
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -13,7 +13,7 @@
 #include <array>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The functions that are not zero at a point of any mesh, and what goes over
@@ -144,6 +144,6 @@ namespace geocone
           f(p, c, at);
         }
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

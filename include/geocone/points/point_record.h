@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** @throws RunError if the rows of points in a checkpoint have other variables than
    *  those of this run, as PointState::variables() lists them */
@@ -51,6 +51,6 @@ namespace geocone
     std::vector<double>         rows;
     std::unique_ptr<CellRecord> cells;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** How many numbers a value is, and where they are. */
   template <typename T>
@@ -469,6 +469,6 @@ namespace geocone
       for (std::size_t i = 0; i < from_rank.second.size(); i += size)
         points.append(&from_rank.second[i]);
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -11,7 +11,7 @@
 
 #include <functional>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The rule that integrates B'DB exactly on affine cells: on triangles of
@@ -77,6 +77,6 @@ namespace geocone
     const Space                                             &space,
     const MaterialPoints                                    &known,
     const std::function<bool(const BackgroundMesh::Cell &)> &is_there);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -10,7 +10,7 @@
 
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** Hands over cells between ranks, so that each has about as many particles. */
   class RankBalance : public dealii::ParameterAcceptor
@@ -47,6 +47,6 @@ namespace geocone
     double       largest = 1.2, least = 1.;
     unsigned int n = 0;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * How the body is filled with particles:
@@ -162,6 +162,6 @@ namespace geocone
     unsigned int      random_seed = 1;
     std::string       file;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -11,7 +11,7 @@
 
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Sides through which elastic waves leave and come in (Lysmer and Kuhlemeyer 1969;
@@ -92,6 +92,6 @@ namespace geocone
     Vector                    incoming; ///< forces 2 C v_in
     const Unknowns           *unknowns = nullptr;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -12,7 +12,7 @@
 #include <functional>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The mean stress of a cell as one polynomial, for B-bar where soil dilates. B-bar
@@ -183,6 +183,6 @@ namespace geocone
     std::vector<double>       softness; ///< V/k of its points
     double                    largest_difference = 0.;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -6,7 +6,7 @@
 
 #include <geocone/problem/term.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** The external forces of a step, -F: weight and tractions. */
   class ExternalForces : public Term
@@ -37,6 +37,6 @@ namespace geocone
   private:
     const Vector *force = nullptr;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -9,7 +9,7 @@
 #include <array>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** Three functions of a row or a column of splines, of which the last one has
    *  hardly any material. */
@@ -136,6 +136,6 @@ namespace geocone
     std::vector<double> integral; ///< int N_i (m^2), by local node
     unsigned int        n_owned = 0;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -16,7 +16,7 @@
 #include <optional>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   struct FrozenProblem;
 
@@ -285,6 +285,6 @@ namespace geocone
     /** Of H in the metric of scale(), for the present step, or empty. */
     Multipliers::Factors row_factors;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -6,7 +6,7 @@
 
 #include <geocone/problem/term.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The inertia of a step, M (v - vL)/h. The mass is M = (1 - c) diag(m) + c M_c,
@@ -71,6 +71,6 @@ namespace geocone
     double                h          = 0.;
     const Vector         *velocity_L = nullptr;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * How well a computed state satisfies the cone law, whatever solver made it:
@@ -359,6 +359,6 @@ namespace geocone
     mutable std::vector<OutOfPlaneTangent> tangent_zz;
     /** @} */
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

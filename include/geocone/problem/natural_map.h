@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The local part of the incremental problem in (v, s, z) with the natural map
@@ -80,6 +80,6 @@ namespace geocone
     std::vector<MandelMatrix>            slope;
     std::vector<Mandel>                  last_strain; ///< or empty
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

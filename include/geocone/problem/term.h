@@ -9,7 +9,7 @@
 
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** Where residual() takes the stresses from. */
   struct LocalLaw
@@ -80,6 +80,6 @@ namespace geocone
     add_elastic_diagonal([[maybe_unused]] Vector &dst) const
     {}
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -9,7 +9,7 @@
 
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The nodes of cells whose dofs are not along the coordinates (Unknowns::turned_nodes),
@@ -65,6 +65,6 @@ namespace geocone
     std::vector<Turn>         turns;
     std::vector<unsigned int> first_turn;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

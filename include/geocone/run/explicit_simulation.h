@@ -10,7 +10,7 @@
 
 #include <string>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * A run of the explicit material point method. A step of the loading programme
@@ -76,6 +76,6 @@ namespace geocone
     ExplicitState  state;  ///< at the last record
     ExplicitReport report; ///< of the last step
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -14,7 +14,7 @@
 #include <functional>
 #include <utility>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * How failed steps are cut and grow again. A step of the loading programme is
@@ -163,6 +163,6 @@ namespace geocone
     dealii::TimerOutput timer;
     unsigned int        n_factorisations = 0;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -11,7 +11,7 @@
 
 #include <string>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * How large a run will be, from its parameters alone, before anything is built:
@@ -54,6 +54,6 @@ namespace geocone
                BackgroundMesh    &mesh,
                Seeding           *seeding,
                const FieldsAsked &fields);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

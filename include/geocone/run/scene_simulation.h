@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** A run of a scene: its programme is that of the section "Loading". */
   class SceneSimulation : public Simulation
@@ -80,6 +80,6 @@ namespace geocone
 
     std::vector<double> sizes; ///< of the steps of the present stage (s)
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * A run: the story - stages, steps, fields, summaries, checkpoints, and how it
@@ -165,6 +165,6 @@ namespace geocone
     unsigned int              n_steps    = 0; ///< of all stages
     unsigned int              first_step = 0; ///< done by an earlier process
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * A condition on a part of the boundary: some of its sides, and of them, if
@@ -197,6 +197,6 @@ namespace geocone
   private:
     std::vector<std::string> names;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** The vertices of a polygon in order; in three dimensions, which know no other
    *  bodies by themselves, the lowest and the highest corner of a box. */
@@ -278,6 +278,6 @@ namespace geocone
     std::vector<std::unique_ptr<Region>> regions;
     std::vector<bool>                    empty_ones; ///< see may_be_empty()
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

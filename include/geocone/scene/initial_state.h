@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   class Water;
 
@@ -147,6 +147,6 @@ namespace geocone
     std::vector<int> stage_of;
     double           top = 0.; ///< of the body (m)
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

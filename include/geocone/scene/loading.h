@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** One stage of the loading programme: a duration and how to step through it. */
   class Stage : public dealii::ParameterAcceptor
@@ -247,6 +247,6 @@ namespace geocone
     dealii::Tensor<1, dim> acceleration;
     double                 ramp_duration = 0.;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** The size of the body, and of each material its strength, also over gamma H, the
    *  weight of a column of its height: by them wrong units are seen. One line. */
@@ -22,6 +22,6 @@ namespace geocone
    *  their unit is another one than the parameter's. */
   std::vector<std::string>
   warn_of_magnitudes(const Scene &scene, const dealii::BoundingBox<dim> &body);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

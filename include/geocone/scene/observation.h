@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Exact bearing capacity factor of a weightless half-plane under a strip
@@ -108,6 +108,6 @@ namespace geocone
     double      width     = 0.2;
     double      surcharge = 0.;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   class Obstacle;
 
@@ -283,6 +283,6 @@ namespace geocone
   private:
     std::vector<std::string> names;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

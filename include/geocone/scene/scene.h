@@ -18,7 +18,7 @@
 #include <functional>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The mechanical problem, before any discretisation: where the body is, what
@@ -89,6 +89,6 @@ namespace geocone
     LoadingProgramme   loading;
     Observation        observation;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Water at rest below a piezometric line y = Y(x), alike along z in three dimensions,
@@ -119,6 +119,6 @@ namespace geocone
 
     double unit_weight = 9810.;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -11,7 +11,7 @@
 
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** The corners of the convex hull of points of the plane, anticlockwise: fewer than
    *  three where these are on a line (Andrew 1979). Of the first two coordinates. */
@@ -26,6 +26,6 @@ namespace geocone
   dealii::Tensor<1, dim>
   way_between(const std::vector<dealii::Point<dim>> &from,
               const std::vector<dealii::Point<dim>> &to);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

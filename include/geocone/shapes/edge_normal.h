@@ -8,7 +8,7 @@
 
 #include <deal.II/base/point.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** The normal on the right of the way from a to b, of its length: outward where the
    *  body is on the left. */
@@ -20,6 +20,6 @@ namespace geocone
     n[1] = a[0] - b[0];
     return n;
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -12,7 +12,7 @@
 #include <functional>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** The convex shape of an obstacle, in its own frame. */
   class ObstacleShape
@@ -281,6 +281,6 @@ namespace geocone
     const std::vector<Point> vertices;
     std::vector<Side>        sides;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

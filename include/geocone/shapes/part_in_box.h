@@ -13,7 +13,7 @@
 #include <cmath>
 #include <optional>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** The ends of the part of the segment ab that is in a box of two corners, if there is
    *  one. */
@@ -41,6 +41,6 @@ namespace geocone
       {dealii::Point<dim>(a + from * along),
        dealii::Point<dim>(a + to * along)}};
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

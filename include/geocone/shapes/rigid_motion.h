@@ -11,7 +11,7 @@
 
 #include <Eigen/Geometry>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** What a rigid body has moved, its velocity, or its forces: of its centre along the
    *  coordinates (m, m/s, N/m), and about it, counterclockwise about the axes of
@@ -125,6 +125,6 @@ namespace geocone
 
   /** Number of components of a rigid motion: translations, then rotations. */
   constexpr unsigned int n_motions = RigidMotion::n_components;
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

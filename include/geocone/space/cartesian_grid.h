@@ -12,7 +12,7 @@
 #include <array>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * A uniform grid of rectangles, or cuboids, over a box, with the splines of degree 1 (hats,
@@ -113,6 +113,6 @@ namespace geocone
       return inside;
     }
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

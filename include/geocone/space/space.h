@@ -22,7 +22,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * A velocity field: dim values per node, at 2 node + component of the local
@@ -296,6 +296,6 @@ namespace geocone
   /** The cubic triangle: 1 dof per vertex, 2 per edge, 1 inside. */
   std::unique_ptr<dealii::FiniteElement<dim>>
   make_cubic_simplex();
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

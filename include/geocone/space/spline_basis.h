@@ -11,7 +11,7 @@
 #include <array>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** Largest polynomial degree of the bases of moving points. */
   constexpr unsigned int max_degree = 3;
@@ -85,6 +85,6 @@ namespace geocone
     const std::vector<std::array<unsigned int, dim>> &lattice,
     double                                           *N,
     dealii::Tensor<1, dim>                           *gradient);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

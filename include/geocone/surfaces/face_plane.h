@@ -11,7 +11,7 @@
 #include <array>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * What is between the corners of a face of a cell in order around it: of an edge, a
@@ -99,6 +99,6 @@ namespace geocone
     dealii::Point<dim>     origin; ///< the first corner
     dealii::Tensor<1, dim> axes[dim - 1];
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

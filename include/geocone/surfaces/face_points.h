@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** A quadrature point of a face of a cell. */
   struct FacePoint
@@ -83,6 +83,6 @@ namespace geocone
                  const unsigned int       n_faces,
                  const MPI_Comm           comm,
                  const std::string       &what);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** The corners of a flat piece of the body's border: in the plane a line with the body
    *  on the left, in space a triangle, counterclockwise as seen from outside. */
@@ -62,6 +62,6 @@ namespace geocone
    *  c and d; to < from: nowhere. */
   std::pair<double, double>
   part_of_line(const std::vector<std::pair<double, double>> &conditions);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -10,7 +10,7 @@
 #include <array>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * Sides of a body, or their parts in a box, that move with it: facets whose corners are
@@ -60,6 +60,6 @@ namespace geocone
     std::vector<Part>               parts;
     std::vector<dealii::Point<dim>> places; ///< of the corners
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

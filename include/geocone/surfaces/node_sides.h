@@ -9,7 +9,7 @@
 
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The sides of a body at its nodes: of each face the integral of N_i (m, m^2) and the
@@ -49,6 +49,6 @@ namespace geocone
     const Space                   &space;
     std::vector<std::vector<Side>> sides; ///< by local node
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

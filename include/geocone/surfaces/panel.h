@@ -10,7 +10,7 @@
 #include <array>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** A flat part of a side of the body, as it is: in the plane a line, in space a
    *  parallelogram. */
@@ -68,6 +68,6 @@ namespace geocone
   cell_size_along(const BackgroundMesh &mesh,
                   const Panel          &panel,
                   const unsigned int    edge);
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

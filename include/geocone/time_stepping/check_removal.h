@@ -9,7 +9,7 @@
 
 #include <string>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** Before the run: what Stage::removal_text() refuses in it. @throws InputError */
   inline void
@@ -27,6 +27,6 @@ namespace geocone
         throw InputError(failure.what());
       }
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

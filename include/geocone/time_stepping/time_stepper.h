@@ -12,7 +12,7 @@
 
 #include <deal.II/base/timer.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** Everything that a run advances in time, besides the points' state. */
   struct Kinematics
@@ -313,6 +313,6 @@ namespace geocone
     virtual void
     take_points(const Archive &archive, MaterialPoints &points) = 0;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -8,7 +8,7 @@
 #include <geocone/space/cartesian_grid.h>
 #include <geocone/transfer/grid_transfer.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The transfer on a uniform grid, which finds cells by a multiplication. Ranks
@@ -155,6 +155,6 @@ namespace geocone
     std::vector<unsigned int>        count, order;  ///< of sort_by_cell()
     std::vector<std::vector<double>> receive, sent; ///< of exchange()
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * The nodes of an explicit step, and how points give to them and take from
@@ -184,6 +184,6 @@ namespace geocone
     /** Volume, and volume times value, of the points of each cell. */
     std::vector<double> sums_of_cells;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

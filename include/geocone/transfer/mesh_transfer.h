@@ -10,7 +10,7 @@
 #include <geocone/space/space.h>
 #include <geocone/transfer/grid_transfer.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   class Constraints;
 
@@ -172,6 +172,6 @@ namespace geocone
     std::vector<Functions>    functions;  ///< per group
     Vector                    exchanged;
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -11,7 +11,7 @@
  * Where four points are on a grid, and the values there of the functions that reach
  * them: what every kernel of a transfer begins with. P: Pack of an architecture.
  */
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /** A value of each function of each direction, at four points. */
   template <int p>
@@ -172,6 +172,6 @@ namespace geocone
         }
     }
   };
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

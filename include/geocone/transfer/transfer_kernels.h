@@ -6,7 +6,7 @@
 
 #include <geocone/kernels/point_block.h>
 
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   /**
    * One direction of a uniform grid, with the splines (or hats) of a degree p on
@@ -215,6 +215,6 @@ namespace geocone
   /** The best version that this machine has; see machine_has_avx2(). */
   const TransferKernels &
   transfer_kernels();
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif

@@ -16,7 +16,7 @@
  * Everything here is a template over the architecture, or a member of one: a
  * plain inline function might be taken from the unit of another one.
  */
-namespace geocone
+namespace geocone::GEOCONE_DIM
 {
   template <typename Arch>
   struct TransferLoops
@@ -620,6 +620,6 @@ namespace geocone
             &Loops::prepare_scatter,
             &Loops::replace_mean_stress};
   }
-} // namespace geocone
+} // namespace geocone::GEOCONE_DIM
 
 #endif
