@@ -61,7 +61,8 @@ namespace geocone::GEOCONE_DIM
   } // namespace
 
   ImplicitFEM::ImplicitFEM()
-    : dealii::ParameterAcceptor("/Time stepping")
+    : ImplicitStepper("commit")
+    , dealii::ParameterAcceptor("/Time stepping")
   {
     add_parameter("Inertia",
                   inertia,
@@ -140,6 +141,7 @@ namespace geocone::GEOCONE_DIM
       mesh_.triangulation().get_communicator(),
       scene->materials.traits().symmetric && !obstacles->exists());
     begin(points, timer);
+    unknowns = constraints->n_rows;
     constraints->check_axis(mesh_, space_);
     check_resistance(points, mesh_.triangulation().get_communicator());
     newton.check(*problem);
@@ -155,7 +157,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ImplicitFEM::begin(const MaterialPoints &points, TimerOutput &timer)
+  ImplicitFEM::begin(MaterialPoints &points, TimerOutput &timer)
   {
     if (scene->loading.changes_body())
       {
@@ -194,97 +196,92 @@ namespace geocone::GEOCONE_DIM
     if (absorbing->exists())
       problem->add(*absorbing);
     system->set_pattern(*problem, timer);
-    begun = true;
+    has_pattern = begun = true;
   }
 
-  Vector
-  ImplicitFEM::net_force(const double t) const
+  void
+  ImplicitFEM::evaluate_force(Vector &dst,
+                              const MaterialPoints & /* points */,
+                              const double t,
+                              const Stage *stage,
+                              const bool   raised)
   {
-    Vector net = problem->make_vector(), of_stress = net;
-    loads->evaluate(net, weight_per_g, t);
-    problem->internal_forces().forces_at_start(of_stress);
-    constraints->turn_back(of_stress);
-    net -= of_stress;
-    return net;
+    loads->evaluate(dst, weight_per_g, t, stage, raised);
   }
 
-  BodyChange
-  ImplicitFEM::change_body(const Stage    &stage,
-                           const double    t,
-                           TimerOutput    &timer,
-                           Kinematics     &kinematics,
-                           MaterialPoints &points)
+  void
+  ImplicitFEM::take_cells(const std::vector<bool> &is_there,
+                          MaterialPoints          &points) const
   {
-    using Cell = BackgroundMesh::Cell;
-    if (!begun)
-      begin(points, timer);
-    const MPI_Comm comm = kinematics.velocity.get_mpi_communicator();
-    BodyChange     change;
-    change.before = state_energies(kinematics, points, t);
+    points = quadrature_points_of(*scene,
+                                  *mesh,
+                                  *space,
+                                  std::move(points),
+                                  [&](const BackgroundMesh::Cell &cell) {
+                                    return is_there[cell->active_cell_index()];
+                                  });
+  }
 
+  void
+  ImplicitFEM::remove(const Stage              &stage,
+                      MaterialPoints           &points,
+                      std::vector<std::string> &remarks)
+  {
+    const MPI_Comm    comm     = mesh->triangulation().get_communicator();
     std::vector<bool> is_there = mesh->is_among(points.cells);
-    const auto        take     = [&](const double duration) {
-      const std::vector<bool> had_cells  = constraints->with_mass;
-      Vector                  difference = net_force(t);
-      points                             = quadrature_points_of(
-        *scene, *mesh, *space, std::move(points), [&](const Cell &cell) {
-          return is_there[cell->active_cell_index()];
-        });
-      begin(points, timer);
-      difference -= net_force(t);
-      // Nodes without cells are at rest, and where cells come to be displacements
-      // begin.
-      for (unsigned int i = 0; i < difference.locally_owned_size(); ++i)
-        if (!constraints->has_mass(i) || !had_cells[i])
-          {
-            kinematics.velocity.local_element(i) = 0.;
-            if (constraints->has_mass(i))
-              kinematics.displacement.local_element(i) = 0.;
-            else
-              difference.local_element(i) = 0.;
-          }
-      fading.add(std::move(difference), t, duration);
-    };
+    unsigned int      n        = 0;
+    for (const BackgroundMesh::Cell &cell : points.cells)
+      if (stage.removes(cell->center()))
+        {
+          is_there[cell->active_cell_index()] = false;
+          ++n;
+        }
+    remarks.push_back(
+      stage.removal_text(dealii::Utilities::MPI::sum(n, comm),
+                         dealii::Utilities::MPI::sum(points.n_cells(), comm),
+                         "cells"));
+    take_cells(is_there, points);
+  }
 
-    if (stage.removes())
-      {
-        unsigned int n = 0;
-        for (const Cell &cell : points.cells)
-          if (stage.removes(cell->center()))
-            {
-              is_there[cell->active_cell_index()] = false;
-              ++n;
-            }
-        change.remarks.push_back(stage.removal_text(
-          dealii::Utilities::MPI::sum(n, comm),
-          dealii::Utilities::MPI::sum(points.n_cells(), comm),
-          "cells"));
-        take(stage.removal_duration);
-      }
+  void
+  ImplicitFEM::add(const Stage              &stage,
+                   MaterialPoints           &points,
+                   std::vector<std::string> &remarks)
+  {
+    std::vector<bool> is_there = mesh->is_among(points.cells);
     for (const std::string &material : stage.added_materials)
       {
         unsigned int n = 0;
-        for (const Cell &cell : mesh->own_cells())
+        for (const BackgroundMesh::Cell &cell : mesh->own_cells())
           if (scene->materials.name(cell->material_id()) == material)
             {
               is_there[cell->active_cell_index()] = true;
               ++n;
             }
-        change.remarks.push_back(format("added %u cells of the material '",
-                                        dealii::Utilities::MPI::sum(n, comm)) +
-                                 material + "'");
+        remarks.push_back(
+          format("added %u cells of the material '",
+                 dealii::Utilities::MPI::sum(
+                   n, mesh->triangulation().get_communicator())) +
+          material + "'");
       }
-    if (!stage.added_materials.empty())
-      take(stage.addition_duration);
-    if (!stage.changed_materials.empty())
-      {
-        for (const std::string &remark :
-             change_materials(stage, *scene, *space, comm, points))
-          change.remarks.push_back(remark);
-        begin(points, timer);
-      }
-    change.after = state_energies(kinematics, points, t);
-    return change;
+    take_cells(is_there, points);
+  }
+
+  void
+  ImplicitFEM::change_nodes(const std::vector<bool> &had_mass,
+                            Kinematics              &kinematics,
+                            Vector                  &difference) const
+  {
+    // Nodes without cells are at rest, and where cells come to be displacements begin.
+    for (unsigned int i = 0; i < difference.locally_owned_size(); ++i)
+      if (!constraints->has_mass(i) || !had_mass[i])
+        {
+          kinematics.velocity.local_element(i) = 0.;
+          if (constraints->has_mass(i))
+            kinematics.displacement.local_element(i) = 0.;
+          else
+            difference.local_element(i) = 0.;
+        }
   }
 
   void
@@ -326,83 +323,51 @@ namespace geocone::GEOCONE_DIM
     return e;
   }
 
-  RaisedLoads
-  ImplicitFEM::begin_step(const TimeStep   &step,
-                          const Kinematics &kinematics,
-                          TimerOutput      &timer)
+  void
+  ImplicitFEM::begin_motion(const TimeStep & /* step */,
+                            const Kinematics &kinematics,
+                            const MaterialPoints & /* points */,
+                            const Vector & /* prescribed */)
   {
-    Vector prescribed = problem->make_vector();
-    constraints->set_values(prescribed, step.prescribed_at);
-    // Where dofs are turned, the problem has its vectors along them.
-    const Stage &stage  = scene->loading.stage_at(step.t + step.h / 2.);
-    const bool   raises = stage.raises_loads();
-    if (has_force())
-      {
-        loads->evaluate(
-          force, weight_per_g, step.solved_at, raises ? &stage : nullptr);
-        fading.add_to(force, step.solved_at);
-        constraints->turn(force);
-      }
-    RaisedLoads raised;
     if (scene->loading.raises_loads())
       constraints->multipliers.clear();
-    if (raises)
-      {
-        Vector of_raised = problem->make_vector();
-        loads->evaluate(of_raised, weight_per_g, step.solved_at, &stage, true);
-        constraints->turn(of_raised);
-        raised.add_row(stage, of_raised, prescribed, *constraints);
-      }
     velocity_L = kinematics.velocity;
     constraints->turn(velocity_L);
-    if (integration.is_newmark())
-      {
-        Vector net = net_force(step.t);
-        fading.add_to(net, step.t);
-        constraints->turn(net);
-        integration.predict(step, net, lumped_mass, *constraints, velocity_L);
-      }
-    ContactStep touching;
-    if (obstacles->exists())
-      {
-        kinematics.velocity.update_ghost_values();
-        touching =
-          obstacles->begin(kinematics.velocity, step.t, step.h, step.solved_h);
-        kinematics.velocity.zero_out_ghost_values();
-      }
-    if (absorbing->exists())
-      absorbing->begin_step(step.solved_at, *constraints);
-    problem->begin_step(step.solved_h,
-                        has_force() ? &force : nullptr,
-                        velocity_L,
-                        prescribed,
-                        std::move(touching));
-    if (problem->needs_pattern())
-      system->set_pattern(*problem, timer);
-    return raised;
   }
 
-  double
-  ImplicitFEM::work_of_forces(const TimeStep &step,
-                              const Vector   &v,
-                              const Vector   &residual) const
+  ContactStep
+  ImplicitFEM::find_contact(const TimeStep   &step,
+                            const Kinematics &kinematics,
+                            const MaterialPoints & /* points */)
   {
-    double work = 0.;
-    for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
-      {
-        if (has_force())
-          work += step.h * force.local_element(i) * v.local_element(i);
-        if (constraints->is_prescribed(i))
-          work += step.h * residual.local_element(i) * v.local_element(i);
-      }
-    work = dealii::Utilities::MPI::sum(work, v.get_mpi_communicator());
-    if (absorbing->exists())
-      work += step.h * absorbing->power(v);
-    return work;
+    kinematics.velocity.update_ghost_values();
+    ContactStep touching =
+      obstacles->begin(kinematics.velocity, step.t, step.h, step.solved_h);
+    kinematics.velocity.zero_out_ghost_values();
+    return touching;
+  }
+
+  SolverReport
+  ImplicitFEM::solve(const TimeStep & /* step */,
+                     const Kinematics & /* kinematics */,
+                     const Solving &with,
+                     Vector        &v,
+                     Vector        &residual)
+  {
+    v = start_velocity();
+    const SolverReport report =
+      with.newton.solve(*problem,
+                        *system,
+                        with.timer,
+                        v,
+                        residual,
+                        {false, with.accepted_excess});
+    with.freezer.take(*problem, start_velocity(), false, report.converged);
+    return report;
   }
 
   double
-  ImplicitFEM::update_points(const TimeStep &step, MaterialPoints &points) const
+  ImplicitFEM::update_points(const TimeStep &step, MaterialPoints &points)
   {
     const std::vector<EndOfStep> ends =
       end_step(step, problem->internal_forces(), scene->materials, points);
@@ -421,103 +386,18 @@ namespace geocone::GEOCONE_DIM
   }
 
   double
-  ImplicitFEM::update_kinematics(const TimeStep &step,
-                                 const Vector   &v,
-                                 Kinematics     &kinematics)
+  ImplicitFEM::update_nodes(const TimeStep &step,
+                            const Vector   &v_end,
+                            const Vector   &v,
+                            Kinematics     &kinematics)
   {
-    double settled = 0.;
+    kinematics.velocity = v_end;
+    double settled      = 0.;
     if (step.extrapolation != 1. && obstacles->exists())
       settled = obstacles->settle(
         problem->contact(), *constraints, v, lumped_mass, kinematics.velocity);
     kinematics.displacement.add(step.h, v);
-    for (unsigned int c = 0; c < scene->dirichlet.list.size(); ++c)
-      for (unsigned int d = 0; d < dim; ++d)
-        kinematics.supports[c][d] += step.h * constraints->mean(v, c, d);
-    if (obstacles->exists())
-      obstacles->add_displacements(problem->contact(),
-                                   v,
-                                   step.h,
-                                   scene->dirichlet.list.size(),
-                                   kinematics.supports);
     return settled;
-  }
-
-  StepReport
-  ImplicitFEM::advance(Kinematics            &kinematics,
-                       MaterialPoints        &points,
-                       const NonsmoothNewton &newton,
-                       Freezer               &freezer,
-                       TimerOutput           &timer,
-                       const double           t,
-                       const double           h,
-                       const double           accepted_excess)
-  {
-    if (!begun)
-      begin(points, timer);
-    const TimeStep    step   = integration.step(t, h);
-    const RaisedLoads raised = begin_step(step, kinematics, timer);
-
-    StepReport report;
-    Vector     residual = problem->make_vector();
-    Vector     v        = velocity_L;
-    report.newton       = newton.solve(
-      *problem, *system, timer, v, residual, {false, accepted_excess});
-    report.converged = report.newton.converged;
-    freezer.take(*problem, velocity_L, false, report.converged);
-    if (const Stage &stage = scene->loading.stage_at(t + h / 2.);
-        stage.seeks_equilibrium() && report.converged)
-      {
-        report.newton.reason = stage.no_equilibrium(accelerating_share(
-          *problem, points, scene->materials, velocity_L, v));
-        report.converged     = report.newton.reason.empty();
-      }
-    if (!report.converged)
-      return report;
-
-    TimerOutput::Scope scope(timer, "commit");
-    report.load_factor =
-      raised.take(*constraints, problem->multipliers(), force, residual);
-    report.unknowns              = constraints->n_rows;
-    const InternalForces &forces = problem->internal_forces();
-    report.quality               = forces.quality();
-    Works &works                 = report.works;
-    works.external               = work_of_forces(step, v, residual);
-    if (obstacles->exists())
-      {
-        report.contact = obstacles->report(problem->contact(), v, h);
-        works.external += report.contact.work;
-      }
-    report.identity_error =
-      energy_identity_error(*problem,
-                            points,
-                            scene->materials,
-                            velocity_L,
-                            v,
-                            (step.solved_h / h) * works.external);
-    works.of_excess   = (h / step.solved_h) * forces.excess_work();
-    works.dissipation = update_points(step, points);
-
-    kinematics.velocity = integration.end_velocity(step, velocity_L, v);
-    constraints->turn_back(kinematics.velocity);
-    constraints->turn_back(v);
-    report.reactions = constraints->reactions(
-      residual, points, forces.total_stress(), step.solved_at);
-    // Friction takes of the work what it does not give to the body.
-    works.external += report.contact.dissipation;
-    report.contact.dissipation += update_kinematics(step, v, kinematics);
-    works.contact_dissipation =
-      report.contact.dissipation - report.contact.of_rebound;
-    if (obstacles->exists())
-      {
-        for (const Reaction &reaction :
-             obstacles->reactions(problem->contact()))
-          report.reactions.push_back(reaction);
-        obstacles->commit(problem->contact(), v, h, step.solved_h, true);
-      }
-    report.energies = state_energies(kinematics, points, t + h);
-    report.largest_plastic_strain =
-      largest_plastic_strain(points, v.get_mpi_communicator());
-    return report;
   }
 
   void

@@ -335,7 +335,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ImplicitMPM::add_water(const MaterialPoints &points, const double t)
+  ImplicitMPM::add_water(const MaterialPoints &points,
+                         const double          t,
+                         Vector               &dst) const
   {
     Vector       of_water(space->partitioner());
     const double part = scene->gravity.at(t)[1] / scene->gravity.at(1e300)[1];
@@ -352,40 +354,38 @@ namespace geocone::GEOCONE_DIM
                      at.scatter<dim, false>(f.begin_raw(), of_water.begin());
                    });
     of_water.compress(VectorOperation::add);
-    force += of_water;
+    dst += of_water;
   }
 
   void
-  ImplicitMPM::evaluate_force(const MaterialPoints &points,
+  ImplicitMPM::evaluate_force(Vector               &dst,
+                              const MaterialPoints &points,
                               const double          t,
                               const Stage          *stage,
                               const bool            raised)
   {
-    force = 0.;
+    dst = 0.;
     const bool has_weight =
       stage == nullptr || stage->raises("weight") == raised;
     const Tensor<1, dim> g =
       has_weight ? scene->gravity.at(t) : Tensor<1, dim>();
-    moving->add_tractions(force, t, stage, raised);
+    moving->add_tractions(dst, t, stage, raised);
     if (scene->water.acts() && !raised)
-      add_water(points, t);
-    for (unsigned int dof = 0; dof < force.locally_owned_size(); ++dof)
-      force.local_element(dof) =
+      add_water(points, t, dst);
+    for (unsigned int dof = 0; dof < dst.locally_owned_size(); ++dof)
+      dst.local_element(dof) =
         constraints->has_mass(dof)
-          ? force.local_element(dof) +
+          ? dst.local_element(dof) +
               g[dof % dim] * lumped_mass.local_element(dof)
           : 0.;
   }
 
   SolverReport
-  ImplicitMPM::solve(const TimeStep        &step,
-                     const Kinematics      &kinematics,
-                     const NonsmoothNewton &newton,
-                     NonsmoothNewton::Hints hints,
-                     Freezer               &freezer,
-                     TimerOutput           &timer,
-                     Vector                &v,
-                     Vector                &residual)
+  ImplicitMPM::solve(const TimeStep   &step,
+                     const Kinematics &kinematics,
+                     const Solving    &with,
+                     Vector           &v,
+                     Vector           &residual)
   {
     SolverReport report;
     for (const Start start : starts)
@@ -399,179 +399,121 @@ namespace geocone::GEOCONE_DIM
                                      : 0.;
         constraints->set_values(v, step.prescribed_at);
         const Vector v_start = v;
-        hints.elastic_first  = start == Start::particles;
         SolverReport tried =
-          newton.solve(*problem, *system, timer, v, residual, hints);
+          with.newton.solve(*problem,
+                            *system,
+                            with.timer,
+                            v,
+                            residual,
+                            {start == Start::particles, with.accepted_excess});
         tried.add_earlier(report);
         report = std::move(tried);
-        freezer.take(*problem, v_start, true, report.converged);
+        with.freezer.take(*problem, v_start, true, report.converged);
         if (report.converged || report.exceeds)
           break;
       }
     return report;
   }
 
-  RaisedLoads
-  ImplicitMPM::begin_step(const TimeStep       &step,
-                          const MaterialPoints &points,
-                          TimerOutput          &timer)
+  void
+  ImplicitMPM::begin_motion(const TimeStep &step,
+                            const Kinematics & /* kinematics */,
+                            const MaterialPoints &points,
+                            const Vector         &prescribed)
   {
-    const Stage &stage      = scene->loading.stage_at(step.t + step.h / 2.);
-    Vector       prescribed = problem->make_vector();
-    RaisedLoads  raised;
-    {
-      TimerOutput::Scope scope(timer, "transfer");
-      constraints->set_values(prescribed, step.prescribed_at);
-      if (integration.is_newmark())
-        {
-          Vector net = net_force(points, step.t);
-          fading.add_to(net, step.t);
-          predicted = velocity_L;
-          integration.predict(step, net, lumped_mass, *constraints, predicted);
-          predicted.update_ghost_values();
-        }
-      moving->make_rows(
-        points,
-        prescribed,
-        step.solved_at,
-        {velocity_L, rule.flip_part(), step.solved_h / step.h, step.t + step.h},
-        *constraints);
-      if (stage.raises_loads())
-        {
-          evaluate_force(points, step.solved_at, &stage, true);
-          raised.add_row(stage, force, prescribed, *constraints);
-        }
-      evaluate_force(
-        points, step.solved_at, stage.raises_loads() ? &stage : nullptr);
-      fading.add_to(force, step.solved_at);
-    }
-    if (absorbing->exists())
-      absorbing->begin_step(step.solved_at, *constraints);
-    ContactStep touching;
-    if (obstacles->exists())
-      touching = obstacles->begin(
-        velocity_L,
-        step.t,
-        step.h,
-        step.solved_h,
-        gaps_of_particles(
-          points, *scene, obstacles->moved(), *space, obstacles->margin()),
-        bodies ? bodies->find(points, *constraints)
-               : std::vector<FacingNode>());
-    problem->begin_step(
-      step.solved_h, &force, start_velocity(), prescribed, std::move(touching));
-    if (!has_pattern || problem->needs_pattern())
-      system->set_pattern(*problem, timer);
-    has_pattern = true;
-    return raised;
+    moving->make_rows(
+      points,
+      prescribed,
+      step.solved_at,
+      {velocity_L, rule.flip_part(), step.solved_h / step.h, step.t + step.h},
+      *constraints);
   }
 
-  StepReport
-  ImplicitMPM::advance(Kinematics            &kinematics,
-                       MaterialPoints        &points,
-                       const NonsmoothNewton &newton,
-                       Freezer               &freezer,
-                       TimerOutput           &timer,
-                       const double           t,
-                       const double           h,
-                       const double           accepted_excess)
+  ContactStep
+  ImplicitMPM::find_contact(const TimeStep &step,
+                            const Kinematics & /* kinematics */,
+                            const MaterialPoints &points)
   {
-    if (!begun)
-      begin(points, timer);
-    const TimeStep    step   = integration.step(t, h);
-    const RaisedLoads raised = begin_step(step, points, timer);
-    StepReport        report;
-    report.unknowns = unknowns = constraints->n_rows;
-    report.multipliers         = constraints->multipliers.n_rows();
-    report.rows                = constraints->multipliers.n_given();
-    Vector v = problem->make_vector(), residual = problem->make_vector();
-    report.newton = solve(step,
-                          kinematics,
-                          newton,
-                          {false, accepted_excess},
-                          freezer,
-                          timer,
-                          v,
-                          residual);
-    if (!report.newton.converged)
-      return report;
+    return obstacles->begin(
+      velocity_L,
+      step.t,
+      step.h,
+      step.solved_h,
+      gaps_of_particles(
+        points, *scene, obstacles->moved(), *space, obstacles->margin()),
+      bodies ? bodies->find(points, *constraints) : std::vector<FacingNode>());
+  }
 
-    TimerOutput::Scope scope(timer, "transfer");
+  std::string
+  ImplicitMPM::try_move(const TimeStep       &step,
+                        const MaterialPoints &points,
+                        const Vector         &v_end,
+                        const Vector         &v)
+  {
     // By the midpoint rule a node that hits rebounds, and its particles share that with
     // others when the next step begins: what touches comes to rest by itself, where
     // fixed meshes need ObstacleContact::settle.
-    const Vector v_end = integration.end_velocity(step, start_velocity(), v);
-    std::vector<Moved>            moved;
-    const Multipliers::LightShare share =
-      constraints->multipliers.light_share(v, lumped_mass, *space);
-    report.newton.reason = objection(share);
-    if (const Stage &stage = scene->loading.stage_at(t + h / 2.);
-        stage.seeks_equilibrium() && report.newton.reason.empty())
-      report.newton.reason = stage.no_equilibrium(accelerating_share(
-        *problem, points, scene->materials, start_velocity(), v));
-    if (report.newton.reason.empty())
-      report.newton.reason = transfer(points, v_end, v, h, moved);
-    if (!report.newton.reason.empty())
-      return report;
-    report.converged = true;
+    trial       = {};
+    trial.share = constraints->multipliers.light_share(v, lumped_mass, *space);
+    const std::string why_not = objection(trial.share);
+    return why_not.empty() ? transfer(points, v_end, v, step.h) : why_not;
+  }
 
-    // From here on the step is accepted.
-    std::pair<unsigned int, double> put_back;
-    if (advection != Advection::none)
-      {
-        moving->move(v, h, step.solved_at);
-        put_back = put_points_back(points, moved);
-      }
-    report.load_factor =
-      raised.take(*constraints, problem->multipliers(), force, residual);
-    const InternalForces &internal = problem->internal_forces();
-    report.quality                 = internal.quality();
-    report.reactions               = constraints->reactions(
-      residual, points, internal.total_stress(), step.solved_at);
-    take_works(step, points, moved, v, residual, report);
-    report.works.dissipation = update_points(step, moved, points);
-    if (obstacles->exists())
-      {
-        for (const Reaction &reaction :
-             obstacles->reactions(problem->contact()))
-          report.reactions.push_back(reaction);
-        obstacles->commit(problem->contact(),
-                          v,
-                          h,
-                          step.solved_h,
-                          advection != Advection::none);
-      }
-    update_supports(step, v, kinematics, report.reactions);
+  void
+  ImplicitMPM::accept_move(const TimeStep       &step,
+                           const MaterialPoints &points,
+                           const Vector         &v)
+  {
+    if (advection == Advection::none)
+      return;
+    moving->move(v, step.h, step.solved_at);
+    put_points_back(points);
+  }
+
+  double
+  ImplicitMPM::update_nodes(const TimeStep & /* step */,
+                            const Vector & /* v_end */,
+                            const Vector &v,
+                            Kinematics   &kinematics)
+  {
+    kinematics.velocity = v;
     had_mass.resize(v.locally_owned_size());
     for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
       had_mass[i] = constraints->has_mass(i);
-    kinematics.velocity = v;
+    return 0.;
+  }
+
+  void
+  ImplicitMPM::finish(const TimeStep        &step,
+                      const NonsmoothNewton &newton,
+                      TimerOutput           &timer,
+                      Kinematics            &kinematics,
+                      MaterialPoints        &points,
+                      StepReport            &report)
+  {
+    TimerOutput::Scope scope(timer, "transfer");
     if (following)
       follow_side();
+    const double       t             = step.t + step.h;
     const unsigned int n_lost_before = particles.n_lost();
     Energies           before;
     if (points_may_leave())
-      before = state_energies(kinematics, points, t + h);
+      before = state_energies(kinematics, points, t);
     particles.sort(points);
-    begun                              = false;
+    begun = false;
+    if (particles.n_lost() > n_lost_before)
+      report.of_lost = before - state_energies(kinematics, points, t);
     const unsigned int n_light_of_step = n_light;
     if (is_unbalanced(points))
       {
         scope.stop(); // a new problem begins, which is timed by itself
         hand_over_state(newton, timer, kinematics, points);
       }
-
-    report.energies = state_energies(kinematics, points, t + h);
-    if (particles.n_lost() > n_lost_before)
-      report.of_lost = before - report.energies;
-    report.largest_plastic_strain =
-      largest_plastic_strain(points, v.get_mpi_communicator());
     report.motion = {n_light_of_step,
                      moving->n_behind(points),
-                     put_back.first,
-                     put_back.second,
-                     share.largest,
+                     trial.n_put_back,
+                     trial.put_back,
+                     trial.share.largest,
                      front_of(points)};
-    return report;
   }
 } // namespace geocone::GEOCONE_DIM

@@ -10,7 +10,8 @@ namespace geocone::GEOCONE_DIM
   using namespace dealii;
 
   ImplicitMPM::ImplicitMPM(const ParameterFile &file)
-    : ParameterAcceptor("/Material point method")
+    : ImplicitStepper("transfer")
+    , ParameterAcceptor("/Material point method")
     , particles(file)
   {
     advection.declare(

@@ -14,77 +14,48 @@ namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
-  Vector
-  ImplicitMPM::net_force(const MaterialPoints &points, const double t)
+  void
+  ImplicitMPM::remove(const Stage              &stage,
+                      MaterialPoints           &points,
+                      std::vector<std::string> &remarks)
   {
-    evaluate_force(points, t);
-    Vector net = force, of_stress = problem->make_vector();
-    problem->internal_forces().forces_at_start(of_stress);
-    net -= of_stress;
-    return net;
+    std::vector<bool> stays;
+    for (const Point<dim> &x : points.position)
+      stays.push_back(!stage.removes(x));
+    const MPI_Comm comm = force.get_mpi_communicator();
+    remarks.push_back(stage.removal_text(
+      Utilities::MPI::sum(std::count(stays.begin(), stays.end(), false), comm),
+      Utilities::MPI::sum(stays.size(), comm),
+      "points"));
+    particles.keep(stays, points);
   }
 
-  BodyChange
-  ImplicitMPM::change_body(const Stage    &stage,
-                           const double    t,
-                           TimerOutput    &timer,
-                           Kinematics     &kinematics,
-                           MaterialPoints &points)
+  void
+  ImplicitMPM::add(const Stage              &stage,
+                   MaterialPoints           &points,
+                   std::vector<std::string> &remarks)
   {
-    if (!begun)
-      begin(points, timer);
-    BodyChange change;
-    change.before = state_energies(kinematics, points, t);
-    Vector     difference;
-    const auto take = [&](const double duration) {
-      begin(points, timer);
-      difference -= net_force(points, t);
-      for (unsigned int i = 0; i < difference.locally_owned_size(); ++i)
-        if (!constraints->has_mass(i))
-          difference.local_element(i) = 0.;
-      fading.add(std::move(difference), t, duration);
-    };
-    if (stage.removes())
-      {
-        std::vector<bool> stays;
-        for (const Point<dim> &x : points.position)
-          stays.push_back(!stage.removes(x));
-        const MPI_Comm comm = force.get_mpi_communicator();
-        change.remarks.push_back(stage.removal_text(
-          Utilities::MPI::sum(std::count(stays.begin(), stays.end(), false),
-                              comm),
-          Utilities::MPI::sum(stays.size(), comm),
-          "points"));
-        difference = net_force(points, t);
-        particles.keep(stays, points);
-        take(stage.removal_duration);
-      }
-    if (!stage.added_materials.empty())
-      {
-        difference = net_force(points, t);
-        for (unsigned int m = 0; m < scene->materials.size(); ++m)
-          if (const std::string &name = scene->materials.name(m);
-              std::count(stage.added_materials.begin(),
-                         stage.added_materials.end(),
-                         name) > 0)
-            {
-              change.remarks.push_back(
-                format("added %lu points of the material '",
-                       particles.add(m, points)) +
-                name + "'");
-              added.push_back(m);
-            }
-        take(stage.addition_duration);
-      }
-    if (!stage.changed_materials.empty())
-      {
-        for (const std::string &remark : change_materials(
-               stage, *scene, *space, force.get_mpi_communicator(), points))
-          change.remarks.push_back(remark);
-        begin(points, timer);
-      }
-    change.after = state_energies(kinematics, points, t);
-    return change;
+    for (unsigned int m = 0; m < scene->materials.size(); ++m)
+      if (const std::string &name = scene->materials.name(m);
+          std::count(stage.added_materials.begin(),
+                     stage.added_materials.end(),
+                     name) > 0)
+        {
+          remarks.push_back(format("added %lu points of the material '",
+                                   particles.add(m, points)) +
+                            name + "'");
+          added.push_back(m);
+        }
+  }
+
+  void
+  ImplicitMPM::change_nodes(const std::vector<bool> & /* had_mass */,
+                            Kinematics & /* kinematics */,
+                            Vector &difference) const
+  {
+    for (unsigned int i = 0; i < difference.locally_owned_size(); ++i)
+      if (!constraints->has_mass(i))
+        difference.local_element(i) = 0.;
   }
 
   void

@@ -83,10 +83,9 @@ namespace geocone::GEOCONE_DIM
   ImplicitMPM::transfer(const MaterialPoints &points,
                         const Vector         &v,
                         const Vector         &v_mean,
-                        const double          h,
-                        std::vector<Moved>   &moved) const
+                        const double          h)
   {
-    moved.resize(points.n_points());
+    trial.moved.resize(points.n_points());
     const double flip_part = rule.flip_part();
     Vector       change    = v;
     change -= velocity_L;
@@ -110,7 +109,7 @@ namespace geocone::GEOCONE_DIM
           for (unsigned int d = 0; d < dim; ++d)
             gradient[i][d] = mean[dim * (1 + d) + i];
 
-        Moved &next = moved[p];
+        Moved &next = trial.moved[p];
         if (rule.is_affine())
           next.affine = at.gather_affine<dim>(
             v.begin(),
@@ -204,76 +203,15 @@ namespace geocone::GEOCONE_DIM
     return condition.imposition.get()->single ? &condition : nullptr;
   }
 
-  ImplicitMPM::WorksOnNodes
-  ImplicitMPM::works_on_nodes(const TimeStep &step,
-                              const Vector   &v,
-                              const Vector   &residual) const
+  double
+  ImplicitMPM::external_work(const WorksOnNodes   &works,
+                             const TimeStep       &step,
+                             const MaterialPoints &points) const
   {
-    std::array<double, 2> sums = {}; // of the weight, and the other forces
-    const Tensor<1, dim>  g    = scene->gravity.at(step.solved_at);
-    for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
-      {
-        const double weight = constraints->has_mass(i)
-                                ? g[i % dim] * lumped_mass.local_element(i)
-                                : 0.;
-        sums[0] += step.h * weight * v.local_element(i);
-        sums[1] +=
-          step.h * (force.local_element(i) - weight) * v.local_element(i);
-        if (constraints->is_prescribed(i))
-          sums[1] += step.h * residual.local_element(i) * v.local_element(i);
-      }
-    sum_over_ranks(sums, v.get_mpi_communicator());
-    const Multipliers &rows = constraints->multipliers;
-    if (rows.n_rows() > 0)
-      {
-        Eigen::VectorXd lambda = problem->multipliers();
-        if (rows.has_loads()) // they are in the force
-          lambda[lambda.size() - 1] = 0.;
-        sums[1] += step.h * lambda.dot(rows.multiply(v));
-      }
-    return {sums[0], sums[1]};
-  }
-
-  void
-  ImplicitMPM::take_works(const TimeStep           &step,
-                          const MaterialPoints     &points,
-                          const std::vector<Moved> &moved,
-                          const Vector             &v,
-                          const Vector             &residual,
-                          StepReport               &report) const
-  {
-    WorksOnNodes work = works_on_nodes(step, v, residual);
-    if (absorbing->exists())
-      work.of_others += step.h * absorbing->power(v);
-    if (obstacles->exists())
-      {
-        report.contact = obstacles->report(problem->contact(), v, step.h);
-        work.of_others += report.contact.work;
-      }
-    // What ghosts take of the work is not there for energies and dissipation.
-    const double ghost_work = problem->ghost_stiffness().work(v);
-    report.identity_error   = energy_identity_error(
-      *problem,
-      points,
-      scene->materials,
-      start_velocity(),
-      v,
-      (work.of_weight + work.of_others) * (step.solved_h / step.h) -
-        ghost_work);
-    // Particles that stay keep their potential energy, whatever moves the nodes:
-    // as with FEM, the work of the weight is that of an external force. Gravity
-    // that changes works on points at rest.
-    report.works.external = work.of_others +
-                            (advection == Advection::none
-                               ? work.of_weight
-                               : work_on_fixed_points(step, points, moved)) +
-                            work_of_changing_gravity(step, points) +
-                            report.contact.dissipation;
-    report.works.of_excess =
-      (step.h / step.solved_h) * problem->internal_forces().excess_work();
-    report.works.contact_dissipation =
-      report.contact.dissipation - report.contact.of_rebound;
-    report.works.of_ghosts = (step.h / step.solved_h) * ghost_work;
+    return works.of_others +
+           (advection == Advection::none ? works.of_weight
+                                         : work_on_fixed_points(step, points)) +
+           work_of_changing_gravity(step, points);
   }
 
   double
@@ -290,39 +228,41 @@ namespace geocone::GEOCONE_DIM
   }
 
   double
-  ImplicitMPM::work_on_fixed_points(const TimeStep           &step,
-                                    const MaterialPoints     &points,
-                                    const std::vector<Moved> &moved) const
+  ImplicitMPM::work_on_fixed_points(const TimeStep       &step,
+                                    const MaterialPoints &points) const
   {
     const Tensor<1, dim> g    = scene->gravity.at(step.solved_at);
     double               work = 0.;
     for (unsigned int p = 0; p < points.n_points(); ++p)
       if (scene->regions.are_fixed(points.material[p]))
-        work += points.mass[p] * (g * moved[p].displacement);
+        work += points.mass[p] * (g * trial.moved[p].displacement);
     return Utilities::MPI::sum(work, force.get_mpi_communicator());
   }
 
-  std::pair<unsigned int, double>
-  ImplicitMPM::put_points_back(const MaterialPoints &points,
-                               std::vector<Moved>   &moved) const
+  void
+  ImplicitMPM::put_points_back(const MaterialPoints &points)
   {
     unsigned int n       = 0;
     double       largest = 0.;
     for (unsigned int p = 0; p < points.n_points(); ++p)
-      if (const auto place =
-            points.held_by[p] > 0 ||
-                scene->regions.are_fixed(points.material[p])
-              ? std::nullopt
-              : moving->put_back(points.position[p], moved[p].position))
-        {
-          const Tensor<1, dim> change = *place - moved[p].position;
-          moved[p].position           = *place;
-          moved[p].displacement += change;
-          largest = std::max(largest, change.norm());
-          ++n;
-        }
+      {
+        Moved &next = trial.moved[p];
+        if (const auto place =
+              points.held_by[p] > 0 ||
+                  scene->regions.are_fixed(points.material[p])
+                ? std::nullopt
+                : moving->put_back(points.position[p], next.position))
+          {
+            const Tensor<1, dim> change = *place - next.position;
+            next.position               = *place;
+            next.displacement += change;
+            largest = std::max(largest, change.norm());
+            ++n;
+          }
+      }
     const MPI_Comm comm = force.get_mpi_communicator();
-    return {Utilities::MPI::sum(n, comm), Utilities::MPI::max(largest, comm)};
+    trial.n_put_back    = Utilities::MPI::sum(n, comm);
+    trial.put_back      = Utilities::MPI::max(largest, comm);
   }
 
   Point<dim>
@@ -340,10 +280,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   double
-  ImplicitMPM::update_points(const TimeStep           &step,
-                             const std::vector<Moved> &moved,
-                             MaterialPoints           &points) const
+  ImplicitMPM::update_points(const TimeStep &step, MaterialPoints &points)
   {
+    const std::vector<Moved>    &moved = trial.moved;
     const std::vector<EndOfStep> ends =
       end_step(step, problem->internal_forces(), scene->materials, points);
     double dissipation = 0.;
@@ -368,36 +307,5 @@ namespace geocone::GEOCONE_DIM
                 points.position[p], step.t + step.h);
       }
     return Utilities::MPI::sum(dissipation, force.get_mpi_communicator());
-  }
-
-  void
-  ImplicitMPM::update_supports(const TimeStep        &step,
-                               const Vector          &v,
-                               Kinematics            &kinematics,
-                               std::vector<Reaction> &reactions) const
-  {
-    const Eigen::VectorXd &lambda = problem->multipliers();
-    const Multipliers     &rows   = constraints->multipliers;
-    if (obstacles->exists())
-      obstacles->add_displacements(problem->contact(),
-                                   v,
-                                   step.h,
-                                   scene->dirichlet.list.size(),
-                                   kinematics.supports);
-    for (unsigned int c = 0; c < scene->dirichlet.list.size(); ++c)
-      {
-        const bool moves = scene->dirichlet.list[c]->moves();
-        if (moves)
-          reactions[c].moment =
-            rows.moment(lambda, c, constraints->centre(c), *space);
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            kinematics.supports[c][d] +=
-              step.h *
-              (moves ? rows.mean_target(c, d) : constraints->mean(v, c, d));
-            if (moves)
-              reactions[c].force[d] = rows.resultant(lambda, c, d);
-          }
-      }
   }
 } // namespace geocone::GEOCONE_DIM

@@ -4,6 +4,7 @@
 #ifndef geocone_conditions_loads_h
 #define geocone_conditions_loads_h
 
+#include <geocone/points/material_points.h>
 #include <geocone/scene/scene.h>
 #include <geocone/surfaces/face_points.h>
 

@@ -4,21 +4,15 @@
 #ifndef geocone_implicit_implicit_fem_h
 #define geocone_implicit_implicit_fem_h
 
-#include <geocone/conditions/constraints.h>
 #include <geocone/conditions/loads.h>
-#include <geocone/contact/obstacle_contact.h>
-#include <geocone/implicit/fading_forces.h>
-#include <geocone/implicit/raised_loads.h>
-#include <geocone/implicit/time_integration.h>
-#include <geocone/problem/absorbing_boundary.h>
-#include <geocone/time_stepping/time_stepper.h>
+#include <geocone/implicit/implicit_stepper.h>
 
 namespace geocone::GEOCONE_DIM
 {
   /**
    * Steps of the finite element method with points that do not move (small strains).
    */
-  class ImplicitFEM : public TimeStepper, public dealii::ParameterAcceptor
+  class ImplicitFEM : public ImplicitStepper, public dealii::ParameterAcceptor
   {
   public:
     ImplicitFEM();
@@ -43,51 +37,10 @@ namespace geocone::GEOCONE_DIM
                    const MaterialPoints &points,
                    const double          t) const override;
 
-    StepReport
-    advance(Kinematics            &kinematics,
-            MaterialPoints        &points,
-            const NonsmoothNewton &newton,
-            Freezer               &freezer,
-            dealii::TimerOutput   &timer,
-            const double           t,
-            const double           h,
-            const double           accepted_excess) override;
-
-    BodyChange
-    change_body(const Stage         &stage,
-                const double         t,
-                dealii::TimerOutput &timer,
-                Kinematics          &kinematics,
-                MaterialPoints      &points) override;
-
     void
     save(Archive &archive, const MaterialPoints &points) override;
     void
     load(const Archive &archive, MaterialPoints &points) override;
-
-    unsigned int
-    n_unknowns() const override
-    {
-      return constraints->n_rows;
-    }
-
-    std::string
-    linear_solver_name() const override
-    {
-      return system->solver_name();
-    }
-
-    std::size_t
-    n_nonzeros() const override
-    {
-      return system->n_nonzeros();
-    }
-
-    const std::vector<RigidMotion> &
-    moved_obstacles() const override
-    {
-      return obstacles->moved();
-    }
 
   private:
     void
@@ -97,65 +50,70 @@ namespace geocone::GEOCONE_DIM
     void
     check_resistance(const MaterialPoints &points, const MPI_Comm comm) const;
 
-    /** Unknowns, loads, problem and pattern: all that depends on which cells there
-     *  are. @throws InputError if nothing holds them */
     void
-    begin(const MaterialPoints &points, dealii::TimerOutput &timer);
-
-    /** Gives the problem the step: loads, prescribed velocities, what touches.
-     *  @return the loads that it raises. Collective. */
-    RaisedLoads
-    begin_step(const TimeStep      &step,
-               const Kinematics    &kinematics,
-               dealii::TimerOutput &timer);
-
-    /** What loads, supports and absorbing sides have done in the step (J/m). */
-    double
-    work_of_forces(const TimeStep &step,
-                   const Vector   &v,
-                   const Vector   &residual) const;
-
-    /** Gives the points their state at the end of the step.
-     *  @return the dissipation (J/m) */
-    double
-    update_points(const TimeStep &step, MaterialPoints &points) const;
-
-    /** Gives nodes and supports their displacements, by the velocity v that was solved
-     *  for, and nodes in contact theirs at the end of the step.
-     *  @return what contact takes when it settles (J/m) */
-    double
-    update_kinematics(const TimeStep &step,
-                      const Vector   &v,
-                      Kinematics     &kinematics);
+    begin(MaterialPoints &points, dealii::TimerOutput &timer) override;
 
     bool
-    has_force() const
+    has_force() const override
     {
       return loads->exist() || scene->loading.changes_body();
     }
 
-    /** External forces less the internal ones at time t, along x and y. */
-    Vector
-    net_force(const double t) const;
+    void
+    evaluate_force(Vector               &dst,
+                   const MaterialPoints &points,
+                   const double          t,
+                   const Stage          *stage,
+                   const bool            raised) override;
 
-    bool            inertia = false;
-    TimeIntegration integration;
+    void
+    begin_motion(const TimeStep       &step,
+                 const Kinematics     &kinematics,
+                 const MaterialPoints &points,
+                 const Vector         &prescribed) override;
 
-    const Scene                        *scene = nullptr;
-    const BackgroundMesh               *mesh  = nullptr;
-    const Space                        *space = nullptr;
-    std::unique_ptr<Constraints>        constraints;
-    std::unique_ptr<ObstacleContact>    obstacles;
-    std::unique_ptr<Loads>              loads;
-    std::unique_ptr<AbsorbingBoundary>  absorbing;
-    std::unique_ptr<IncrementalProblem> problem;
-    std::unique_ptr<LinearSystem>       system;
-    bool                                begun = false;
-    FadingForces                        fading; ///< along x and y
-    Vector                              lumped_mass;
-    Vector                              weight_per_g;
-    Vector                              force;
-    Vector velocity_L; ///< along turned dofs: v^n, or Newmark's prediction
+    ContactStep
+    find_contact(const TimeStep       &step,
+                 const Kinematics     &kinematics,
+                 const MaterialPoints &points) override;
+
+    SolverReport
+    solve(const TimeStep   &step,
+          const Kinematics &kinematics,
+          const Solving    &with,
+          Vector           &v,
+          Vector           &residual) override;
+
+    double
+    update_points(const TimeStep &step, MaterialPoints &points) override;
+
+    double
+    update_nodes(const TimeStep &step,
+                 const Vector   &v_end,
+                 const Vector   &v,
+                 Kinematics     &kinematics) override;
+
+    void
+    remove(const Stage              &stage,
+           MaterialPoints           &points,
+           std::vector<std::string> &remarks) override;
+    void
+    add(const Stage              &stage,
+        MaterialPoints           &points,
+        std::vector<std::string> &remarks) override;
+
+    void
+    change_nodes(const std::vector<bool> &had_mass,
+                 Kinematics              &kinematics,
+                 Vector                  &difference) const override;
+
+    /** Leaves the points of these cells, and makes those that are missing. */
+    void
+    take_cells(const std::vector<bool> &is_there, MaterialPoints &points) const;
+
+    bool                   inertia = false;
+    std::unique_ptr<Loads> loads;
+    Vector                 weight_per_g;
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -7,15 +7,11 @@
 #include <geocone/base/choice.h>
 #include <geocone/conditions/moving_conditions.h>
 #include <geocone/contact/particle_contact.h>
-#include <geocone/implicit/fading_forces.h>
 #include <geocone/implicit/following_grid.h>
-#include <geocone/implicit/raised_loads.h>
-#include <geocone/implicit/time_integration.h>
+#include <geocone/implicit/implicit_stepper.h>
 #include <geocone/points/particles.h>
 #include <geocone/points/point_functions.h>
 #include <geocone/points/rank_balance.h>
-#include <geocone/problem/absorbing_boundary.h>
-#include <geocone/time_stepping/time_stepper.h>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -34,7 +30,7 @@ namespace geocone::GEOCONE_DIM
    * particle, a mass that is partly consistent, and the integrations in time of
    * TimeIntegration.
    */
-  class ImplicitMPM : public TimeStepper, public dealii::ParameterAcceptor
+  class ImplicitMPM : public ImplicitStepper, public dealii::ParameterAcceptor
   {
   public:
     explicit ImplicitMPM(const ParameterFile &file);
@@ -59,33 +55,10 @@ namespace geocone::GEOCONE_DIM
                    const MaterialPoints &points,
                    const double          t) const override;
 
-    StepReport
-    advance(Kinematics            &kinematics,
-            MaterialPoints        &points,
-            const NonsmoothNewton &newton,
-            Freezer               &freezer,
-            dealii::TimerOutput   &timer,
-            const double           t,
-            const double           h,
-            const double           accepted_excess) override;
-
-    BodyChange
-    change_body(const Stage         &stage,
-                const double         t,
-                dealii::TimerOutput &timer,
-                Kinematics          &kinematics,
-                MaterialPoints      &points) override;
-
     void
     save(Archive &archive, const MaterialPoints &points) override;
     void
     load(const Archive &archive, MaterialPoints &points) override;
-
-    unsigned int
-    n_unknowns() const override
-    {
-      return unknowns;
-    }
 
     bool
     has_moving_points() const override
@@ -97,24 +70,6 @@ namespace geocone::GEOCONE_DIM
     points_may_leave() const override
     {
       return particles.may_leave();
-    }
-
-    std::string
-    linear_solver_name() const override
-    {
-      return system->solver_name();
-    }
-
-    std::size_t
-    n_nonzeros() const override
-    {
-      return system->n_nonzeros();
-    }
-
-    const std::vector<RigidMotion> &
-    moved_obstacles() const override
-    {
-      return obstacles->moved();
     }
 
     unsigned int
@@ -194,9 +149,8 @@ namespace geocone::GEOCONE_DIM
     load_grid(const Archive &archive);
     /** @} */
 
-    /** Mass, vL, unknowns and pattern: all that depends on t_n only. */
     void
-    begin(MaterialPoints &points, dealii::TimerOutput &timer);
+    begin(MaterialPoints &points, dealii::TimerOutput &timer) override;
 
     /** Stencils of ghost stiffness for the points as they are. Collective. */
     std::vector<GhostStencil>
@@ -222,28 +176,95 @@ namespace geocone::GEOCONE_DIM
     std::string
     objection(const Multipliers::LightShare &share) const;
 
+    bool
+    has_force() const override
+    {
+      return true;
+    }
+
+    void
+    evaluate_force(Vector               &dst,
+                   const MaterialPoints &points,
+                   const double          t,
+                   const Stage          *stage,
+                   const bool            raised) override;
+
     /** Adds what water at rest exerts on the soil. Collective. */
     void
-    add_water(const MaterialPoints &points, const double t);
+    add_water(const MaterialPoints &points, const double t, Vector &dst) const;
 
-    /** External forces less the internal ones at time t, but for those that fade. */
-    Vector
-    net_force(const MaterialPoints &points, const double t);
-
-    /** External forces at time t, but for those that fade. @param stage,raised as in
-     *  Loads::evaluate() */
     void
-    evaluate_force(const MaterialPoints &points,
-                   const double          t,
-                   const Stage          *stage  = nullptr,
-                   const bool            raised = false);
+    begin_motion(const TimeStep       &step,
+                 const Kinematics     &kinematics,
+                 const MaterialPoints &points,
+                 const Vector         &prescribed) override;
 
-    /** The velocity that the problem's step begins from: vL, or Newmark's prediction. */
-    const Vector &
-    start_velocity() const
+    ContactStep
+    find_contact(const TimeStep       &step,
+                 const Kinematics     &kinematics,
+                 const MaterialPoints &points) override;
+
+    std::string
+    try_move(const TimeStep       &step,
+             const MaterialPoints &points,
+             const Vector         &v_end,
+             const Vector         &v) override;
+
+    void
+    accept_move(const TimeStep       &step,
+                const MaterialPoints &points,
+                const Vector         &v) override;
+
+    bool
+    moves_obstacles() const override
     {
-      return integration.is_newmark() ? predicted : velocity_L;
+      return has_moving_points();
     }
+
+    dealii::Tensor<1, dim>
+    gravity_of_potential(const double t) const override
+    {
+      return scene->gravity.at(t);
+    }
+
+    /** Particles that stay keep their potential energy, whatever moves the nodes:
+     *  as with FEM, the work of the weight is that of an external force. Gravity
+     *  that changes works on points at rest. */
+    double
+    external_work(const WorksOnNodes   &works,
+                  const TimeStep       &step,
+                  const MaterialPoints &points) const override;
+
+    double
+    update_points(const TimeStep &step, MaterialPoints &points) override;
+
+    double
+    update_nodes(const TimeStep &step,
+                 const Vector   &v_end,
+                 const Vector   &v,
+                 Kinematics     &kinematics) override;
+
+    void
+    finish(const TimeStep        &step,
+           const NonsmoothNewton &newton,
+           dealii::TimerOutput   &timer,
+           Kinematics            &kinematics,
+           MaterialPoints        &points,
+           StepReport            &report) override;
+
+    void
+    remove(const Stage              &stage,
+           MaterialPoints           &points,
+           std::vector<std::string> &remarks) override;
+    void
+    add(const Stage              &stage,
+        MaterialPoints           &points,
+        std::vector<std::string> &remarks) override;
+
+    void
+    change_nodes(const std::vector<bool> &had_mass,
+                 Kinematics              &kinematics,
+                 Vector                  &difference) const override;
 
     /** vL from momentum, where the mass is partly consistent. */
     void
@@ -251,55 +272,22 @@ namespace geocone::GEOCONE_DIM
 
     /**
      * Where the particles go by the node velocities v (at t_n + h) from vL,
-     * advected by v_mean.
+     * advected by v_mean: trial.moved.
      * @return why they may not, or nothing
      */
     std::string
     transfer(const MaterialPoints &points,
              const Vector         &v,
              const Vector         &v_mean,
-             const double          h,
-             std::vector<Moved>   &moved) const;
+             const double          h);
 
-    /** Solves the step from each start, until one of them leads to the end.
-     *  @param[out] v velocities @param[out] residual R(v) */
+    /** From each start, until one of them leads to the end. */
     SolverReport
-    solve(const TimeStep        &step,
-          const Kinematics      &kinematics,
-          const NonsmoothNewton &newton,
-          NonsmoothNewton::Hints hints,
-          Freezer               &freezer,
-          dealii::TimerOutput   &timer,
-          Vector                &v,
-          Vector                &residual);
-
-    /** Gives the problem the step: loads, prescribed velocities and rows, what
-     *  touches. @return the loads that it raises. Collective. */
-    RaisedLoads
-    begin_step(const TimeStep       &step,
-               const MaterialPoints &points,
-               dealii::TimerOutput  &timer);
-
-    /** Works of a step on the nodes (J/m). */
-    struct WorksOnNodes
-    {
-      double of_weight;
-      double of_others; ///< tractions and supports
-    };
-    WorksOnNodes
-    works_on_nodes(const TimeStep &step,
-                   const Vector   &v,
-                   const Vector   &residual) const;
-
-    /** Works of a solved step but for the dissipation, contact, and the defect of
-     *  the energy identity, for the report; of points as they were at t_n. */
-    void
-    take_works(const TimeStep           &step,
-               const MaterialPoints     &points,
-               const std::vector<Moved> &moved,
-               const Vector             &v,
-               const Vector             &residual,
-               StepReport               &report) const;
+    solve(const TimeStep   &step,
+          const Kinematics &kinematics,
+          const Solving    &with,
+          Vector           &v,
+          Vector           &residual) override;
 
     /** What gravity that changes in the step does to points at rest (J/m). */
     double
@@ -309,34 +297,16 @@ namespace geocone::GEOCONE_DIM
     /** What the weight does to points that stay while others move: their potential
      *  energy does not change, as with FEM (J/m). */
     double
-    work_on_fixed_points(const TimeStep           &step,
-                         const MaterialPoints     &points,
-                         const std::vector<Moved> &moved) const;
+    work_on_fixed_points(const TimeStep       &step,
+                         const MaterialPoints &points) const;
 
-    /** Puts points back to the sides that are held, MovingConditions::put_back(): how
-     *  many of all ranks, and how far at most (m). Collective. */
-    std::pair<unsigned int, double>
-    put_points_back(const MaterialPoints &points,
-                    std::vector<Moved>   &moved) const;
+    /** Puts points back to the sides that are held, MovingConditions::put_back(). */
+    void
+    put_points_back(const MaterialPoints &points);
 
     /** The largest coordinates of points (m). */
     dealii::Point<dim>
     front_of(const MaterialPoints &points) const;
-
-    /** Gives the points their state at the end of the step.
-     *  @return the dissipation (J/m) */
-    double
-    update_points(const TimeStep           &step,
-                  const std::vector<Moved> &moved,
-                  MaterialPoints           &points) const;
-
-    /** Displacements of what conditions hold, and reactions of those that are
-     *  imposed on the body. */
-    void
-    update_supports(const TimeStep        &step,
-                    const Vector          &v,
-                    Kinematics            &kinematics,
-                    std::vector<Reaction> &reactions) const;
 
     /** The condition that holds a particle by itself, or null. */
     const BoundaryCondition *
@@ -351,10 +321,9 @@ namespace geocone::GEOCONE_DIM
       {{"grid velocity", Advection::grid_velocity},
        {"particle velocity", Advection::particle_velocity},
        {"none", Advection::none}}};
-    TimeIntegration integration;
-    Choice<Start>   start_asked = {{{"automatic", Start::automatic},
-                                    {"grid velocity", Start::nodes},
-                                    {"particle velocity", Start::particles}}};
+    Choice<Start> start_asked = {{{"automatic", Start::automatic},
+                                  {"grid velocity", Start::nodes},
+                                  {"particle velocity", Start::particles}}};
 
     /** Which light functions have ghost stiffness. */
     enum class Ghosts
@@ -379,30 +348,24 @@ namespace geocone::GEOCONE_DIM
 
     unsigned int n_light = 0; ///< light functions of the present points
 
-    const Scene       *scene = nullptr;
-    BackgroundMesh    *mesh  = nullptr;
-    Space             *space = nullptr;
     std::vector<Start> starts; ///< to be tried in this order
     dealii::Point<dim> datum;  ///< of the potential energy
 
-    std::unique_ptr<MovingConditions>   moving;
-    std::unique_ptr<ObstacleContact>    obstacles;
-    std::optional<ParticleBodies>       bodies; ///< where there are contacts
-    std::unique_ptr<AbsorbingBoundary>  absorbing;
-    std::unique_ptr<Constraints>        constraints;
-    std::optional<GhostPlaces>          ghost_places; ///< of splines that move
-    std::unique_ptr<IncrementalProblem> problem;
-    std::unique_ptr<LinearSystem>       system;
-    unsigned int                        unknowns    = 0; ///< of the last step
-    bool                                begun       = false;
-    bool                                has_pattern = false; ///< of begin()
-    Vector                              lumped_mass;
-    Vector                              velocity_L;
-    Vector                              predicted; ///< by Newmark, from vL
-    Vector                              force;
-    std::vector<bool>                   had_mass; ///< nodes, in the last step
-    FadingForces                        fading;
-    std::vector<unsigned int>           added; ///< materials, so far
+    std::unique_ptr<MovingConditions> moving;
+    std::optional<ParticleBodies>     bodies; ///< where there are contacts
+    std::optional<GhostPlaces>        ghost_places; ///< of splines that move
+    std::vector<bool>                 had_mass;     ///< nodes, in the last step
+    std::vector<unsigned int>         added;        ///< materials, so far
+
+    /** Of the step that is being tried. */
+    struct Trial
+    {
+      std::vector<Moved>      moved;
+      Multipliers::LightShare share;
+      unsigned int            n_put_back = 0;  ///< points of all ranks
+      double                  put_back   = 0.; ///< how far at most (m)
+    };
+    Trial trial;
   };
 } // namespace geocone::GEOCONE_DIM
 

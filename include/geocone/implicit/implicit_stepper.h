@@ -1,0 +1,278 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_implicit_implicit_stepper_h
+#define geocone_implicit_implicit_stepper_h
+
+#include <geocone/conditions/constraints.h>
+#include <geocone/contact/obstacle_contact.h>
+#include <geocone/implicit/fading_forces.h>
+#include <geocone/implicit/raised_loads.h>
+#include <geocone/implicit/time_integration.h>
+#include <geocone/problem/absorbing_boundary.h>
+#include <geocone/time_stepping/time_stepper.h>
+
+namespace geocone::GEOCONE_DIM
+{
+  /**
+   * An implicit step, of points that stay (ImplicitFEM) or move (ImplicitMPM): it gives
+   * the IncrementalProblem its step, has it solved, and keeps the books of an accepted
+   * one. Derived classes say where points, mass and loads come from, and where points
+   * go.
+   */
+  class ImplicitStepper : public TimeStepper
+  {
+  public:
+    StepReport
+    advance(Kinematics            &kinematics,
+            MaterialPoints        &points,
+            const NonsmoothNewton &newton,
+            Freezer               &freezer,
+            dealii::TimerOutput   &timer,
+            const double           t,
+            const double           h,
+            const double           accepted_excess) final;
+
+    BodyChange
+    change_body(const Stage         &stage,
+                const double         t,
+                dealii::TimerOutput &timer,
+                Kinematics          &kinematics,
+                MaterialPoints      &points) final;
+
+    unsigned int
+    n_unknowns() const final
+    {
+      return unknowns;
+    }
+
+    std::string
+    linear_solver_name() const final
+    {
+      return system->solver_name();
+    }
+
+    std::size_t
+    n_nonzeros() const final
+    {
+      return system->n_nonzeros();
+    }
+
+    const std::vector<RigidMotion> &
+    moved_obstacles() const final
+    {
+      return obstacles->moved();
+    }
+
+  protected:
+    /** @param section of the timer, for what follows a solved step */
+    explicit ImplicitStepper(const char *section)
+      : section(section)
+    {}
+
+    /** What a step is solved with, besides the state. */
+    struct Solving
+    {
+      const NonsmoothNewton &newton;
+      Freezer               &freezer;
+      dealii::TimerOutput   &timer;
+      const double           accepted_excess; ///< see NonsmoothNewton::Hints
+    };
+
+    /** Works of a step on the nodes (J/m). */
+    struct WorksOnNodes
+    {
+      double of_weight; ///< of points with a potential energy
+      double of_others; ///< loads, supports, absorbing sides, contact
+    };
+
+    /** @name Steps */
+    /** @{ */
+
+    /** Makes mass, unknowns, problem and pattern: all that depends on t_n only.
+     *  Collective. @throws InputError or StepFailure if there is no such problem */
+    virtual void
+    begin(MaterialPoints &points, dealii::TimerOutput &timer) = 0;
+
+    /** Whether there are external forces at all. */
+    virtual bool
+    has_force() const = 0;
+
+    /** External forces at time t, along x and y, but for those that fade.
+     *  @param dst its values do not count @param stage,raised as in Loads::evaluate() */
+    virtual void
+    evaluate_force(Vector               &dst,
+                   const MaterialPoints &points,
+                   const double          t,
+                   const Stage          *stage  = nullptr,
+                   const bool            raised = false) = 0;
+
+    /** vL, and the rows H v = q of the step. @param prescribed velocities */
+    virtual void
+    begin_motion(const TimeStep       &step,
+                 const Kinematics     &kinematics,
+                 const MaterialPoints &points,
+                 const Vector         &prescribed) = 0;
+
+    /** What may touch in the step. Collective. */
+    virtual ContactStep
+    find_contact(const TimeStep       &step,
+                 const Kinematics     &kinematics,
+                 const MaterialPoints &points) = 0;
+
+    /** Solves the step. @param[out] v velocities @param[out] residual R(v) */
+    virtual SolverReport
+    solve(const TimeStep   &step,
+          const Kinematics &kinematics,
+          const Solving    &with,
+          Vector           &v,
+          Vector           &residual) = 0;
+
+    /** Finds where points go, by velocities v_end at t + h, moved by v.
+     *  @return why a step must not be taken, though it is solved; or nothing */
+    virtual std::string
+    try_move(const TimeStep & /* step */,
+             const MaterialPoints & /* points */,
+             const Vector & /* v_end */,
+             const Vector & /* v */)
+    {
+      return "";
+    }
+
+    /** Moves what moves with the points, once the step is accepted. */
+    virtual void
+    accept_move(const TimeStep & /* step */,
+                const MaterialPoints & /* points */,
+                const Vector & /* v */)
+    {}
+
+    /** Whether obstacles change their place. */
+    virtual bool
+    moves_obstacles() const
+    {
+      return true;
+    }
+
+    /** Gravity (m/s^2) whose work is a change of potential energy. */
+    virtual dealii::Tensor<1, dim>
+    gravity_of_potential(const double /* t */) const
+    {
+      return {};
+    }
+
+    /** The work of external forces on the points (J/m). */
+    virtual double
+    external_work(const WorksOnNodes &works,
+                  const TimeStep & /* step */,
+                  const MaterialPoints & /* points */) const
+    {
+      return works.of_others;
+    }
+
+    /** Gives the points their state at the end of the step.
+     *  @return the dissipation (J/m) */
+    virtual double
+    update_points(const TimeStep &step, MaterialPoints &points) = 0;
+
+    /** Gives the nodes theirs. @return what contact takes when it settles (J/m) */
+    virtual double
+    update_nodes(const TimeStep &step,
+                 const Vector   &v_end,
+                 const Vector   &v,
+                 Kinematics     &kinematics) = 0;
+
+    /** Ends an accepted step, after which points may be in other cells, or gone. */
+    virtual void
+    finish(const TimeStep        &step,
+           const NonsmoothNewton &newton,
+           dealii::TimerOutput   &timer,
+           Kinematics            &kinematics,
+           MaterialPoints        &points,
+           StepReport            &report) = 0;
+    /** @} */
+
+    /** @name Changes of the body, of which they give remarks. Collective. */
+    /** @{ */
+    virtual void
+    remove(const Stage              &stage,
+           MaterialPoints           &points,
+           std::vector<std::string> &remarks) = 0;
+    virtual void
+    add(const Stage              &stage,
+        MaterialPoints           &points,
+        std::vector<std::string> &remarks) = 0;
+
+    /** Gives nodes their state after a change of the body, and leaves of the change of
+     *  forces what acts on nodes of the body. @param had_mass before it, by dof */
+    virtual void
+    change_nodes(const std::vector<bool> &had_mass,
+                 Kinematics              &kinematics,
+                 Vector                  &difference) const = 0;
+    /** @} */
+
+    /** Velocity from which the problem's step begins: vL, or Newmark's prediction. */
+    const Vector &
+    start_velocity() const
+    {
+      return integration.is_newmark() ? predicted : velocity_L;
+    }
+
+    TimeIntegration                     integration;
+    const Scene                        *scene = nullptr;
+    BackgroundMesh                     *mesh  = nullptr;
+    Space                              *space = nullptr;
+    std::unique_ptr<Constraints>        constraints;
+    std::unique_ptr<ObstacleContact>    obstacles;
+    std::unique_ptr<AbsorbingBoundary>  absorbing;
+    std::unique_ptr<IncrementalProblem> problem;
+    std::unique_ptr<LinearSystem>       system;
+    unsigned int                        unknowns = 0;     ///< of the last step
+    bool                                begun    = false; ///< for the next step
+    bool                                has_pattern = false; ///< of begin()
+    FadingForces                        fading;              ///< along x and y
+    Vector                              lumped_mass;
+    Vector                              velocity_L; ///< along turned dofs
+    Vector                              force;      ///< along turned dofs
+
+  private:
+    /** External forces less the internal ones at time t, along x and y, but for those
+     *  that fade. */
+    Vector
+    net_force(const MaterialPoints &points, const double t);
+
+    /** Gives the problem the step: loads, prescribed velocities, what touches.
+     *  @return the loads that it raises. Collective. */
+    RaisedLoads
+    begin_step(const TimeStep       &step,
+               const Kinematics     &kinematics,
+               const MaterialPoints &points,
+               dealii::TimerOutput  &timer);
+
+    WorksOnNodes
+    works_on_nodes(const TimeStep &step,
+                   const Vector   &v,
+                   const Vector   &residual) const;
+
+    /** Works of a solved step but for the dissipation, contact, and the defect of
+     *  the energy identity, for the report; of points as they were at t_n. */
+    void
+    take_works(const TimeStep       &step,
+               const MaterialPoints &points,
+               const Vector         &v,
+               const Vector         &residual,
+               StepReport           &report) const;
+
+    /** Displacements of what conditions hold, and reactions of those that are
+     *  imposed on the body. */
+    void
+    update_supports(const TimeStep        &step,
+                    const Vector          &v,
+                    Kinematics            &kinematics,
+                    std::vector<Reaction> &reactions) const;
+
+    const char *const section;
+    Vector            predicted; ///< by Newmark, from vL
+  };
+} // namespace geocone::GEOCONE_DIM
+
+#endif
