@@ -110,6 +110,7 @@ namespace geocone
                          " --help");
       return std::string(argv[++i]);
     };
+    bool checks = false;
     for (int i = 1; i < argc; ++i)
       {
         const std::string argument = argv[i];
@@ -126,6 +127,8 @@ namespace geocone
           call.quiet = true;
         else if (argument == "--dry-run")
           call.dry_run = true;
+        else if (argument == "--check")
+          checks = call.dry_run = true;
         else if (argument == "--force")
           call.force = true;
         else if (argument == "--run-gmsh-script")
@@ -141,12 +144,18 @@ namespace geocone
         else if (!argument.empty() && argument[0] == '-')
           throw InputError("unknown option '" + printable(argument) +
                            "'\n  remedy:  see " + program + " --help");
+        else if (checks)
+          call.files_to_check.push_back(argument);
         else if (call.file.empty())
           call.file = argument;
         else
           throw InputError("a second parameter file '" + printable(argument) +
                            "'\n  remedy:  give one; overrides go into --set");
       }
+    if (checks && (call.files_to_check.empty() || !call.file.empty()))
+      throw InputError("--check needs parameter files, after it\n"
+                       "  remedy:  see " +
+                       program + " --help");
     return call;
   }
 

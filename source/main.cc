@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/exceptions.h>
 #include <geocone/base/hdf5_file.h>
 #include <geocone/command_line.h>
 #include <geocone/output/run_folder.h>
@@ -9,6 +10,7 @@
 #include <omp.h>
 
 #include <cstdlib>
+#include <iostream>
 
 #include <dlfcn.h>
 
@@ -17,43 +19,86 @@ namespace geocone::dim3
 {
   int
   run_geocone(int argc, char **argv);
-}
+  void
+  check_file(const std::string &file, const CommandLine &call);
+} // namespace geocone::dim3
 
 namespace
 {
   using namespace geocone;
 
-  /** That of the parameters that the program is called with. What is wrong with them
-   *  is said by the program of plane scenes. */
-  std::string
-  dimension_of(const int argc, char **argv)
+  /** The dimension of a scene by what tells it, a parameter file or a result. What is
+   *  wrong with it is said by the program of plane scenes. */
+  template <typename Source>
+  unsigned int
+  dimension_by(const Source &source)
   {
-    const std::string parameter = "Geometry/Dimension", plane = "2";
     try
       {
-        const CommandLine call =
-          parse_command_line(argc, argv, "geocone", {"--replay", "--resume"});
-        if (const auto resumed = call.own.find("--resume");
-            resumed != call.own.end())
-          return parameters_of_run(resumed->second).peek(parameter, plane);
-        if (const auto frozen = call.own.find("--replay");
-            frozen != call.own.end())
-          {
-            const Hdf5File file(frozen->second, Hdf5File::Access::read);
-            return file.has("dimension")
-                     ? std::to_string(file.read_integers("dimension").at(0))
-                     : plane;
-          }
-        if (call.file.empty())
-          return ParameterFile::from_text("", "call", call.overrides)
-            .peek(parameter, plane);
-        return ParameterFile(call.file, call.overrides).peek(parameter, plane);
+        return source() == "3" ? 3 : 2;
       }
     catch (const std::exception &)
       {
-        return plane;
+        return 2;
       }
   }
+
+  unsigned int
+  dimension_of(const std::string &file, const CommandLine &call)
+  {
+    return dimension_by([&]() {
+      const ParameterFile parameters =
+        file.empty() ? ParameterFile::from_text("", "call", call.overrides)
+                     : ParameterFile(file, call.overrides);
+      return parameters.peek("Geometry/Dimension", "2");
+    });
+  }
+
+  /** Of what the program is called with. */
+  unsigned int
+  dimension_of(const CommandLine &call)
+  {
+    if (const auto resumed = call.own.find("--resume");
+        resumed != call.own.end())
+      return dimension_by([&]() {
+        return parameters_of_run(resumed->second)
+          .peek("Geometry/Dimension", "2");
+      });
+    if (const auto frozen = call.own.find("--replay"); frozen != call.own.end())
+      return dimension_by([&]() {
+        const Hdf5File file(frozen->second, Hdf5File::Access::read);
+        return file.has("dimension")
+                 ? std::to_string(file.read_integers("dimension").at(0))
+                 : std::string("2");
+      });
+    return dimension_of(call.file, call);
+  }
+
+  /** Checks each of the files, and prints which are right. @return the exit code */
+  int
+  check_files(const CommandLine &call)
+  {
+    int status = 0;
+    for (const std::string &file : call.files_to_check)
+      {
+        std::cout << printable(file) << ": " << std::flush;
+        try
+          {
+            if (dimension_of(file, call) == 3)
+              dim3::check_file(file, call);
+            else
+              dim2::check_file(file, call);
+            std::cout << "right" << std::endl;
+          }
+        catch (const std::exception &error)
+          {
+            status = 1;
+            std::cout << "refused\nerror: " << text_of(error) << std::endl;
+          }
+      }
+    return status;
+  }
+
 } // namespace
 
 /**
@@ -78,7 +123,17 @@ main(int argc, char **argv)
   if (const auto set_blas_threads = reinterpret_cast<void (*)(int)>(
         dlsym(RTLD_DEFAULT, "openblas_set_num_threads")))
     set_blas_threads(1);
-  return dimension_of(argc, argv) == "3"
-           ? geocone::dim3::run_geocone(argc, argv)
-           : geocone::dim2::run_geocone(argc, argv);
+
+  CommandLine call; // whose errors are those of the program of plane scenes
+  try
+    {
+      call =
+        parse_command_line(argc, argv, "geocone", {"--replay", "--resume"});
+    }
+  catch (const std::exception &)
+    {}
+  if (!call.files_to_check.empty())
+    return run_program(argv, [&](Drawing &) { return check_files(call); });
+  return dimension_of(call) == 3 ? dim3::run_geocone(argc, argv)
+                                 : dim2::run_geocone(argc, argv);
 }

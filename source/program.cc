@@ -29,6 +29,7 @@ namespace geocone::GEOCONE_DIM
       "value']...\n"
       "        [--dry-run] [--force] [--run-gmsh-script] [--quiet]\n"
       "mpirun -np RANKS geocone FILE.prm ...\n"
+      "geocone --check FILE.prm... [--set 'Section/Parameter = value']...\n"
       "geocone --resume FOLDER [--force] [--run-gmsh-script] [--quiet]\n"
       "geocone --replay FILE.h5|FILE.dat [--output FOLDER] [--set ...]...\n"
       "\n"
@@ -49,6 +50,8 @@ namespace geocone::GEOCONE_DIM
       "and "
       "ends:\n"
       "                       nothing is computed or written\n"
+      "  --check FILE.prm...  the same for each of the files, with a line for "
+      "each\n"
       "  --force              runs also what is too large for this machine's "
       "memory\n"
       "  --run-gmsh-script    'Geometry/File' may be a geo script, which gmsh "
@@ -157,7 +160,8 @@ namespace geocone::GEOCONE_DIM
            "obstacles and contacts are\nnamed to show theirs, and there "
            "are none by default:\n\n"
         << text.str()
-        << "\nTries of Newton's method for a step, by what it is like, until one "
+        << "\nTries of Newton's method for a step, by what it is like, until "
+           "one "
            "is solved:\n\n"
         << text_of_plans() << std::flush;
       if (!std::cout)
@@ -260,6 +264,17 @@ namespace geocone::GEOCONE_DIM
       return run_scene(call, drawing) ? 0 : 1;
     }
   } // namespace
+
+  void
+  check_file(const std::string &file, const CommandLine &call)
+  {
+    dealii::ParameterAcceptor::clear(); // of the file before
+    CommandLine one = call;
+    one.file        = file;
+    one.quiet       = true;
+    Drawing nothing;
+    run_scene(one, nothing);
+  }
 
   int
   run_geocone(int argc, char **argv)

@@ -17,7 +17,8 @@ namespace geocone
   /** What the programs are called with. */
   struct CommandLine
   {
-    std::string                        file;
+    std::string                        file; ///< with --check the first one
+    std::vector<std::string>           files_to_check;
     std::string                        folder;
     std::vector<std::string>           overrides;
     std::string                        defaults_file;
@@ -31,9 +32,9 @@ namespace geocone
   };
 
   /**
-   * Reads FILE.prm, --output, --set, --quiet, --dry-run, --force,
-   * --run-gmsh-script, --defaults, --help, --version, and the options @p own of the program, e.g. "--replay",
-   * which take a value.
+   * Reads FILE.prm, --output, --set, --quiet, --dry-run, --check FILE..., --force,
+   * --run-gmsh-script, --defaults, --help, --version, and the options @p own of the
+   * program, e.g. "--replay", which take a value.
    * @throws InputError on anything else
    */
   CommandLine

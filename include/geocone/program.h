@@ -5,6 +5,9 @@
 #define geocone_program_h
 
 #include <geocone/base/types.h>
+#include <geocone/command_line.h>
+
+#include <string>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -12,6 +15,14 @@ namespace geocone::GEOCONE_DIM
    *  the build. @return its exit code */
   int
   run_geocone(int argc, char **argv);
+
+  /**
+   * Checks a parameter file of this dimension as --dry-run does.
+   * @param call with what other options
+   * @throws InputError if it is wrong
+   */
+  void
+  check_file(const std::string &file, const CommandLine &call);
 } // namespace geocone::GEOCONE_DIM
 
 #endif
