@@ -8,14 +8,16 @@
 #include <geocone/points/material_points.h>
 #include <geocone/points/point_arrays.h>
 
+#include "../test.h"
 #include "setup.h"
 
 #include <numeric>
 
-using namespace geocone;
-
-namespace
+namespace discretisation_point_state_01
 {
+  using namespace discretisation_tests;
+  using namespace geocone;
+
   unsigned int
   rank()
   {
@@ -73,39 +75,41 @@ namespace
                        : std::vector<unsigned int>{ids[2], 5 * other + 4};
     print("sent to other ranks", are_whole(points, ids));
   }
-} // namespace
 
-int
-main(int argc, char **argv)
-{
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  void
+  test(int argc, char **argv)
+  {
+    dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
 
-  MaterialPoints particles, fixed;
-  particles.use(true, 2);
-  test("particles", particles);
-  fixed.use(false, 1);
-  test("points that stay", fixed);
-  test("explicit, affine, in cells", PointArrays(0, 2, true, true));
-  test("explicit", PointArrays(0, 0, false, false));
+    MaterialPoints particles, fixed;
+    particles.use(true, 2);
+    test("particles", particles);
+    fixed.use(false, 1);
+    test("points that stay", fixed);
+    test("explicit, affine, in cells", PointArrays(0, 2, true, true));
+    test("explicit", PointArrays(0, 0, false, false));
 
-  // What fills up the vectors is a copy without mass and volume.
-  PointArrays arrays(0, 1, false, false);
-  for (unsigned int id = 1; id < 7; ++id)
-    arrays.append(row_of(id, arrays.n_numbers()).data());
-  arrays.pad();
-  print("six points take eight places",
-        arrays.n_points() == 6 && arrays.n_padded() == 8);
-  print("copies have no mass and no volume",
-        arrays.mass[6] == 0. && arrays.volume[7] == 0.);
-  print("but the last one's place",
-        arrays.position.of(7) == arrays.position.of(5));
-  arrays.append(row_of(7, arrays.n_numbers()).data());
-  arrays.pad();
-  print("one more takes a place of a copy",
-        arrays.n_padded() == 8 && are_whole(arrays, {1, 2, 3, 4, 5, 6, 7}));
-  PointArrays grown(0, 1, false, false);
-  grown.append(row_of(1, grown.n_numbers()).data());
-  grown.pad();
-  print("a new point begins with zeros",
-        grown.mass[grown.append()] == 0. && grown.position[0][1] == 0.);
-}
+    // What fills up the vectors is a copy without mass and volume.
+    PointArrays arrays(0, 1, false, false);
+    for (unsigned int id = 1; id < 7; ++id)
+      arrays.append(row_of(id, arrays.n_numbers()).data());
+    arrays.pad();
+    print("six points take eight places",
+          arrays.n_points() == 6 && arrays.n_padded() == 8);
+    print("copies have no mass and no volume",
+          arrays.mass[6] == 0. && arrays.volume[7] == 0.);
+    print("but the last one's place",
+          arrays.position.of(7) == arrays.position.of(5));
+    arrays.append(row_of(7, arrays.n_numbers()).data());
+    arrays.pad();
+    print("one more takes a place of a copy",
+          arrays.n_padded() == 8 && are_whole(arrays, {1, 2, 3, 4, 5, 6, 7}));
+    PointArrays grown(0, 1, false, false);
+    grown.append(row_of(1, grown.n_numbers()).data());
+    grown.pad();
+    print("a new point begins with zeros",
+          grown.mass[grown.append()] == 0. && grown.position[0][1] == 0.);
+  }
+
+  const RegisteredTest registered(__FILE__, test);
+} // namespace discretisation_point_state_01

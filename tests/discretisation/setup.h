@@ -11,52 +11,56 @@
 
 #include <cstdio>
 
-namespace mpi = dealii::Utilities::MPI;
-
-const MPI_Comm comm = MPI_COMM_WORLD;
-
-/** Scene, mesh, space and seeding of a parameter file with overrides. */
-struct Setup
+namespace discretisation_tests
 {
-  Setup(const std::string &file_name, const std::vector<std::string> &overrides)
-    : file((dealii::ParameterAcceptor::clear(),
-            GEOCONE_SOURCE_DIR "/tests/" + file_name),
-           overrides)
-    , scene(file)
-    , mesh(comm)
-    , particles(file)
-  {}
+  namespace mpi = dealii::Utilities::MPI;
 
-  void
-  prepare()
+  const MPI_Comm comm = MPI_COMM_WORLD;
+
+  /** Scene, mesh, space and seeding of a parameter file with overrides. */
+  struct Setup
   {
-    file.parse();
-    scene.prepare();
-    mesh.prepare(scene, method);
-    space.prepare(mesh, method);
+    Setup(const std::string              &file_name,
+          const std::vector<std::string> &overrides)
+      : file((dealii::ParameterAcceptor::clear(),
+              GEOCONE_SOURCE_DIR "/tests/" + file_name),
+             overrides)
+      , scene(file)
+      , mesh(comm)
+      , particles(file)
+    {}
+
+    void
+    prepare()
+    {
+      file.parse();
+      scene.prepare();
+      mesh.prepare(scene, method);
+      space.prepare(mesh, method);
+    }
+
+    geocone::ParameterFile  file;
+    geocone::Method         method;
+    geocone::Scene          scene;
+    geocone::BackgroundMesh mesh;
+    geocone::Space          space;
+    geocone::Particles      particles;
+  };
+
+  inline bool
+  speaks()
+  {
+    return mpi::this_mpi_process(comm) == 0;
   }
 
-  geocone::ParameterFile  file;
-  geocone::Method         method;
-  geocone::Scene          scene;
-  geocone::BackgroundMesh mesh;
-  geocone::Space          space;
-  geocone::Particles      particles;
-};
-
-inline bool
-speaks()
-{
-  return mpi::this_mpi_process(comm) == 0;
-}
-
-/** Prints a verdict on what must hold on all ranks. Collective. */
-inline void
-print(const std::string &what, const bool holds)
-{
-  const bool all = mpi::min(holds ? 1 : 0, comm) == 1;
-  if (speaks())
-    std::printf("  %s: %s\n", what.c_str(), all ? "yes" : "NO");
-}
+  /** Prints a verdict on what must hold on all ranks. Collective. */
+  inline void
+  print(const std::string &what, const bool holds)
+  {
+    const bool all = mpi::min(holds ? 1 : 0, comm) == 1;
+    if (speaks())
+      std::printf("  %s: %s\n", what.c_str(), all ? "yes" : "NO");
+  }
+} // namespace discretisation_tests
 
 #endif

@@ -14,11 +14,7 @@ else
   "$1" "$2" $options >stdout 2>stderr
 fi
 code=$?
-# What mpirun, hwloc or muParser print around the message is not ours. Which of the rows
-# that contradict is named depends on rounding.
-sed -n -e '/^error: /,$p' stderr |
-  sed -e '/^---/,$d' -e '/^Primary job/,$d' \
-    -e 's/[^ ]* m\/s is asked where the others leave [^ ]* m\/s/one velocity is asked where the others leave another/' >output
+"$(dirname "$0")"/../error_text.sh <stderr >output
 if [ $code -ne 1 ]; then
   echo "exit code $code instead of 1"
   cat stdout stderr

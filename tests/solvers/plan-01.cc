@@ -8,66 +8,73 @@
 
 #include <geocone/newton/plan.h>
 
+#include "../test.h"
+
 #include <cstdio>
 #include <fstream>
 #include <sstream>
 
-using namespace geocone;
-
-/** A step whose properties are the bits of a number. */
-StepTraits
-step_of(const unsigned int bits)
+namespace solvers_plan_01
 {
-  const auto bit = [&](const unsigned int i) { return (bits >> i & 1U) > 0; };
-  StepTraits step;
-  step.law.can_yield            = bit(0);
-  step.law.non_associativity    = bit(1) ? (bit(2) ? 1. : 0.3) : 0.;
-  step.law.frictionless         = bit(3);
-  step.law.has_natural_map      = bit(4);
-  step.points_move              = bit(5);
-  step.has_inertia              = bit(6);
-  step.has_constraints          = bit(7);
-  step.contact.exists           = bit(8);
-  step.contact.rubs             = bit(8) && bit(9);
-  step.contact.moves_obstacles  = bit(8) && bit(10);
-  step.contact.obstacles_loaded = bit(8) && bit(10) && bit(11);
-  if (bit(12))
-    step.law.friction_memory = 1.;
-  return step;
-}
+  using namespace geocone;
 
-int
-main()
-{
-  const std::string text = text_of_plans();
-  std::printf("%s\n", text.c_str());
+  /** A step whose properties are the bits of a number. */
+  StepTraits
+  step_of(const unsigned int bits)
+  {
+    const auto bit = [&](const unsigned int i) { return (bits >> i & 1U) > 0; };
+    StepTraits step;
+    step.law.can_yield            = bit(0);
+    step.law.non_associativity    = bit(1) ? (bit(2) ? 1. : 0.3) : 0.;
+    step.law.frictionless         = bit(3);
+    step.law.has_natural_map      = bit(4);
+    step.points_move              = bit(5);
+    step.has_inertia              = bit(6);
+    step.has_constraints          = bit(7);
+    step.contact.exists           = bit(8);
+    step.contact.rubs             = bit(8) && bit(9);
+    step.contact.moves_obstacles  = bit(8) && bit(10);
+    step.contact.obstacles_loaded = bit(8) && bit(10) && bit(11);
+    if (bit(12))
+      step.law.friction_memory = 1.;
+    return step;
+  }
 
-  std::ifstream      in(GEOCONE_SOURCE_DIR "/doc/theory.md");
-  std::ostringstream theory;
-  theory << in.rdbuf();
-  std::printf("in doc/theory.md: %s\n",
-              theory.str().find(text) != std::string::npos ? "yes" : "NO");
+  void
+  test()
+  {
+    const std::string text = text_of_plans();
+    std::printf("%s\n", text.c_str());
 
-  PlanOptions options;
-  options.max_iterations = 7;
-  bool limited           = true;
-  for (const Try &line : plan(step_of((1U << 13) - 1), options))
-    limited = limited && line.iterations == 7;
-  std::printf("limits that are asked for: %s\n", limited ? "yes" : "NO");
+    std::ifstream      in(GEOCONE_SOURCE_DIR "/doc/theory.md");
+    std::ostringstream theory;
+    theory << in.rdbuf();
+    std::printf("in doc/theory.md: %s\n",
+                theory.str().find(text) != std::string::npos ? "yes" : "NO");
 
-  options               = {};
-  options.globalisation = GlobalisationMethod::merit_search;
-  const auto one        = plan(step_of(7), options);
-  std::printf("merit search: %zu try of %u iterations\n",
-              one.size(),
-              one[0].iterations);
+    PlanOptions options;
+    options.max_iterations = 7;
+    bool limited           = true;
+    for (const Try &line : plan(step_of((1U << 13) - 1), options))
+      limited = limited && line.iterations == 7;
+    std::printf("limits that are asked for: %s\n", limited ? "yes" : "NO");
 
-  unsigned int n_wrong = 0;
-  for (unsigned int bits = 0; bits < 1U << 13; ++bits)
-    {
-      const auto tries = plan(step_of(bits));
-      n_wrong += tries.empty() || tries.back().prepares ||
-                 tries.front().start != Try::Start::of_step;
-    }
-  std::printf("plans that cannot be: %u of %u\n", n_wrong, 1U << 13);
-}
+    options               = {};
+    options.globalisation = GlobalisationMethod::merit_search;
+    const auto one        = plan(step_of(7), options);
+    std::printf("merit search: %zu try of %u iterations\n",
+                one.size(),
+                one[0].iterations);
+
+    unsigned int n_wrong = 0;
+    for (unsigned int bits = 0; bits < 1U << 13; ++bits)
+      {
+        const auto tries = plan(step_of(bits));
+        n_wrong += tries.empty() || tries.back().prepares ||
+                   tries.front().start != Try::Start::of_step;
+      }
+    std::printf("plans that cannot be: %u of %u\n", n_wrong, 1U << 13);
+  }
+
+  const RegisteredTest registered(__FILE__, test);
+} // namespace solvers_plan_01
