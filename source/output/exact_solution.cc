@@ -16,7 +16,7 @@ namespace geocone::GEOCONE_DIM
 {
   namespace
   {
-    const std::vector<std::string> component_names = [] {
+    const std::vector<std::string> names_of_components = [] {
       std::vector<std::string> list;
       for (unsigned int d = 0; d < dim; ++d)
         list.push_back(std::string("Displacement ") + coordinate[d]);
@@ -30,9 +30,9 @@ namespace geocone::GEOCONE_DIM
     : dealii::ParameterAcceptor("/Exact solution")
   {
     texts.fill("none");
-    for (unsigned int i = 0; i < component_names.size(); ++i)
+    for (unsigned int i = 0; i < names_of_components.size(); ++i)
       add_parameter(
-        component_names[i],
+        names_of_components[i],
         texts[i],
         (std::string("Formula in ") + coordinates +
          " (m) and t (s) for the exact ") +
@@ -53,9 +53,9 @@ namespace geocone::GEOCONE_DIM
                        "formulas for all fields, or none for all",
                        "complete the section");
     if (given)
-      for (unsigned int i = 0; i < component_names.size(); ++i)
-        fields[i].prepare(texts[i],
-                          std::string("Exact solution/") + component_names[i]);
+      for (unsigned int i = 0; i < names_of_components.size(); ++i)
+        fields[i].prepare(
+          texts[i], std::string("Exact solution/") + names_of_components[i]);
   }
 
   FieldErrors

@@ -31,10 +31,6 @@ namespace geocone::GEOCONE_DIM
             return found;
       return "";
     }
-
-    const char *const not_finite_remedy =
-      " is not a finite number\n  remedy:  look for absurd magnitudes among "
-      "the parameters, the formulas and the files that were read";
   } // namespace
 
   OutputBase::OutputBase(const MPI_Comm comm, Log &log)
@@ -183,13 +179,6 @@ namespace geocone::GEOCONE_DIM
     });
     if (!what.empty())
       throw RunError("'" + what + "' of the summary" + not_finite_remedy);
-  }
-
-  void
-  check_finite(const std::string &column, const double value)
-  {
-    if (!std::isfinite(value))
-      throw StepFailure("'" + column + "'" + not_finite_remedy);
   }
 
   bool

@@ -6,6 +6,7 @@
 // residual hides none of them: a velocity that is wrong by a millionth is no
 // solution, though the step that it belongs to ends at the floor.
 
+#include <geocone/lab/stress_methods.h>
 #include <geocone/run/implicit_simulation.h>
 
 #include "../simulate.h"
@@ -42,7 +43,7 @@ namespace solvers_not_solved_01
     Method              method;
     BackgroundMesh      mesh;
     Space               space;
-    NonsmoothNewton     newton;
+    NonsmoothNewton     newton{stress_methods()};
     Freezer             freezer;
     ImplicitFEM         stepper;
     dealii::TimerOutput timer;

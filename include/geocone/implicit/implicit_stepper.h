@@ -183,12 +183,13 @@ namespace geocone::GEOCONE_DIM
 
     /** Ends an accepted step, after which points may be in other cells, or gone. */
     virtual void
-    finish(const TimeStep        &step,
-           const NonsmoothNewton &newton,
-           dealii::TimerOutput   &timer,
-           Kinematics            &kinematics,
-           MaterialPoints        &points,
-           StepReport            &report) = 0;
+    finish(const TimeStep & /* step */,
+           const NonsmoothNewton & /* newton */,
+           dealii::TimerOutput & /* timer */,
+           Kinematics & /* kinematics */,
+           MaterialPoints & /* points */,
+           StepReport & /* report */)
+    {}
     /** @} */
 
     /** @name Changes of the body, of which they give remarks. Collective. */

@@ -17,6 +17,11 @@ namespace geocone
     may_be ///< e.g. the displacement of a point that has left
   };
 
+  /** The end of an error about a number that is not finite. */
+  inline constexpr const char *not_finite_remedy =
+    " is not a finite number\n  remedy:  look for absurd magnitudes among "
+    "the parameters, the formulas and the files that were read";
+
   /** @throws StepFailure if a value of a column is not finite */
   void
   check_finite(const std::string &column, const double value);
