@@ -10,7 +10,8 @@ import numpy as np
 from PIL import Image
 
 from geocone.files import write_listed
-from geocone.plots.points import look_at, strain_or_shear
+from geocone.plots.point_values import strain_or_shear
+from geocone.plots.points import look_at
 from geocone.style import STRAINS, Skipped, draw_obstacles, panels, plain
 
 SECONDS = 8.  # that a film takes

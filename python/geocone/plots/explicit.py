@@ -15,8 +15,8 @@ import numpy as np
 from matplotlib.colors import Normalize
 
 from geocone.plots.energy import draw_explicit
-from geocone.plots.points import (draw_panels, look_at, states_at, strain_or_shear,
-                                  values_of)
+from geocone.plots.point_values import states_at, strain_or_shear, values_of
+from geocone.plots.points import draw_panels, look_at
 from geocone.reader import Missing, ReadError
 from geocone.style import BESIDE, COLORS, RATIOS, Skipped, plain, save, subplots
 

@@ -15,6 +15,7 @@ from PIL import Image
 
 from geocone.files import write_listed
 from geocone.plots import points, rates
+from geocone.plots.point_values import strain_or_shear
 from geocone.reader import Missing, ReadError
 from geocone.style import STRAINS, PlotError, Skipped, draw_obstacles, draw_water
 
@@ -179,7 +180,7 @@ def frames_of(run):
         chosen = np.unique(np.linspace(0, len(times) - 1,
                                        min(len(times), MOST_FRAMES)).astype(int))
         fields = run.states(series, tuple(int(i) for i in chosen))
-        values, label, norm, _ = points.strain_or_shear(fields)
+        values, label, norm, _ = strain_or_shear(fields)
         look = (CellsLook(fields, lambda size: 0.5 * size) if cells else
                 points.look_at(fields, values, lambda size: 0.5 * size))
     except (Missing, Skipped):

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from geocone.files import write_listed
-from geocone.plots.points import STRAIN
+from geocone.plots.point_values import STRAIN
 from geocone.reader import Missing
 from geocone.style import SHOWN, Skipped
 

@@ -10,7 +10,7 @@ from matplotlib.collections import EllipseCollection, PolyCollection
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.patheffects import withStroke
 
-from geocone.plots.points import STRAIN, values_of, view_of
+from geocone.plots.point_values import STRAIN, values_of, view_of
 from geocone.style import RATES, SHOWN, STEPS, add_bar, panels, save
 
 # Corners of the faces of cells, in VTK's order; triangles tell one corner twice.

@@ -18,7 +18,7 @@ from matplotlib.patheffects import Normal, Stroke
 from matplotlib.ticker import MaxNLocator
 
 from geocone.plots.newton import draw_attempts
-from geocone.plots.points import values_of
+from geocone.plots.point_values import values_of
 from geocone.plots.rates import add_rates, cells_of
 from geocone.reader import nearest, read_series, read_states, read_table
 from geocone.report.schema import (LINE, NUMBER, POSITIVE, VALUE, VIEW, any_of, between, list_of,

@@ -1,0 +1,61 @@
+# Copyright (C) 2026 by the geocone authors
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Values of material points that are shown in pictures, and the box of the points."""
+
+import numpy as np
+from matplotlib.colors import LogNorm, Normalize
+
+from geocone.reader import nearest
+from geocone.style import Skipped
+
+STRAIN = "cumulative_plastic_strain"
+SHEAR = "largest shear stress in the plane (Pa)"
+
+
+def states_at(run, wanted):
+    """The states of the points of a run at the times nearest to those wanted."""
+    return run.states("points", tuple(nearest(run.times("points"), wanted)))
+
+
+def values_of(fields, *names):
+    """The values of the first of the names that the points have, a list over the
+    fields; or None."""
+    for name in names:
+        if all(name in field.data for field in fields):
+            return [field.data[name][:, 0] for field in fields]
+    return None
+
+
+def shear_stress(fields):
+    """The largest shear stress in the plane (Pa), a list over the fields."""
+    parts = [values_of(fields, f"stress_{name}") for name in ("xx", "yy", "xy")]
+    if None in parts:
+        raise Skipped("its points have neither plastic strain nor stress")
+    return [np.hypot((xx - yy) / 2., xy) for xx, yy, xy in zip(*parts)]
+
+
+def strain_or_shear(fields):
+    """What is shown of points: plastic strain, on a scale of its logarithm, or the
+    shear stress of an elastic body.
+
+    @return values, a list over the fields; their name; their scale; its open ends"""
+    values = values_of(fields, STRAIN)
+    if values is not None and np.any(np.concatenate(values) > 0.):
+        everything = np.concatenate(values)
+        most = np.quantile(everything[everything > 0.], 0.99)
+        return (values, "cumulative plastic strain (-)", LogNorm(1e-3 * most, most),
+                "both")
+    values = shear_stress(fields)
+    most = np.quantile(np.concatenate(values), 0.995)
+    return values, SHEAR, Normalize(0., max(most, np.finfo(float).tiny)), "max"
+
+
+def view_of(fields, reach):
+    """The box of all points but those that have flown far away: farther from the box of
+    nearly all of them than `reach` tells of its size (2)."""
+    points = np.concatenate([field.points for field in fields])
+    low, high = np.quantile(points, [0.005, 0.995], axis=0)
+    far = reach(high - low)
+    near = points[np.all((points >= low - far) & (points <= high + far), axis=1)]
+    margin = 0.03 * np.ptp(near, axis=0).max()
+    return near.min(axis=0) - margin, near.max(axis=0) + margin
