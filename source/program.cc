@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/types.h>
+#include <geocone/base/unused_parameters.h>
 #include <geocone/base/version.h>
 #include <geocone/command_line.h>
 #include <geocone/materials/material_library.h>
@@ -11,7 +12,6 @@
 #include <geocone/output/run_folder.h>
 #include <geocone/program.h>
 #include <geocone/replay.h>
-#include <geocone/unused_parameters.h>
 
 #include <deal.II/base/mpi.h>
 

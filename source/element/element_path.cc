@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/unused_parameters.h>
 #include <geocone/element/element_path.h>
 
 #include <algorithm>
@@ -10,6 +11,13 @@
 
 namespace geocone::GEOCONE_DIM
 {
+  namespace
+  {
+    const UsedWhere used_element_path[] = {
+      {"Path/*", "Discretisation/Method", {"point"}},
+      {"Path/*/*", "Discretisation/Method", {"point"}}};
+  } // namespace
+
   namespace
   {
     double

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/unused_parameters.h>
 #include <geocone/element/element_test.h>
 
 #include <deal.II/base/mpi.h>
@@ -12,6 +13,12 @@
 
 namespace geocone::GEOCONE_DIM
 {
+  namespace
+  {
+    const UsedWhere used_element_test[] = {
+      {"Element/*", "Discretisation/Method", {"point"}}};
+  } // namespace
+
   ElementTest::ElementTest(const MPI_Comm       comm,
                            const ParameterFile &file,
                            Log                 &log)

@@ -6,6 +6,7 @@
 #include <geocone/base/over_ranks.h>
 #include <geocone/base/stop_request.h>
 #include <geocone/base/stopwatch.h>
+#include <geocone/base/unused_parameters.h>
 #include <geocone/explicit/explicit_mpm.h>
 #include <geocone/time_stepping/check_removal.h>
 #include <geocone/time_stepping/time_stepper.h>
@@ -21,6 +22,12 @@
 namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
+
+  namespace
+  {
+    const UsedWhere used_explicit_mpm[] = {
+      {"Explicit/*", "Discretisation/Method", {"explicit MPM"}}};
+  } // namespace
 
   namespace
   {

@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/base/over_ranks.h>
+#include <geocone/base/unused_parameters.h>
 #include <geocone/implicit/implicit_fem.h>
 #include <geocone/points/point_record.h>
 #include <geocone/points/quadrature_points.h>
@@ -16,6 +17,12 @@
 namespace geocone::GEOCONE_DIM
 {
   using dealii::TimerOutput;
+
+  namespace
+  {
+    const UsedWhere used_implicit_fem[] = {
+      {"Time stepping/Inertia", "Discretisation/Method", {"FEM"}}};
+  } // namespace
 
   namespace
   {

@@ -3,11 +3,40 @@
 
 // Parameters of the implicit material point method, and what it refuses.
 #include <geocone/base/exceptions.h>
+#include <geocone/base/unused_parameters.h>
 #include <geocone/implicit/implicit_mpm.h>
 
 namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
+
+  namespace
+  {
+    const UsedWhere used_implicit_mpm_parameters[] = {
+      {"Material point method/Consistent integration",
+       "Discretisation/B-bar",
+       {"true"}},
+      {"Material point method/Advection", "Discretisation/Method", {"MPM"}},
+      {"Material point method/Consistent mass part",
+       "Discretisation/Method",
+       {"MPM"}},
+      {"Material point method/Ghost stiffness",
+       "Discretisation/Method",
+       {"MPM"}},
+      {"Material point method/Ghost stiffness of",
+       "Discretisation/Method",
+       {"MPM"}},
+      {"Material point method/Ghost stiffness",
+       "Material point method/Advection",
+       {"grid velocity", "particle velocity"}},
+      {"Material point method/Ghost stiffness of",
+       "Material point method/Advection",
+       {"grid velocity", "particle velocity"}},
+      {"Material point method/Integration", "Discretisation/Method", {"MPM"}},
+      {"Material point method/Start", "Discretisation/Method", {"MPM"}},
+      {"Material point method/Largest move", "Discretisation/Method", {"MPM"}},
+      {"Material point method/Grid follows", "Discretisation/Method", {"MPM"}}};
+  } // namespace
 
   ImplicitMPM::ImplicitMPM(const ParameterFile &file)
     : ImplicitStepper("transfer")

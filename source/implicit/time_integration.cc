@@ -3,10 +3,28 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/unused_parameters.h>
 #include <geocone/implicit/time_integration.h>
 
 namespace geocone::GEOCONE_DIM
 {
+  namespace
+  {
+    const UsedWhere used_time_integration[] = {
+      {"Material point method/Theta",
+       "Material point method/Integration",
+       {"theta-scheme"}},
+      {"Material point method/Newmark gamma",
+       "Material point method/Integration",
+       {"Newmark"}},
+      {"Material point method/Newmark beta",
+       "Material point method/Integration",
+       {"Newmark"}},
+      {"Time stepping/Theta", "Time stepping/Integration", {"theta-scheme"}},
+      {"Time stepping/Newmark gamma", "Time stepping/Integration", {"Newmark"}},
+      {"Time stepping/Newmark beta", "Time stepping/Integration", {"Newmark"}}};
+  } // namespace
+
   void
   TimeIntegration::declare(dealii::ParameterAcceptor &acceptor,
                            const std::string         &documentation)

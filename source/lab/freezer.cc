@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/base/parameter_file.h>
+#include <geocone/base/unused_parameters.h>
 #include <geocone/lab/freezer.h>
 
 #include <deal.II/base/mpi.h>
@@ -12,6 +13,13 @@
 
 namespace geocone::GEOCONE_DIM
 {
+  namespace
+  {
+    const UsedWhere used_freezer[] = {
+      {"Output/Freeze steps", "Discretisation/Method", {"FEM", "MPM"}},
+      {"Output/Freeze failures", "Discretisation/Method", {"FEM", "MPM"}}};
+  } // namespace
+
   namespace
   {
     /** A run that fails at every step must not fill the disk. */

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/stop_request.h>
+#include <geocone/base/unused_parameters.h>
 #include <geocone/limit_analysis/limit_analysis.h>
 #include <geocone/scene/magnitudes.h>
 
@@ -14,6 +15,27 @@
 
 namespace geocone::GEOCONE_DIM
 {
+  namespace
+  {
+    const UsedWhere used_limit_analysis[] = {
+      {"Analysis/Load factor of", "Analysis/Kind", {"limit load"}},
+      {"Analysis/Gap tolerance",
+       "Analysis/Kind",
+       {"limit load", "strength reduction"}},
+      {"Analysis/Growth of meshes",
+       "Analysis/Kind",
+       {"limit load", "strength reduction"}},
+      {"Analysis/Maximum cells",
+       "Analysis/Kind",
+       {"limit load", "strength reduction"}},
+      {"Analysis/Maximum levels",
+       "Analysis/Kind",
+       {"limit load", "strength reduction"}},
+      {"Analysis/Solver tolerance",
+       "Analysis/Kind",
+       {"limit load", "strength reduction"}}};
+  } // namespace
+
   namespace
   {
     /** @param unit the load of a problem's 1 */

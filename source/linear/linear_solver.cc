@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/unused_parameters.h>
 #include <geocone/linear/linear_solver.h>
 
 #include <deal.II/base/mpi.h>
@@ -10,6 +11,12 @@
 
 namespace geocone
 {
+  namespace
+  {
+    const UsedWhere used_linear_solver[] = {
+      {"Linear solver/*", "Discretisation/Method", {"FEM", "MPM"}}};
+  } // namespace
+
   void
   LinearSolver::fail(const std::string &why)
   {

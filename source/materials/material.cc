@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/unused_parameters.h>
 #include <geocone/kernels/cone_kernel.h>
 #include <geocone/kernels/spin.h>
 #include <geocone/materials/material.h>
@@ -10,6 +11,14 @@
 
 namespace geocone::GEOCONE_DIM
 {
+  namespace
+  {
+    const UsedWhere used_material[] = {{"Materials/*/Reduce strength",
+                                        "Analysis/Kind",
+                                        {"strength reduction"},
+                                        "Loading/*/Strength factor"}};
+  } // namespace
+
   Material::Material(const std::string &section)
     : Material(section, Stiffness::constant)
   {}

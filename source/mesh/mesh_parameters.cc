@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/unused_parameters.h>
 #include <geocone/mesh/gmsh_mesh.h>
 #include <geocone/mesh/mesh_parameters.h>
 #include <geocone/mesh/structured_mesh.h>
@@ -12,6 +13,37 @@
 namespace geocone::GEOCONE_DIM
 {
   using dealii::Point;
+
+  namespace
+  {
+    const UsedWhere used_mesh_parameters[] = {
+      {"Mesh/*", "Discretisation/Method", {"FEM", "MPM", "explicit MPM"}},
+      {"Mesh/Type", "Geometry/Shape", {"box", "polygon", "discs"}},
+      {"Mesh/Box", "Geometry/Shape", {"box", "polygon", "discs"}},
+      {"Mesh/Box", "Discretisation/Method", {"MPM", "explicit MPM"}},
+      {"Mesh/Cells", "Geometry/Shape", {"box", "polygon", "discs"}},
+      {"Mesh/Diagonals", "Mesh/Type", {"uniform", "graded"}},
+      {"Mesh/Diagonals", "Discretisation/Method", {"FEM"}},
+      {"Mesh/Cell size", "Geometry/Shape", {"box", "polygon", "discs"}},
+      {"Mesh/Cell size",
+       "Mesh/Type",
+       {"uniform", "unstructured", "from the bounds"}},
+      {"Mesh/Grading points",
+       "Mesh/Type",
+       {"graded", "unstructured", "from the bounds"}},
+      {"Mesh/Smallest size",
+       "Mesh/Type",
+       {"graded", "unstructured", "from the bounds"}},
+      {"Mesh/Largest size",
+       "Mesh/Type",
+       {"graded", "unstructured", "from the bounds"}},
+      {"Mesh/Growth factor", "Mesh/Type", {"graded"}},
+      {"Mesh/Size ratio", "Mesh/Type", {"unstructured", "from the bounds"}},
+      {"Mesh/Number of cells", "Mesh/Type", {"from the bounds"}},
+      {"Mesh/Gmsh algorithm",
+       "Mesh/Type",
+       {"unstructured", "from the bounds"}}};
+  } // namespace
 
   MeshParameters::MeshParameters()
     : dealii::ParameterAcceptor("/Mesh")

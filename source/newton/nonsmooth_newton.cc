@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/unused_parameters.h>
 #include <geocone/newton/first_iterate.h>
 #include <geocone/newton/lag_continuation.h>
 #include <geocone/newton/nonsmooth_newton.h>
@@ -14,6 +15,15 @@ namespace geocone::GEOCONE_DIM
   using dealii::TimerOutput;
   using dealii::Patterns::Double;
   using dealii::Patterns::Integer;
+
+  namespace
+  {
+    const UsedWhere used_nonsmooth_newton[] = {
+      {"Newton/*", "Discretisation/Method", {"FEM", "MPM"}},
+      {"Newton/First iterate sweeps",
+       "Newton/First iterate",
+       {"fixed point", "Gauss-Seidel"}}};
+  } // namespace
 
   namespace
   {

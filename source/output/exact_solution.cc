@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/over_ranks.h>
+#include <geocone/base/unused_parameters.h>
 #include <geocone/output/exact_solution.h>
 #include <geocone/points/quadrature_points.h>
 
@@ -14,6 +15,12 @@
 
 namespace geocone::GEOCONE_DIM
 {
+  namespace
+  {
+    const UsedWhere used_exact_solution[] = {
+      {"Exact solution/*", "Discretisation/Method", {"FEM", "MPM"}}};
+  } // namespace
+
   namespace
   {
     const std::vector<std::string> names_of_components = [] {

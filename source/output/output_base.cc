@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/stop_request.h>
+#include <geocone/base/unused_parameters.h>
 #include <geocone/output/output_base.h>
 #include <geocone/output/run_status.h>
 #include <geocone/output/statistics_table.h>
@@ -14,6 +15,12 @@
 
 namespace geocone::GEOCONE_DIM
 {
+  namespace
+  {
+    const UsedWhere used_output_base[] = {
+      {"Output/Fields format", "Output/Fields", {"true"}}};
+  } // namespace
+
   namespace
   {
     /** The place of the first number of a summary that is not finite, or

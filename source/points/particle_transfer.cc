@@ -1,6 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/unused_parameters.h>
 #include <geocone/points/particle_transfer.h>
 
 #include <deal.II/base/patterns.h>
@@ -9,6 +10,20 @@
 namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
+
+  namespace
+  {
+    const UsedWhere used_particle_transfer[] = {
+      {"Material point method/Transfer",
+       "Discretisation/Method",
+       {"MPM", "explicit MPM"}},
+      {"Material point method/FLIP part",
+       "Discretisation/Method",
+       {"MPM", "explicit MPM"}},
+      {"Material point method/FLIP part",
+       "Material point method/Transfer",
+       {"FLIP", "AFLIP"}}};
+  } // namespace
 
   const char *const ParticleTransfer::parameter =
     "Material point method/Transfer";

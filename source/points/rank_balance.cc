@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/over_ranks.h>
+#include <geocone/base/unused_parameters.h>
 #include <geocone/points/rank_balance.h>
 
 #include <deal.II/base/mpi.h>
@@ -13,6 +14,14 @@
 namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
+
+  namespace
+  {
+    const UsedWhere used_rank_balance[] = {
+      {"Material point method/Largest imbalance",
+       "Discretisation/Method",
+       {"MPM", "explicit MPM"}}};
+  } // namespace
 
   RankBalance::RankBalance()
     : ParameterAcceptor("/Material point method")

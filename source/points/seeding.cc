@@ -5,6 +5,7 @@
 #include <geocone/base/files.h>
 #include <geocone/base/lexicographic.h>
 #include <geocone/base/log.h>
+#include <geocone/base/unused_parameters.h>
 #include <geocone/mesh/cell_search.h>
 #include <geocone/points/seeding.h>
 
@@ -22,6 +23,19 @@
 namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
+
+  namespace
+  {
+    const UsedWhere used_seeding[] = {
+      {"Particles/*", "Discretisation/Method", {"MPM", "explicit MPM"}},
+      {"Particles/Points per direction",
+       "Particles/Layout",
+       {"Gauss", "sub-cells"}},
+      {"Particles/Spacing", "Particles/Layout", {"lattice"}},
+      {"Particles/Number", "Particles/Layout", {"random"}},
+      {"Particles/Random seed", "Particles/Layout", {"random"}},
+      {"Particles/File", "Particles/Layout", {"file"}}};
+  } // namespace
 
   namespace
   {

@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/over_ranks.h>
 #include <geocone/base/stop_request.h>
+#include <geocone/base/unused_parameters.h>
 #include <geocone/conditions/held_width.h>
 #include <geocone/output/run_status.h>
 #include <geocone/run/implicit_simulation.h>
@@ -20,6 +21,12 @@
 namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
+
+  namespace
+  {
+    const UsedWhere used_implicit_simulation[] = {
+      {"Time stepping/*", "Discretisation/Method", {"FEM", "MPM"}}};
+  } // namespace
 
   namespace
   {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
+#include <geocone/base/unused_parameters.h>
 #include <geocone/functions/formula.h>
 #include <geocone/scene/boundary_conditions.h>
 
@@ -9,6 +10,27 @@
 
 namespace geocone::GEOCONE_DIM
 {
+  namespace
+  {
+    const UsedWhere used_boundary_conditions[] = {
+      {"Boundary conditions/*",
+       "Discretisation/Method",
+       {"FEM", "MPM", "explicit MPM"}},
+      {"Boundary conditions/*/*",
+       "Discretisation/Method",
+       {"FEM", "MPM", "explicit MPM"}},
+      {"Tractions/*", "Discretisation/Method", {"FEM", "MPM", "explicit MPM"}},
+      {"Tractions/*/*",
+       "Discretisation/Method",
+       {"FEM", "MPM", "explicit MPM"}},
+      {"Boundary conditions/*/Segments",
+       "Boundary conditions/*/Imposed on",
+       {"segments"}},
+      {"Boundary conditions/*/Segment shortening",
+       "Boundary conditions/*/Imposed on",
+       {"segments"}}};
+  } // namespace
+
   BoundaryCondition::BoundaryCondition(const std::string &list,
                                        const std::string &name,
                                        const std::string &quantity,

@@ -5,6 +5,7 @@
 #include <geocone/base/files.h>
 #include <geocone/base/lexicographic.h>
 #include <geocone/base/log.h>
+#include <geocone/base/unused_parameters.h>
 #include <geocone/functions/formula.h>
 #include <geocone/scene/geometry.h>
 
@@ -15,6 +16,17 @@
 namespace geocone::GEOCONE_DIM
 {
   using dealii::Point;
+
+  namespace
+  {
+    const UsedWhere used_geometry[] = {
+      {"Geometry/*", "Discretisation/Method", {"FEM", "MPM", "explicit MPM"}},
+      {"Geometry/Box", "Geometry/Shape", {"box"}},
+      {"Geometry/Polygon", "Geometry/Shape", {"polygon"}},
+      {"Geometry/Centres", "Geometry/Shape", {"discs"}},
+      {"Geometry/Radii", "Geometry/Shape", {"discs"}},
+      {"Geometry/File", "Geometry/Shape", {"file"}}};
+  } // namespace
 
   namespace
   {

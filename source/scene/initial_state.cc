@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/unused_parameters.h>
 #include <geocone/functions/formula.h>
 #include <geocone/scene/initial_state.h>
 #include <geocone/scene/water.h>
@@ -14,6 +15,43 @@
 
 namespace geocone::GEOCONE_DIM
 {
+  namespace
+  {
+    const UsedWhere used_initial_state[] = {
+      {"Initial stress/*",
+       "Discretisation/Method",
+       {"FEM", "MPM", "explicit MPM"}},
+      {"Initial velocity/*",
+       "Discretisation/Method",
+       {"FEM", "MPM", "explicit MPM"}},
+      {"Initial stress/Stress xx",
+       "Initial stress/Type",
+       {"given"},
+       "Initial stress/Of added materials"},
+      {"Initial stress/Stress yy",
+       "Initial stress/Type",
+       {"given"},
+       "Initial stress/Of added materials"},
+      {"Initial stress/Stress xy",
+       "Initial stress/Type",
+       {"given"},
+       "Initial stress/Of added materials"},
+      {"Initial stress/Stress zz",
+       "Initial stress/Type",
+       {"given"},
+       "Initial stress/Of added materials"},
+      {"Initial stress/K0",
+       "Initial stress/Type",
+       {"geostatic"},
+       "Initial stress/Of added materials"},
+      {"Materials/*/K0",
+       "Initial stress/Type",
+       {"geostatic"},
+       "Initial stress/Of added materials"},
+      {"Initial stress/Surface level", "Initial stress/Type", {"geostatic"}},
+      {"Initial stress/Surcharge", "Initial stress/Type", {"geostatic"}}};
+  } // namespace
+
   namespace
   {
     /** A formula of the state at the start, which knows no time. */

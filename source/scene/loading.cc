@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/unused_parameters.h>
 #include <geocone/functions/formula.h>
 #include <geocone/scene/loading.h>
 
@@ -13,6 +14,22 @@
 
 namespace geocone::GEOCONE_DIM
 {
+  namespace
+  {
+    const UsedWhere used_loading[] = {
+      {"Gravity/*", "Discretisation/Method", {"FEM", "MPM", "explicit MPM"}},
+      {"Loading/*", "Discretisation/Method", {"FEM", "MPM", "explicit MPM"}},
+      {"Loading/*/*", "Discretisation/Method", {"FEM", "MPM", "explicit MPM"}},
+      {"Loading/*/Until failure", "Discretisation/Method", {"FEM", "MPM"}},
+      {"Loading/*/Strength factor", "Discretisation/Method", {"FEM", "MPM"}},
+      {"Loading/*/Raising velocity", "Discretisation/Method", {"FEM", "MPM"}},
+      {"Loading/*/Damping", "Discretisation/Method", {"explicit MPM"}},
+      {"Loading/*/Kinetic damping", "Discretisation/Method", {"explicit MPM"}},
+      {"Loading/*/Largest unbalanced force",
+       "Discretisation/Method",
+       {"explicit MPM"}}};
+  } // namespace
+
   namespace
   {
     constexpr double most_steps = 1e8; ///< of a stage
@@ -195,7 +212,7 @@ namespace geocone::GEOCONE_DIM
                                "MPM");
     };
     // Damping and its tests are means of explicit steps to come to rest: they are
-    // not used (unused_parameters.cc).
+    // not used (UsedWhere).
     for (const auto &[entry, value] :
          {std::pair<const char *, bool>("Reset velocity", reset_velocity),
           {"Reset history", reset_history}})

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/base/unused_parameters.h>
 #include <geocone/materials/material_library.h>
 #include <geocone/scene/observation.h>
 
@@ -11,6 +12,34 @@
 
 namespace geocone::GEOCONE_DIM
 {
+  namespace
+  {
+    const UsedWhere used_observation[] = {
+      {"Observation/*",
+       "Discretisation/Method",
+       {"FEM", "MPM", "explicit MPM"}},
+      {"Observation/Component", "Discretisation/Method", {"FEM", "MPM"}},
+      {"Observation/Factor", "Discretisation/Method", {"FEM", "MPM"}},
+      {"Observation/Plateau tolerance",
+       "Discretisation/Method",
+       {"FEM", "MPM"}},
+      {"Observation/Component", "Observation/Conditions", {}},
+      {"Observation/Factor",
+       "Observation/Conditions",
+       {},
+       "Loading/*/Raised loads"},
+      {"Observation/Plateau tolerance",
+       "Observation/Conditions",
+       {},
+       "Loading/*/Raised loads"},
+      {"Observation/Reference", "Discretisation/Method", {"FEM", "MPM"}},
+      {"Observation/Reference material", "Observation/Reference", {"Prandtl"}},
+      {"Observation/Reference width", "Observation/Reference", {"Prandtl"}},
+      {"Observation/Reference surcharge",
+       "Observation/Reference",
+       {"Prandtl"}}};
+  } // namespace
+
   double
   bearing_capacity_factor_q(const double phi)
   {

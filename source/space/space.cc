@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/lexicographic.h>
+#include <geocone/base/unused_parameters.h>
 #include <geocone/space/space.h>
 
 #include <deal.II/base/mpi.h>
@@ -17,6 +18,19 @@
 namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
+
+  namespace
+  {
+    const UsedWhere used_space[] = {{"Discretisation/Element",
+                                     "Discretisation/Method",
+                                     {"FEM", "MPM", "explicit MPM"}},
+                                    {"Discretisation/B-bar",
+                                     "Discretisation/Method",
+                                     {"FEM", "MPM", "explicit MPM"}},
+                                    {"Discretisation/Basis",
+                                     "Discretisation/Method",
+                                     {"FEM", "MPM", "explicit MPM"}}};
+  } // namespace
 
   namespace
   {

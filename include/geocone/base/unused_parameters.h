@@ -1,0 +1,43 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_base_unused_parameters_h
+#define geocone_base_unused_parameters_h
+
+#include <geocone/base/parameter_file.h>
+
+#include <string>
+#include <vector>
+
+namespace geocone
+{
+  /**
+   * A rule that a parameter is used only where another one has certain values. It is
+   * declared beside the parameter, as a constant outside of functions. A '*' stands for
+   * any name, the same in all paths of a rule.
+   */
+  struct UsedWhere
+  {
+    /** @param values of the chooser; empty: any but none
+     *  @param other a parameter by which it is used as well, if that is set */
+    UsedWhere(const char                     *parameter,
+              const char                     *chooser,
+              const std::vector<std::string> &values,
+              const char                     *other = "");
+
+    std::string              parameter, chooser;
+    std::vector<std::string> values;
+    std::string              other;
+  };
+
+  /**
+   * One line that names the parameters that are set, to other values than their
+   * defaults, and not used: by the method, the mesh, the law ... that other
+   * parameters choose. Empty if there are none. To be called after
+   * ParameterFile::parse().
+   */
+  std::string
+  unused_parameters(const std::vector<ParameterFile::Setting> &settings);
+} // namespace geocone
+
+#endif

@@ -1,0 +1,140 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/base/exceptions.h>
+#include <geocone/base/unused_parameters.h>
+
+#include <algorithm>
+#include <map>
+
+namespace geocone
+{
+  namespace
+  {
+    /** Declared so far: rules of whole sections, and of single parameters. There before
+     *  the first rule declares itself, which is before main(). */
+    struct Rules
+    {
+      std::vector<UsedWhere> of_sections, of_parameters;
+    };
+    Rules &
+    declared_rules()
+    {
+      static Rules rules;
+      return rules;
+    }
+
+    std::vector<std::string>
+    parts(const std::string &path)
+    {
+      return split_names(path, '/');
+    }
+
+    /** Whether a path is one of those of a rule; @p star is what a '*' stands
+     *  for. */
+    bool
+    matches(const std::string &rule, const std::string &path, std::string &star)
+    {
+      const auto a = parts(rule), b = parts(path);
+      if (a.size() != b.size())
+        return false;
+      for (std::size_t i = 0; i < a.size(); ++i)
+        if (a[i] == "*")
+          star = b[i];
+        else if (a[i] != b[i])
+          return false;
+      return true;
+    }
+
+    /** The first of the rules that a setting breaks, as a text; or nothing. */
+    std::string
+    broken_rule(const std::vector<UsedWhere>              &rules,
+                const ParameterFile::Setting              &setting,
+                const std::vector<ParameterFile::Setting> &settings,
+                std::map<std::string, std::string>        &values)
+    {
+      for (const UsedWhere &rule : rules)
+        {
+          std::string star;
+          if (!matches(rule.parameter, setting.path, star))
+            continue;
+          std::string chooser = rule.chooser;
+          if (const auto place = chooser.find('*'); place != std::string::npos)
+            chooser.replace(place, 1, star);
+          const auto        known = values.find(chooser);
+          const std::string value =
+            known != values.end()
+              ? known->second
+              : (values[chooser] = ParameterFile::value(chooser));
+          if (rule.values.empty()
+                ? !value.empty()
+                : std::count(rule.values.begin(), rule.values.end(), value) > 0)
+            continue;
+          if (!rule.other.empty() &&
+              std::any_of(settings.begin(),
+                          settings.end(),
+                          [&](const ParameterFile::Setting &other) {
+                            return matches(rule.other, other.path, star) &&
+                                   !other.value.empty();
+                          }))
+            continue;
+          std::string needed;
+          for (const std::string &choice : rule.values)
+            needed += (needed.empty() ? "" : " or ") + choice;
+          return chooser + (needed.empty() ? "" : " = " + needed);
+        }
+      return "";
+    }
+  } // namespace
+
+  UsedWhere::UsedWhere(const char                     *parameter,
+                       const char                     *chooser,
+                       const std::vector<std::string> &values,
+                       const char                     *other)
+    : parameter(parameter)
+    , chooser(chooser)
+    , values(values)
+    , other(other)
+  {
+    Rules &all = declared_rules();
+    auto  &rules =
+      this->parameter.back() == '*' ? all.of_sections : all.of_parameters;
+    // What is compiled for each dimension declares it twice.
+    if (std::none_of(rules.begin(), rules.end(), [&](const UsedWhere &rule) {
+          return rule.parameter == this->parameter &&
+                 rule.chooser == this->chooser;
+        }))
+      rules.push_back(*this);
+  }
+
+  std::string
+  unused_parameters(const std::vector<ParameterFile::Setting> &settings)
+  {
+    std::map<std::string, std::string> values; // of the choosers
+    std::string                        list;
+    const auto add = [&](const std::string &path, const std::string &chooser) {
+      list += (list.empty() ? "" : ", ") + printable(path) + " (needs " +
+              printable(chooser) + ")";
+    };
+    for (const ParameterFile::Setting &setting : settings)
+      {
+        if (!setting.of_other.empty())
+          {
+            add(setting.path, setting.of_other);
+            continue;
+          }
+        // A file that holds all parameters, as used, says nothing by its
+        // defaults.
+        if (setting.value == setting.default_value)
+          continue;
+        std::string needed =
+          broken_rule(declared_rules().of_sections, setting, settings, values);
+        if (needed.empty())
+          needed = broken_rule(
+            declared_rules().of_parameters, setting, settings, values);
+        if (!needed.empty())
+          add(setting.path, needed);
+      }
+    return list.empty() ? "" : "set, but not used by this run: " + list;
+  }
+} // namespace geocone
