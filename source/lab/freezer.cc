@@ -43,10 +43,20 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  Freezer::check(const LoadingProgramme &loading) const
+  Freezer::check(const Scene &scene) const
   {
+    if (is_used())
+      {
+        const std::string remedy =
+          "leave 'Output/Freeze steps' and 'Freeze failures' out";
+        for (const auto &condition : scene.dirichlet.list)
+          condition->refuse_normal("free where problems are frozen",
+                                   "give Velocity x and y, or " + remedy);
+        scene.refuse_contact("frozen problems", remedy);
+        scene.absorbing.refuse("frozen problems", remedy);
+      }
     std::size_t n_steps = 0;
-    for (const auto &stage : loading.stages)
+    for (const auto &stage : scene.loading.stages)
       n_steps += stage->step_sizes().size();
     for (const unsigned int number : steps)
       if (number > n_steps)

@@ -209,6 +209,19 @@ namespace geocone::GEOCONE_DIM
     return all;
   }
 
+  std::vector<std::string>
+  Materials::warnings() const
+  {
+    std::vector<std::string> all;
+    for (unsigned int m = 0; m < size(); ++m)
+      if (in_closed_form[m] != nullptr && list[m]->fluid_modulus() > 0. &&
+          in_closed_form[m]->dilates())
+        all.push_back("the undrained soil '" + names[m] +
+                      "' dilates, and gets stronger the more it flows: "
+                      "set its Dilatancy angle = 0");
+    return all;
+  }
+
   void
   Materials::refuse_undrained(const std::string &what,
                               const std::string &remedy) const

@@ -168,17 +168,9 @@ namespace geocone::GEOCONE_DIM
     , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
   {}
 
-  std::vector<std::string>
-  ImplicitSimulation::prepare_method(const RunOptions &options)
+  void
+  ImplicitSimulation::prepare_mesh(const RunOptions &options)
   {
-    scene.materials.check_closed_form(method.name());
-    if (scene.loading.reduces_strength())
-      scene.materials.reduce_strength(1.);
-    for (const auto &stage : scene.loading.stages)
-      stage->check_implicit();
-    newton.prepare();
-    step_control.prepare();
-    exact_solution.prepare();
     Seeding   *seeding    = method.is_mpm() ? &implicit_mpm.seeding() : nullptr;
     const auto check_size = [&]() {
       const RunEstimate estimate =
@@ -204,6 +196,11 @@ namespace geocone::GEOCONE_DIM
     mesh.prepare(scene, method);
     if (scene.geometry.is_script())
       check_size();
+  }
+
+  void
+  ImplicitSimulation::remember_friction()
+  {
     // The exact law is easy for particles, unless volume hardly changes at all.
     if ((!method.is_mpm() || is_nearly_incompressible(scene.materials)) &&
         !newton.wants_exact_friction() &&
@@ -212,6 +209,21 @@ namespace geocone::GEOCONE_DIM
         mesh.bounding_box(), [&](const BoundaryCondition &condition) {
           return mesh.faces_of(condition);
         }));
+  }
+
+  std::vector<std::string>
+  ImplicitSimulation::prepare_method(const RunOptions &options)
+  {
+    scene.materials.check_closed_form(method.name());
+    if (scene.loading.reduces_strength())
+      scene.materials.reduce_strength(1.);
+    for (const auto &stage : scene.loading.stages)
+      stage->check_implicit();
+    newton.prepare();
+    step_control.prepare();
+    exact_solution.prepare();
+    prepare_mesh(options);
+    remember_friction();
     if (const std::string text = text_of_memory(scene); !text.empty())
       log.print(options.name + ": " + text);
     space.prepare(mesh, method, scene.materials.traits().has_hard_flow);
@@ -239,48 +251,17 @@ namespace geocone::GEOCONE_DIM
                              warn_of_held_width(scene, mesh, space)})
       warnings.insert(warnings.end(), more.begin(), more.end());
     warnings.push_back(outside_strength(points, scene.materials, comm));
+    for (const auto &more : {space.warnings(scene.materials.traits(), method),
+                             {scene.warn_of_effective_loads()},
+                             scene.materials.warnings()})
+      warnings.insert(warnings.end(), more.begin(), more.end());
     warnings.erase(std::remove(warnings.begin(), warnings.end(), ""),
                    warnings.end());
-    if (scene.materials.traits().undrained && !space.has_b_bar() &&
-        (method.is_mpm() || space.degree() < 3))
-      warnings.push_back("undrained soil keeps its volume, which " +
-                         space.element() +
-                         " cannot everywhere: loads come out too high; take "
-                         "quadrilaterals with Discretisation/B-bar = true" +
-                         (method.is_mpm() ? "" : ", or a cubic element"));
-    if (!method.is_mpm() && space.element() == "P3" &&
-        scene.materials.traits().has_hard_flow)
-      warnings.push_back(
-        "cubic triangles and the exact law of soil with little dilatancy: "
-        "where "
-        "loads drive the soil they were seen to be off by up to 5 % with no "
-        "lag "
-        "(doc/small_dilatancy.md); take Discretisation/Element = P2, or "
-        "'Materials/NAME/Friction memory'");
-    if (scene.water.acts() && !scene.observation.conditions.empty())
-      warnings.push_back("loads and reactions are those of effective stresses: "
-                         "the pressure of the water on supports comes on top");
-    for (unsigned int m = 0; m < scene.materials.size(); ++m)
-      if (scene.materials[m].fluid_modulus() > 0. &&
-          scene.materials[m].dilates())
-        warnings.push_back("the undrained soil '" + scene.materials.name(m) +
-                           "' dilates, and gets stronger the more it flows: "
-                           "set its Dilatancy angle = 0");
     if (method.is_mpm())
       observed_points.prepare_points(scene, points, comm);
     else
       observed_points.prepare_field(scene, mesh, space);
-    if (freezer.is_used())
-      {
-        const std::string remedy =
-          "leave 'Output/Freeze steps' and 'Freeze failures' out";
-        for (const auto &condition : scene.dirichlet.list)
-          condition->refuse_normal("free where problems are frozen",
-                                   "give Velocity x and y, or " + remedy);
-        scene.refuse_contact("frozen problems", remedy);
-        scene.absorbing.refuse("frozen problems", remedy);
-      }
-    freezer.check(scene.loading);
+    freezer.check(scene);
     return warnings;
   }
 

@@ -354,6 +354,15 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::string
+  Scene::warn_of_effective_loads() const
+  {
+    return water.acts() && !observation.conditions.empty()
+             ? "loads and reactions are those of effective stresses: "
+               "the pressure of the water on supports comes on top"
+             : "";
+  }
+
+  std::string
   Scene::warn_of_records() const
   {
     for (const auto *conditions : {&dirichlet, &tractions, &absorbing})

@@ -96,6 +96,26 @@ namespace geocone::GEOCONE_DIM
     return dim == 3 || method.is_explicit() ? "B-spline 2" : "B-spline 3";
   }
 
+  std::vector<std::string>
+  Space::warnings(const LawTraits &law, const Method &method) const
+  {
+    std::vector<std::string> all;
+    if (law.undrained && !has_b_bar() && (method.is_mpm() || degree() < 3))
+      all.push_back("undrained soil keeps its volume, which " + element() +
+                    " cannot everywhere: loads come out too high; take "
+                    "quadrilaterals with Discretisation/B-bar = true" +
+                    (method.is_mpm() ? "" : ", or a cubic element"));
+    if (!method.is_mpm() && element() == "P3" && law.has_hard_flow)
+      all.push_back(
+        "cubic triangles and the exact law of soil with little dilatancy: "
+        "where "
+        "loads drive the soil they were seen to be off by up to 5 % with no "
+        "lag "
+        "(doc/small_dilatancy.md); take Discretisation/Element = P2, or "
+        "'Materials/NAME/Friction memory'");
+    return all;
+  }
+
   void
   Space::choose_element(const bool    simplicial,
                         const bool    has_grid,

@@ -5,7 +5,7 @@
 #define geocone_lab_freezer_h
 
 #include <geocone/lab/frozen_problem.h>
-#include <geocone/scene/loading.h>
+#include <geocone/scene/scene.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
@@ -23,9 +23,10 @@ namespace geocone::GEOCONE_DIM
   public:
     Freezer();
 
-    /** @throws InputError for steps that the programme does not have */
+    /** @throws InputError for steps that the programme does not have, and for what
+     *  frozen problems cannot have */
     void
-    check(const LoadingProgramme &loading) const;
+    check(const Scene &scene) const;
 
     /** @param folder of the run, which exists */
     void

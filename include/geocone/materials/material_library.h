@@ -59,6 +59,10 @@ namespace geocone::GEOCONE_DIM
       return found;
     }
 
+    /** About undrained soil that dilates. */
+    std::vector<std::string>
+    warnings() const;
+
     /** @throws InputError if there is undrained soil, with what knows none */
     void
     refuse_undrained(const std::string &what, const std::string &remedy) const;

@@ -67,6 +67,14 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
+    /** Makes the mesh, and refuses a run that is too large. */
+    void
+    prepare_mesh(const RunOptions &options);
+
+    /** Gives friction a memory where the exact law would not be solved. */
+    void
+    remember_friction();
+
     std::vector<std::string>
     prepare_method(const RunOptions &options) override;
     void

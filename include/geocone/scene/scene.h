@@ -74,6 +74,10 @@ namespace geocone::GEOCONE_DIM
     std::string
     warn_of_records() const;
 
+    /** That loads and reactions lack the pressure of water; empty: there is none. */
+    std::string
+    warn_of_effective_loads() const;
+
     Geometry           geometry;
     Materials          materials;
     Regions            regions;

@@ -6,6 +6,7 @@
 
 #include <geocone/base/choice.h>
 #include <geocone/base/types.h>
+#include <geocone/materials/law_traits.h>
 #include <geocone/mesh/background_mesh.h>
 #include <geocone/space/spline_basis.h>
 
@@ -87,6 +88,10 @@ namespace geocone::GEOCONE_DIM
                       const bool    has_grid,
                       const Method &method,
                       const bool    hard_flow);
+
+    /** About what the element cannot do well with these laws. */
+    std::vector<std::string>
+    warnings(const LawTraits &law, const Method &method) const;
 
     /** After BackgroundMesh::move_grid(): functions and nodes go with the lines. */
     void
