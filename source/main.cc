@@ -4,15 +4,11 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/hdf5_file.h>
 #include <geocone/command_line.h>
+#include <geocone/linear/one_thread.h>
 #include <geocone/output/run_folder.h>
 #include <geocone/program.h>
 
-#include <omp.h>
-
-#include <cstdlib>
 #include <iostream>
-
-#include <dlfcn.h>
 
 // The program for scenes in three dimensions, beside that of the plane (program.h).
 namespace geocone::dim3
@@ -101,29 +97,10 @@ namespace
 
 } // namespace
 
-/**
- * In place of that of the OpenMP runtime. CHOLMOD opens a parallel region in each of its
- * inner loops, most of them of one thread; the runtime makes a system call at the end of
- * each, a million times in a minute. Here all regions are of one thread, so a region
- * is a call.
- */
-extern "C" void
-GOMP_parallel(void (*function)(void *), void *data, unsigned int, unsigned int)
-{
-  function(data);
-}
-
 int
 main(int argc, char **argv)
 {
-  // One thread per rank: the parallelism is MPI's. Cholmod asks for a fixed
-  // number of threads in blocks that are far too small for them, which was
-  // measured to triple the time of a factorisation; this alone stops it.
-  omp_set_max_active_levels(0);
-  if (const auto set_blas_threads = reinterpret_cast<void (*)(int)>(
-        dlsym(RTLD_DEFAULT, "openblas_set_num_threads")))
-    set_blas_threads(1);
-
+  use_one_thread();
   CommandLine call; // whose errors are those of the program of plane scenes
   try
     {
