@@ -10,6 +10,7 @@
 #include <geocone/run/implicit_simulation.h>
 #include <geocone/run/run_estimate.h>
 #include <geocone/scene/magnitudes.h>
+#include <geocone/scene/small_motion.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -205,8 +206,8 @@ namespace geocone::GEOCONE_DIM
     if ((!method.is_mpm() || is_nearly_incompressible(scene.materials)) &&
         !newton.wants_exact_friction() &&
         scene.materials.traits().has_hard_flow)
-      scene.materials.set_friction_memory(scene.time_of_small_motion(
-        mesh.bounding_box(), [&](const BoundaryCondition &condition) {
+      scene.materials.set_friction_memory(time_of_small_motion(
+        scene, mesh.bounding_box(), [&](const BoundaryCondition &condition) {
           return mesh.faces_of(condition);
         }));
   }

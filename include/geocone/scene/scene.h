@@ -13,9 +13,6 @@
 #include <geocone/scene/obstacles.h>
 #include <geocone/scene/water.h>
 
-#include <deal.II/base/bounding_box.h>
-
-#include <functional>
 #include <vector>
 
 namespace geocone::GEOCONE_DIM
@@ -52,23 +49,6 @@ namespace geocone::GEOCONE_DIM
       obstacles.refuse(what, remedy);
       contacts.refuse(what, remedy);
     }
-
-    /** The vertices of faces, of each a list. */
-    using FacesOf = std::function<std::vector<std::vector<dealii::Point<dim>>>(
-      const BoundaryCondition &)>;
-
-    /**
-     * The time in which a part of the boundary that is pushed moves by a thousandth
-     * of its length (s): the least of all of them at their greatest speed, or 0 if
-     * nothing is pushed. The length is that of the part which the condition selects, and
-     * twice it where it ends in a plane of symmetry; of an obstacle its width, or that
-     * of the body.
-     * @param mesh its box, which is that of a body from a file
-     * @param faces_of the vertices of the faces on a condition's sides, of all ranks
-     */
-    double
-    time_of_small_motion(const dealii::BoundingBox<dim> &mesh,
-                         const FacesOf                  &faces_of) const;
 
     /** What a record leaves as it is before the end of the loading; empty: none does. */
     std::string
