@@ -135,40 +135,39 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  MeshParameters::prepare(const Geometry &geometry, const Method &method)
+  MeshParameters::check_mesh_from_bounds(const Geometry &geometry,
+                                         const Method   &method) const
   {
-    const auto positive = [](const std::string &entry, const double value) {
-      if (!(value > 0.))
-        throw InputError("Mesh/" + entry, value, "> 0", "give it in m");
-    };
+    const std::string remedy = "strict bounds are of plane scenes: set "
+                               "Mesh/Type = unstructured";
+    if (dim == 3)
+      throw InputError("Mesh/Type",
+                       type.word(),
+                       "another type with Geometry/Dimension = 3",
+                       remedy);
+    geometry.refuse_axis("'Mesh/Type' = " + std::string(type.word()), remedy);
+    if (geometry.outline.empty() || method.is_explicit() ||
+        (method.is_mpm() && !box.empty()))
+      throw InputError("Mesh/Type",
+                       type.word(),
+                       "a mesh of the body, a box or a polygon, for FEM "
+                       "and implicit MPM without Mesh/Box",
+                       "set Mesh/Type = unstructured");
+    if (cells == Cells::quadrilaterals)
+      throw InputError("Mesh/Cells",
+                       cells.word(),
+                       "triangles where the mesh is from the bounds",
+                       "set Mesh/Cells = triangles");
+    if (number < 20 || number > 200000)
+      throw InputError(
+        "Mesh/Number of cells", number, "20 to 200000", "1500 are usual");
+  }
+
+  void
+  MeshParameters::choose_cells(const Geometry &geometry, const Method &method)
+  {
     if (type == Type::from_bounds)
-      {
-        const std::string remedy = "strict bounds are of plane scenes: set "
-                                   "Mesh/Type = unstructured";
-        if (dim == 3)
-          throw InputError("Mesh/Type",
-                           type.word(),
-                           "another type with Geometry/Dimension = 3",
-                           remedy);
-        geometry.refuse_axis("'Mesh/Type' = " + std::string(type.word()),
-                             remedy);
-        if (geometry.outline.empty() || method.is_explicit() ||
-            (method.is_mpm() && !box.empty()))
-          throw InputError("Mesh/Type",
-                           type.word(),
-                           "a mesh of the body, a box or a polygon, for FEM "
-                           "and implicit MPM without Mesh/Box",
-                           "set Mesh/Type = unstructured");
-        if (cells == Cells::quadrilaterals)
-          throw InputError("Mesh/Cells",
-                           cells.word(),
-                           "triangles where the mesh is from the bounds",
-                           "set Mesh/Cells = triangles");
-        if (number < 20 || number > 200000)
-          throw InputError(
-            "Mesh/Number of cells", number, "20 to 200000", "1500 are usual");
-        cells = Cells::triangles;
-      }
+      cells = Cells::triangles;
     if (dim == 3 && geometry.shape != Geometry::Shape::file)
       {
         const Cells only =
@@ -184,6 +183,15 @@ namespace geocone::GEOCONE_DIM
       }
     if (cells == Cells::automatic)
       cells = method.is_mpm() ? Cells::quadrilaterals : Cells::triangles;
+  }
+
+  void
+  MeshParameters::check_numbers() const
+  {
+    const auto positive = [](const std::string &entry, const double value) {
+      if (!(value > 0.))
+        throw InputError("Mesh/" + entry, value, "> 0", "give it in m");
+    };
     positive("Cell size", cell_size);
     positive("Smallest size", smallest);
     positive("Largest size", largest);
@@ -206,24 +214,11 @@ namespace geocone::GEOCONE_DIM
                        growth,
                        "> 1",
                        "1.3 is usual; for equal cells take a uniform mesh");
-    if (geometry.shape == Geometry::Shape::discs && !method.is_mpm())
-      throw InputError("Geometry/Shape",
-                       "discs",
-                       "box | polygon | file with FEM",
-                       "set Discretisation/Method = MPM, or mesh the discs "
-                       "with gmsh");
-    if (!method.is_mpm())
-      geometry.refuse_where("FEM",
-                            "set Discretisation/Method = MPM, or mesh the body "
-                            "with gmsh");
-    if (geometry.shape != Geometry::Shape::file)
-      choose_outline(geometry, method);
-    if (!is_unstructured() && !method.is_mpm() &&
-        geometry.shape == Geometry::Shape::polygon)
-      throw InputError("Mesh/Type",
-                       type.word(),
-                       "unstructured, where the domain is a polygon",
-                       "set Mesh/Type = unstructured");
+  }
+
+  void
+  MeshParameters::check_grading_points(const Geometry &geometry) const
+  {
     if (type == Type::graded && grading_points.empty())
       throw InputError("Mesh/Grading points",
                        "",
@@ -244,6 +239,34 @@ namespace geocone::GEOCONE_DIM
                              "points of the domain",
                              "move it into the domain or onto its border");
         }
+  }
+
+  void
+  MeshParameters::prepare(const Geometry &geometry, const Method &method)
+  {
+    if (type == Type::from_bounds)
+      check_mesh_from_bounds(geometry, method);
+    choose_cells(geometry, method);
+    check_numbers();
+    if (geometry.shape == Geometry::Shape::discs && !method.is_mpm())
+      throw InputError("Geometry/Shape",
+                       "discs",
+                       "box | polygon | file with FEM",
+                       "set Discretisation/Method = MPM, or mesh the discs "
+                       "with gmsh");
+    if (!method.is_mpm())
+      geometry.refuse_where("FEM",
+                            "set Discretisation/Method = MPM, or mesh the body "
+                            "with gmsh");
+    if (geometry.shape != Geometry::Shape::file)
+      choose_outline(geometry, method);
+    if (!is_unstructured() && !method.is_mpm() &&
+        geometry.shape == Geometry::Shape::polygon)
+      throw InputError("Mesh/Type",
+                       type.word(),
+                       "unstructured, where the domain is a polygon",
+                       "set Mesh/Type = unstructured");
+    check_grading_points(geometry);
     if (geometry.shape != Geometry::Shape::file)
       check_sizes();
   }

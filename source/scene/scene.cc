@@ -10,7 +10,6 @@
 #include <deal.II/base/bounding_box.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <limits>
 

@@ -95,6 +95,23 @@ namespace geocone::GEOCONE_DIM
     unsigned int                    number     = 1500; ///< from the bounds
 
   private:
+    /** @throws InputError where cells cannot be sized by strict bounds */
+    void
+    check_mesh_from_bounds(const Geometry &geometry,
+                           const Method   &method) const;
+
+    /** Chooses the shape of cells that is left open. @throws InputError */
+    void
+    choose_cells(const Geometry &geometry, const Method &method);
+
+    /** @throws InputError for sizes and other numbers out of their range */
+    void
+    check_numbers() const;
+
+    /** @throws InputError if grading points lack, or are not in the domain */
+    void
+    check_grading_points(const Geometry &geometry) const;
+
     void
     choose_outline(const Geometry &geometry, const Method &method);
 
