@@ -111,8 +111,8 @@ namespace geocone::GEOCONE_DIM
       "flow on fewer cells, and meshes that follow them are worse.");
   }
 
-  std::vector<std::string>
-  LimitAnalysis::prepare(const RunOptions &options)
+  void
+  LimitAnalysis::check_parameters() const
   {
     if (dealii::Utilities::MPI::n_mpi_processes(comm) > 1)
       throw InputError(
@@ -150,6 +150,11 @@ namespace geocone::GEOCONE_DIM
         "strict bound needs: set Discretisation/Method = FEM, or "
         "reduce the strength by stages with 'Strength factor' "
         "and 'Until failure'");
+  }
+
+  void
+  LimitAnalysis::prepare_scene(const RunOptions &options)
+  {
     scene.geometry.may_run_script = options.may_run_scripts;
     scene.geometry.prepare();
     scene.geometry.refuse_axis("'Analysis/Kind' = " + analysis.word(),
@@ -183,6 +188,33 @@ namespace geocone::GEOCONE_DIM
                          condition->imposition.word(),
                          "nodes with 'Analysis/Kind' = limit load",
                          "impose it on nodes: the mesh fits the body");
+  }
+
+  std::vector<std::string>
+  LimitAnalysis::warnings_of(const dealii::BoundingBox<dim> &body) const
+  {
+    std::vector<std::string> warnings = warn_of_magnitudes(scene, body);
+    if (scene.geometry.shape == Geometry::Shape::file && most_levels > 1)
+      warnings.push_back("a mesh from a file is not made anew: the bounds are "
+                         "those of this mesh; give a box or a polygon, or set "
+                         "Analysis/Maximum levels = 1");
+    constexpr double later     = 1e6; // beyond any ramp
+    const auto       is_loaded = [](const RigidMotion &load) {
+      return load.centre.norm() + load.rotation.norm() > 0.;
+    };
+    for (const auto &obstacle : scene.obstacles.list)
+      if (!is_loaded(obstacle->load(0.)) && is_loaded(obstacle->load(later)))
+        warnings.push_back("the load of the obstacle '" + obstacle->name +
+                           "' is zero at t = 0, which is when bounds take it: "
+                           "give its full value there");
+    return warnings;
+  }
+
+  std::vector<std::string>
+  LimitAnalysis::prepare(const RunOptions &options)
+  {
+    check_parameters();
+    prepare_scene(options);
     mesh_parameters.prepare(scene.geometry, method);
     if (mesh_parameters.cells == MeshParameters::Cells::quadrilaterals &&
         scene.geometry.shape != Geometry::Shape::file)
@@ -206,21 +238,7 @@ namespace geocone::GEOCONE_DIM
                        100. + 0.02 * most_cells));
     const dealii::BoundingBox<dim> body(triangles->vertices);
     log.print(options.name + ": " + text_of_magnitudes(scene, body));
-    std::vector<std::string> warnings = warn_of_magnitudes(scene, body);
-    if (scene.geometry.shape == Geometry::Shape::file && most_levels > 1)
-      warnings.push_back("a mesh from a file is not made anew: the bounds are "
-                         "those of this mesh; give a box or a polygon, or set "
-                         "Analysis/Maximum levels = 1");
-    constexpr double later     = 1e6; // beyond any ramp
-    const auto       is_loaded = [](const RigidMotion &load) {
-      return load.centre.norm() + load.rotation.norm() > 0.;
-    };
-    for (const auto &obstacle : scene.obstacles.list)
-      if (!is_loaded(obstacle->load(0.)) && is_loaded(obstacle->load(later)))
-        warnings.push_back("the load of the obstacle '" + obstacle->name +
-                           "' is zero at t = 0, which is when bounds take it: "
-                           "give its full value there");
-    return warnings;
+    return warnings_of(body);
   }
 
   void

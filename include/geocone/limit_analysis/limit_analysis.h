@@ -10,6 +10,7 @@
 #include <geocone/limit_analysis/strength_reduction.h>
 #include <geocone/run/simulation.h>
 
+#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <algorithm>
@@ -58,6 +59,18 @@ namespace geocone::GEOCONE_DIM
     {
       return std::min(tolerance, gap_tolerance / 10.);
     }
+
+    /** @throws InputError for parameters out of their range, ranks and particles */
+    void
+    check_parameters() const;
+
+    /** Checks the scene, and that it has strict bounds. @throws InputError */
+    void
+    prepare_scene(const RunOptions &options);
+
+    /** Warnings of its sizes, of a mesh that stays and of loads that grow. */
+    std::vector<std::string>
+    warnings_of(const dealii::BoundingBox<dim> &body) const;
 
     /** @throws InputError if the table of water cuts cells of the first mesh */
     void
