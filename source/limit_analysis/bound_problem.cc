@@ -255,16 +255,12 @@ namespace geocone::GEOCONE_DIM
       return n;
     }
 
-    /** Adds the interfaces as cells, and prescribes the obstacles' velocities, or loads
-     *  those that are free.
-     *  @param points_of (edge) -> its three points
+    /** Prescribes the velocities of obstacles, or loads those that are free.
      *  @param first_dof of n_dofs_of_interfaces() */
-    template <typename PointsOfEdge>
     void
-    add_interfaces(const BoundScene   &bound,
-                   const PointsOfEdge &points_of,
-                   const unsigned int  first_dof,
-                   BoundProblem       &problem)
+    move_obstacles(const BoundScene  &bound,
+                   const unsigned int first_dof,
+                   BoundProblem      &problem)
     {
       const Obstacles &obstacles = bound.scene.obstacles;
       const double     L         = bound.units.length;
@@ -293,7 +289,74 @@ namespace geocone::GEOCONE_DIM
                   weight[k] / unit;
             }
         }
-      unsigned int opening = first_dof + n_motions * obstacles.list.size();
+    }
+
+    /** The velocity of the body past what it touches at a point, for 1 in each dof. */
+    struct PassingVelocity
+    {
+      std::vector<unsigned int>   dofs;
+      std::vector<Tensor<1, dim>> G;
+
+      void
+      add(const unsigned int dof, const Tensor<1, dim> &velocity)
+      {
+        dofs.push_back(dof);
+        G.push_back(velocity);
+      }
+
+      /** In cone axes, as far as a face of the set bounds them. @param N the normal */
+      Strains
+      strains(const Interface::Face &face, const Tensor<1, dim> &N) const
+      {
+        const Tensor<1, dim> T({-N[1], N[0]});
+        Strains              B = Strains::Zero(3, dofs.size());
+        for (unsigned int j = 0; j < dofs.size(); ++j)
+          {
+            if (face.has_normal)
+              B(0, j) = -(G[j] * N);
+            if (face.has_tangential)
+              B(1, j) = -(G[j] * T);
+          }
+        return B;
+      }
+    };
+
+    /** That of the nodes of an edge, and of the obstacle if there is one. */
+    PassingVelocity
+    velocity_past(const BoundScene     &bound,
+                  const Interface      &interface,
+                  const InterfacePoint &point,
+                  const unsigned int    first_dof)
+    {
+      PassingVelocity passing;
+      for (const auto &[dof, part] : point.nodes)
+        for (unsigned int d = 0; d < dim; ++d)
+          passing.add(dof + d, part * Point<dim>::unit_vector(d));
+      if (const int o = interface.obstacle; o >= 0)
+        for (unsigned int k = 0; k < n_motions; ++k)
+          passing.add(
+            first_dof + n_motions * o + k,
+            -1. * RigidMotion::of_point(
+                    k,
+                    (point.place - bound.scene.obstacles.list[o]->centre()) /
+                      bound.units.length));
+      return passing;
+    }
+
+    /** Adds the interfaces as cells, and prescribes the obstacles' velocities, or loads
+     *  those that are free.
+     *  @param points_of (edge) -> its three points
+     *  @param first_dof of n_dofs_of_interfaces() */
+    template <typename PointsOfEdge>
+    void
+    add_interfaces(const BoundScene   &bound,
+                   const PointsOfEdge &points_of,
+                   const unsigned int  first_dof,
+                   BoundProblem       &problem)
+    {
+      move_obstacles(bound, first_dof, problem);
+      unsigned int opening =
+        first_dof + n_motions * bound.scene.obstacles.list.size();
       for (const Interface &interface : bound.interfaces)
         {
           const auto &ends =
@@ -303,7 +366,7 @@ namespace geocone::GEOCONE_DIM
                                 bound.units.length;
           const std::array<InterfacePoint, 3> points =
             points_of(interface.held.edge);
-          const Tensor<1, dim> &N = interface.normal, T({-N[1], N[0]});
+          const Tensor<1, dim> &N = interface.normal;
           for (const Interface::Face &face : interface.faces)
             {
               for (unsigned int i = 0; i < 3; ++i)
@@ -316,54 +379,21 @@ namespace geocone::GEOCONE_DIM
                   problem.cone.push_back(
                     acts ? PointCone{face.a, face.k / bound.units.stress}
                          : nothing);
-                  // The velocity of the body here, for 1 in each dof.
-                  std::vector<unsigned int>   dofs;
-                  std::vector<Tensor<1, dim>> G;
+                  PassingVelocity passing;
                   if (acts)
-                    {
-                      for (const auto &[dof, part] : point.nodes)
-                        for (unsigned int d = 0; d < dim; ++d)
-                          {
-                            dofs.push_back(dof + d);
-                            G.push_back(part * Point<dim>::unit_vector(d));
-                          }
-                      if (const int o = interface.obstacle; o >= 0)
-                        for (unsigned int k = 0; k < n_motions; ++k)
-                          {
-                            dofs.push_back(first_dof + n_motions * o + k);
-                            G.push_back(-1. * RigidMotion::of_point(
-                                                k,
-                                                (point.place -
-                                                 obstacles.list[o]->centre()) /
-                                                  L));
-                          }
-                    }
+                    passing = velocity_past(bound, interface, point, first_dof);
                   if (interface.opens())
                     {
                       const bool is_first = &face == &interface.faces.front();
                       if (!is_first)
-                        {
-                          dofs.clear();
-                          G.clear();
-                        }
+                        passing = {};
                       if (acts)
-                        {
-                          dofs.push_back(opening + i);
-                          G.push_back(is_first ? -1. * N : N);
-                        }
+                        passing.add(opening + i, is_first ? -1. * N : N);
                       else
                         problem.is_prescribed[opening + i] =
                           problem.has_no_force[opening + i] = true;
                     }
-                  Strains B = Strains::Zero(3, dofs.size());
-                  for (unsigned int j = 0; j < dofs.size(); ++j)
-                    {
-                      if (face.has_normal)
-                        B(0, j) = -(G[j] * N);
-                      if (face.has_tangential)
-                        B(1, j) = -(G[j] * T);
-                    }
-                  problem.B.add(B, dofs);
+                  problem.B.add(passing.strains(face, N), passing.dofs);
                 }
               problem.owner.push_back(interface.held.cell);
             }
@@ -465,6 +495,50 @@ namespace geocone::GEOCONE_DIM
                   }
             }
     }
+
+    /** Adds the cells of the lower bound, with velocities of the cell and of both ends of
+     *  each edge. @param end_dof (edge, vertex) -> its x dof */
+    template <typename EndDof>
+    void
+    add_linear_cells(const BoundScene &bound,
+                     const EndDof     &end_dof,
+                     BoundProblem     &problem)
+    {
+      const Triangles &triangles = bound.triangles;
+      for (unsigned int c = 0; c < triangles.cells.size(); ++c)
+        {
+          const auto g = triangles.gradients(c);
+          for (unsigned int i = 0; i < 3; ++i)
+            {
+              // The translation, and the ends here of both edges e, opposite to vertex
+              // e: L_e n_e = -2 A grad lambda_e.
+              Strains                   B(3, 6);
+              std::vector<unsigned int> dofs;
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  B.col(d) = -3. * symmetric_part(d, g[i]);
+                  dofs.push_back(dim * c + d);
+                }
+              for (const unsigned int e : {(i + 1) % 3, (i + 2) % 3})
+                for (unsigned int d = 0; d < dim; ++d)
+                  {
+                    B.col(dofs.size()) = -3. * symmetric_part(d, g[e]);
+                    dofs.push_back(end_dof(triangles.edges_of_cell[c][e],
+                                           triangles.cells[c][i]) +
+                                   d);
+                  }
+              problem.B.add(bound.units.length * B, dofs);
+            }
+          add_body_forces(problem,
+                          bound,
+                          c,
+                          [&](Eigen::VectorXd &F, const Tensor<1, dim> &w) {
+                            for (unsigned int d = 0; d < dim; ++d)
+                              F[dim * c + d] +=
+                                w[d] * 3. * problem.volume[3 * c];
+                          });
+        }
+    }
   } // namespace
 
   BoundProblem
@@ -542,47 +616,17 @@ namespace geocone::GEOCONE_DIM
   lower_problem(const BoundScene &bound)
   {
     const Triangles   &triangles = bound.triangles;
-    const double       L         = bound.units.length;
     const unsigned int n_cells   = triangles.cells.size();
     const unsigned int n_nodes   = n_cells + 2 * triangles.edges.size();
     BoundProblem       problem =
       begin_problem(bound, 6, dim * n_nodes + n_dofs_of_interfaces(bound));
     const auto end_dof = [&](const unsigned int edge,
-                             const unsigned int vertex,
-                             const unsigned int component) {
+                             const unsigned int vertex) {
       const unsigned int end =
         triangles.edges[edge].vertices[0] == vertex ? 0 : 1;
-      return dim * (n_cells + 2 * edge + end) + component;
+      return dim * (n_cells + 2 * edge + end);
     };
-    for (unsigned int c = 0; c < n_cells; ++c)
-      {
-        const auto g = triangles.gradients(c);
-        for (unsigned int i = 0; i < 3; ++i)
-          {
-            // The translation, and the ends here of both edges e, opposite to vertex
-            // e: L_e n_e = -2 A grad lambda_e.
-            Strains                   B(3, 6);
-            std::vector<unsigned int> dofs;
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                B.col(d) = -3. * symmetric_part(d, g[i]);
-                dofs.push_back(dim * c + d);
-              }
-            for (const unsigned int e : {(i + 1) % 3, (i + 2) % 3})
-              for (unsigned int d = 0; d < dim; ++d)
-                {
-                  B.col(dofs.size()) = -3. * symmetric_part(d, g[e]);
-                  dofs.push_back(end_dof(
-                    triangles.edges_of_cell[c][e], triangles.cells[c][i], d));
-                }
-            problem.B.add(L * B, dofs);
-          }
-        add_body_forces(
-          problem, bound, c, [&](Eigen::VectorXd &F, const Tensor<1, dim> &w) {
-            for (unsigned int d = 0; d < dim; ++d)
-              F[dim * c + d] += w[d] * 3. * problem.volume[3 * c];
-          });
-      }
+    add_linear_cells(bound, end_dof, problem);
 
     // w is the value of a linear velocity at the third point that is nearer to the
     // end; the integral of its function with a linear traction is that of the end.
@@ -595,7 +639,7 @@ namespace geocone::GEOCONE_DIM
           {
             const Point<dim> &a = triangles.vertices[ends[end]],
                              &b = triangles.vertices[ends[1 - end]];
-            nodes[end]          = {end_dof(edge, ends[end], 0),
+            nodes[end]          = {end_dof(edge, ends[end]),
                                    Point<dim>(a + (b - a) / 3.),
                                    a,
                                    1. / 2.};
@@ -603,12 +647,7 @@ namespace geocone::GEOCONE_DIM
         return nodes;
       },
       problem);
-    free_surfaces_without_cohesion(
-      bound,
-      [&](const unsigned int edge, const unsigned int vertex) {
-        return end_dof(edge, vertex, 0);
-      },
-      problem);
+    free_surfaces_without_cohesion(bound, end_dof, problem);
     add_interfaces(
       bound,
       [&](const unsigned int edge) {
@@ -617,8 +656,8 @@ namespace geocone::GEOCONE_DIM
         const Point<dim>    &x     = triangles.vertices[ends[0]];
         const Tensor<1, dim> third = (triangles.vertices[ends[1]] - x) / 3.;
         return std::array<InterfacePoint, 3>{
-          {{1. / 2., {{end_dof(edge, ends[0], 0), 1.}}, x + third},
-           {1. / 2., {{end_dof(edge, ends[1], 0), 1.}}, x + 2. * third},
+          {{1. / 2., {{end_dof(edge, ends[0]), 1.}}, x + third},
+           {1. / 2., {{end_dof(edge, ends[1]), 1.}}, x + 2. * third},
            {1. / 2., {}, x}}};
       },
       dim * n_nodes,
