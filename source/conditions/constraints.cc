@@ -98,6 +98,91 @@ namespace geocone::GEOCONE_DIM
                             dof / dim < space.n_owned_nodes()});
   }
 
+  std::map<unsigned int, Tensor<1, dim>>
+  Constraints::normals_of(const BoundaryCondition         &condition,
+                          const BackgroundMesh            &mesh,
+                          const std::vector<unsigned int> &nodes) const
+  {
+    std::map<unsigned int, Tensor<1, dim>> normals;
+    // The sums of N_i n dA, and of N_i dA.
+    Vector normal(space.partitioner()), size(space.partitioner());
+    for_each_face_point(
+      mesh,
+      space,
+      condition,
+      [&](const BackgroundMesh::Cell &, const FacePoint &point) {
+        for (unsigned int i = 0; i < point.nodes.size(); ++i)
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              const unsigned int dof  = dim * point.nodes[i] + d;
+              const double       part = point.weight * point.values[i];
+              normal.local_element(dof) += part * point.normal[d];
+              size.local_element(dof) += part;
+            }
+      });
+    for (Vector *sum : {&normal, &size})
+      {
+        sum->compress(VectorOperation::add);
+        sum->update_ghost_values();
+      }
+    std::string corner;
+    for (const unsigned int node : nodes)
+      {
+        const Tensor<1, dim> n = value_at(normal, node);
+        if (n.norm() > least_mean_normal * size.local_element(dim * node))
+          normals[node] = n / n.norm();
+        else
+          corner = "(" + text_of_place(space.node_positions()[node]) + ")";
+      }
+    corner = text_of_any_rank(comm, corner);
+    if (!corner.empty())
+      throw InputError(
+        condition.parameter("Velocity normal"),
+        condition.formula(dim),
+        "sides that have a normal at each node: they meet in corners of "
+        "less than 60 degrees, and a box holds whole faces",
+        "give the sides that meet at " + corner +
+          " conditions of their own, or enlarge the box");
+    return normals;
+  }
+
+  Constraints::Oblique
+  Constraints::independent(const unsigned int            node,
+                           const std::vector<Direction> &directions)
+  {
+    Oblique held;
+    held.node = node;
+
+    std::vector<Tensor<1, dim>> axes; // of the same span
+    const auto                  rest_of = [&axes](Tensor<1, dim> d) {
+      for (const Tensor<1, dim> &axis : axes)
+        d -= (d * axis) * axis;
+      return d;
+    };
+    for (auto i = directions.rbegin(); i != directions.rend(); ++i)
+      if (const Tensor<1, dim> rest = rest_of(i->d); rest.norm() > least_sine)
+        {
+          held.directions.push_back(*i);
+          axes.push_back(rest / rest.norm());
+        }
+
+    // What is left is free: across all that is held.
+    if (dim == 2 && held.is_turned())
+      axes.push_back(Tensor<1, dim>({-axes[0][1], axes[0][0]}));
+    while (axes.size() < dim)
+      {
+        Tensor<1, dim> best;
+        for (unsigned int d = 0; d < dim; ++d)
+          if (const auto rest = rest_of(Point<dim>::unit_vector(d));
+              rest.norm() > best.norm())
+            best = rest;
+        axes.push_back(best / best.norm());
+      }
+    for (unsigned int d = 0; d < dim; ++d)
+      held.axes[d] = axes[d];
+    return held;
+  }
+
   void
   Constraints::find_oblique_nodes(
     const BackgroundMesh                              &mesh,
@@ -107,49 +192,9 @@ namespace geocone::GEOCONE_DIM
     const auto                                    &list = scene.dirichlet.list;
     std::map<unsigned int, std::vector<Direction>> of_node;
     for (unsigned int c = 0; c < list.size(); ++c)
-      {
-        if (!list[c]->normal)
-          continue;
-        // The sums of N_i n dA, and of N_i dA.
-        Vector normal(space.partitioner()), size(space.partitioner());
-        for_each_face_point(
-          mesh,
-          space,
-          *list[c],
-          [&](const BackgroundMesh::Cell &, const FacePoint &point) {
-            for (unsigned int i = 0; i < point.nodes.size(); ++i)
-              for (unsigned int d = 0; d < dim; ++d)
-                {
-                  const unsigned int dof  = dim * point.nodes[i] + d;
-                  const double       part = point.weight * point.values[i];
-                  normal.local_element(dof) += part * point.normal[d];
-                  size.local_element(dof) += part;
-                }
-          });
-        for (Vector *sum : {&normal, &size})
-          {
-            sum->compress(VectorOperation::add);
-            sum->update_ghost_values();
-          }
-        std::string corner;
-        for (const unsigned int node : nodes[c])
-          {
-            const Tensor<1, dim> n = value_at(normal, node);
-            if (n.norm() > least_mean_normal * size.local_element(dim * node))
-              of_node[node].push_back({c, dim, n / n.norm()});
-            else
-              corner = "(" + text_of_place(space.node_positions()[node]) + ")";
-          }
-        corner = text_of_any_rank(comm, corner);
-        if (!corner.empty())
-          throw InputError(
-            list[c]->parameter("Velocity normal"),
-            list[c]->formula(dim),
-            "sides that have a normal at each node: they meet in corners of "
-            "less than 60 degrees, and a box holds whole faces",
-            "give the sides that meet at " + corner +
-              " conditions of their own, or enlarge the box");
-      }
+      if (list[c]->normal)
+        for (const auto &[node, n] : normals_of(*list[c], mesh, nodes[c]))
+          of_node[node].push_back({c, dim, n});
 
     for (auto &[node, directions] : of_node)
       {
@@ -163,52 +208,19 @@ namespace geocone::GEOCONE_DIM
                          [](const Direction &a, const Direction &b) {
                            return a.condition < b.condition;
                          });
-        // Later ones hold, as long as they are independent.
-        std::vector<Direction>      kept;
-        std::vector<Tensor<1, dim>> axes; // of the same span
-        const auto                  rest_of = [&axes](Tensor<1, dim> d) {
-          for (const Tensor<1, dim> &axis : axes)
-            d -= (d * axis) * axis;
-          return d;
-        };
-        for (auto i = directions.rbegin(); i != directions.rend(); ++i)
-          if (const Tensor<1, dim> rest = rest_of(i->d);
-              rest.norm() > least_sine)
-            {
-              kept.push_back(*i);
-              axes.push_back(rest / rest.norm());
-            }
-        if (std::all_of(kept.begin(), kept.end(), [](const Direction &k) {
-              return k.component < dim;
-            }))
+        const Oblique held = independent(node, directions);
+        if (!held.has_normal())
           continue; // along coordinates only
         for (unsigned int d = 0; d < dim; ++d)
           of_dof.erase(dim * node + d);
-        const bool is_turned = kept.size() < dim;
-        // What is left is free: across all that is held.
-        if (dim == 2 && is_turned)
-          axes.push_back(Tensor<1, dim>({-axes[0][1], axes[0][0]}));
-        while (axes.size() < dim)
-          {
-            Tensor<1, dim> best;
-            for (unsigned int d = 0; d < dim; ++d)
-              if (const auto rest = rest_of(Point<dim>::unit_vector(d));
-                  rest.norm() > best.norm())
-                best = rest;
-            axes.push_back(best / best.norm());
-          }
-        Tensor<2, dim> frame;
-        for (unsigned int d = 0; d < dim; ++d)
-          frame[d] = axes[d];
-        oblique.push_back({node, kept, frame});
-        if (is_turned)
-          turned_nodes.push_back({node, frame});
+        oblique.push_back(held);
+        if (held.is_turned())
+          turned_nodes.push_back({node, held.axes});
       }
   }
 
   void
-  Constraints::find_shared(
-    const BackgroundMesh                                    &mesh,
+  Constraints::number_shared(
     const std::map<unsigned int, std::vector<unsigned int>> &of_dof)
   {
     // Of each shared component its dof and the conditions, on all ranks.
@@ -230,6 +242,16 @@ namespace geocone::GEOCONE_DIM
         entry.second.first = n_shares;
         n_shares += entry.second.conditions.size();
       }
+  }
+
+  void
+  Constraints::find_shared(
+    const BackgroundMesh                                    &mesh,
+    const std::map<unsigned int, std::vector<unsigned int>> &of_dof)
+  {
+    number_shared(of_dof);
+    if (shared.empty())
+      return;
 
     // A face belongs to the last condition that holds the component there.
     const auto                               &list = scene.dirichlet.list;

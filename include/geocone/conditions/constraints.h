@@ -8,6 +8,7 @@
 #include <geocone/conditions/unknowns.h>
 #include <geocone/points/material_points.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <vector>
@@ -136,6 +137,22 @@ namespace geocone::GEOCONE_DIM
       /** Unit vectors by rows, the first i + 1 of which span the first i + 1
        *  directions. */
       dealii::Tensor<2, dim> axes;
+
+      /** Whether it is held along more than coordinates. */
+      bool
+      has_normal() const
+      {
+        return std::any_of(
+          directions.begin(), directions.end(), [](const Direction &held) {
+            return held.component == dim;
+          });
+      }
+
+      bool
+      is_turned() const
+      {
+        return directions.size() < dim;
+      }
     };
 
     /** A component that several conditions prescribe. */
@@ -154,6 +171,19 @@ namespace geocone::GEOCONE_DIM
       dealii::Tensor<1, dim> weight; ///< (m)
     };
 
+    /** Mean unit normals of a condition's sides at its nodes. Collective.
+     *  @throws InputError where its sides meet in a sharp corner */
+    std::map<unsigned int, dealii::Tensor<1, dim>>
+    normals_of(const BoundaryCondition         &condition,
+               const BackgroundMesh            &mesh,
+               const std::vector<unsigned int> &nodes) const;
+
+    /** A node, and what holds it: later directions first, as long as they are
+     *  independent. */
+    static Oblique
+    independent(const unsigned int            node,
+                const std::vector<Direction> &directions);
+
     /** Finds the nodes with normal velocities.
      *  @param of_dof what conditions along x and y prescribe */
     void
@@ -161,6 +191,12 @@ namespace geocone::GEOCONE_DIM
       const BackgroundMesh                              &mesh,
       const std::vector<std::vector<unsigned int>>      &nodes,
       std::map<unsigned int, std::vector<unsigned int>> &of_dof);
+
+    /** Finds the components that several conditions prescribe, and numbers their
+     *  conditions. Collective. */
+    void
+    number_shared(
+      const std::map<unsigned int, std::vector<unsigned int>> &of_dof);
 
     /** Finds the faces around shared components. Collective. */
     void
