@@ -8,12 +8,96 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <array>
 #include <cmath>
 
 namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
+
+  namespace
+  {
+    /** @throws InputError for a law without wave speeds that stay as they are */
+    void
+    check_constant_stiffness(const Materials &materials)
+    {
+      for (unsigned int m = 0; m < materials.size(); ++m)
+        if (const auto *law = dynamic_cast<const Material *>(&materials.law(m));
+            law == nullptr || !law->has_constant_stiffness())
+          throw InputError(
+            "Materials/" + materials.name(m) + "/Type",
+            ParameterFile::value("Materials/" + materials.name(m) + "/Type"),
+            "a law of constant stiffness where a side absorbs "
+            "waves",
+            "take linear elastic, or leave out 'Absorbing "
+            "boundaries/Names'");
+    }
+
+    /** The dashpots of nodes, summed over faces and ranks. */
+    class DashpotSums
+    {
+    public:
+      explicit DashpotSums(const Space &space)
+        : diagonal(space.partitioner())
+        , beside(space.partitioner())
+      {}
+
+      /** Adds those of a law at a point of a face. */
+      void
+      add(const Material &law, const FacePoint &point)
+      {
+        const Elasticity &e   = law.elasticity();
+        const double      rho = law.density(),
+                     of_p     = std::sqrt(
+                       rho * (e.lambda + e.two_G + law.fluid_modulus())),
+                     of_s = std::sqrt(rho * e.two_G / 2.);
+        for (unsigned int i = 0; i < point.nodes.size(); ++i)
+          {
+            const double       w   = point.weight * point.values[i];
+            const auto        &n   = point.normal;
+            const unsigned int dof = dim * point.nodes[i];
+            for (unsigned int d = 0; d < dim; ++d)
+              diagonal.local_element(dof + d) +=
+                w * (of_s + (of_p - of_s) * n[d] * n[d]);
+            for (unsigned int r = 0; r < n_rotations; ++r)
+              {
+                const auto [a, b] = plane_of_rotation[r];
+                beside.local_element(dof + r) +=
+                  w * (of_p - of_s) * n[a] * n[b];
+              }
+          }
+      }
+
+      void
+      compress()
+      {
+        diagonal.compress(VectorOperation::add);
+        beside.compress(VectorOperation::add);
+      }
+
+      bool
+      has(const unsigned int node) const
+      {
+        return diagonal.local_element(dim * node) > 0.;
+      }
+
+      Tensor<2, dim>
+      of_node(const unsigned int node) const
+      {
+        Tensor<2, dim> C;
+        for (unsigned int d = 0; d < dim; ++d)
+          C[d][d] = diagonal.local_element(dim * node + d);
+        for (unsigned int r = 0; r < n_rotations; ++r)
+          {
+            const auto [a, b] = plane_of_rotation[r];
+            C[a][b] = C[b][a] = beside.local_element(dim * node + r);
+          }
+        return C;
+      }
+
+    private:
+      Vector diagonal, beside; ///< the latter in the order of rotations
+    };
+  } // namespace
 
   AbsorbingBoundary::AbsorbingBoundary(const Scene          &scene,
                                        const BackgroundMesh &mesh,
@@ -24,17 +108,7 @@ namespace geocone::GEOCONE_DIM
   {
     if (!exists())
       return;
-    for (unsigned int m = 0; m < scene.materials.size(); ++m)
-      if (const auto *law =
-            dynamic_cast<const Material *>(&scene.materials.law(m));
-          law == nullptr || !law->has_constant_stiffness())
-        throw InputError("Materials/" + scene.materials.name(m) + "/Type",
-                         ParameterFile::value(
-                           "Materials/" + scene.materials.name(m) + "/Type"),
-                         "a law of constant stiffness where a side absorbs "
-                         "waves",
-                         "take linear elastic, or leave out 'Absorbing "
-                         "boundaries/Names'");
+    check_constant_stiffness(scene.materials);
     // Of cells that have points, whose stages may have changed it.
     constexpr unsigned int    none = numbers::invalid_unsigned_int;
     std::vector<unsigned int> of_cell;
@@ -58,11 +132,7 @@ namespace geocone::GEOCONE_DIM
     incoming.reinit(space.partitioner());
     for (unsigned int c = 0; c < conditions.list.size(); ++c)
       {
-        // Of the diagonal and beside it, in the order of rotations, by node, summed
-        // over ranks.
-        std::array<Vector, 2> sums;
-        for (Vector &sum : sums)
-          sum.reinit(space.partitioner());
+        DashpotSums        sums(space);
         const unsigned int n_faces = for_each_face_point(
           mesh,
           space,
@@ -71,47 +141,16 @@ namespace geocone::GEOCONE_DIM
             const unsigned int material = material_at(cell, point);
             if (material == none)
               return;
-            const Material   &law = scene.materials[material];
-            const Elasticity &e   = law.elasticity();
-            const double      rho = law.density(),
-                         of_p     = std::sqrt(
-                           rho * (e.lambda + e.two_G + law.fluid_modulus())),
-                         of_s = std::sqrt(rho * e.two_G / 2.);
-            for (unsigned int i = 0; i < point.nodes.size(); ++i)
-              {
-                const double       w   = point.weight * point.values[i];
-                const auto        &n   = point.normal;
-                const unsigned int dof = dim * point.nodes[i];
-                for (unsigned int d = 0; d < dim; ++d)
-                  sums[0].local_element(dof + d) +=
-                    w * (of_s + (of_p - of_s) * n[d] * n[d]);
-                for (unsigned int r = 0; r < n_rotations; ++r)
-                  {
-                    const auto [a, b] = plane_of_rotation[r];
-                    sums[1].local_element(dof + r) +=
-                      w * (of_p - of_s) * n[a] * n[b];
-                  }
-              }
+            sums.add(scene.materials[material], point);
           });
         refuse_no_face(*conditions.list[c],
                        n_faces,
                        mesh.triangulation().get_communicator(),
                        "this side absorbs nothing");
-        for (Vector &sum : sums)
-          sum.compress(VectorOperation::add);
+        sums.compress();
         for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
-          if (sums[0].local_element(dim * node) > 0.)
-            {
-              Tensor<2, dim> C;
-              for (unsigned int d = 0; d < dim; ++d)
-                C[d][d] = sums[0].local_element(dim * node + d);
-              for (unsigned int r = 0; r < n_rotations; ++r)
-                {
-                  const auto [a, b] = plane_of_rotation[r];
-                  C[a][b] = C[b][a] = sums[1].local_element(dim * node + r);
-                }
-              dashpots.push_back({node, c, C});
-            }
+          if (sums.has(node))
+            dashpots.push_back({node, c, sums.of_node(node)});
       }
   }
 
