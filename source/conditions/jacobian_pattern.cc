@@ -7,6 +7,52 @@
 
 namespace geocone::GEOCONE_DIM
 {
+  namespace
+  {
+    /** Of each local node those that share a cell, a group or a link with it, in order. */
+    std::vector<std::vector<unsigned int>>
+    nodes_that_meet(const MaterialPoints &points,
+                    const unsigned int    n_local_nodes,
+                    const std::vector<std::array<unsigned int, 3>> &groups,
+                    const std::vector<std::vector<unsigned int>>   &links)
+    {
+      // Which cells a node has, then which nodes it meets there.
+      const unsigned int                     n = points.n_nodes;
+      std::vector<std::vector<unsigned int>> neighbours(n_local_nodes);
+      for (unsigned int c = 0; c < points.n_cells(); ++c)
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            auto &list = neighbours[points.nodes[c * n + i]];
+            list.insert(
+              list.end(), &points.nodes[c * n], &points.nodes[c * n] + n);
+          }
+      for (const auto &group : groups)
+        for (const unsigned int node : group)
+          neighbours[node].insert(
+            neighbours[node].end(), group.begin(), group.end());
+      for (unsigned int node = 0; node < n_local_nodes; ++node)
+        // Of an owned node all points may be on other ranks.
+        neighbours[node].push_back(node);
+      for (const auto &link : links)
+        for (auto other = link.begin() + 1; other != link.end(); ++other)
+          {
+            const auto &of_node = neighbours[link.front()];
+            auto       &list    = neighbours[*other];
+            list.insert(list.end(), of_node.begin(), of_node.end());
+            list.insert(list.end(), link.begin(), link.end());
+          }
+      for (const auto &link : links)
+        neighbours[link.front()].insert(
+          neighbours[link.front()].end(), link.begin(), link.end());
+      for (auto &list : neighbours)
+        {
+          std::sort(list.begin(), list.end());
+          list.erase(std::unique(list.begin(), list.end()), list.end());
+        }
+      return neighbours;
+    }
+  } // namespace
+
   JacobianPattern::JacobianPattern(
     const MaterialPoints                           &points,
     const Unknowns                                 &unknowns,
@@ -28,51 +74,21 @@ namespace geocone::GEOCONE_DIM
     matrix.n_owned      = unknowns.n_owned_rows;
     matrix.global_index = unknowns.global_row;
 
-    // Which cells a node has, then which nodes it meets there.
-    const unsigned int                     n_local_nodes = row_of.size() / dim;
-    std::vector<std::vector<unsigned int>> neighbours(n_local_nodes);
-    for (unsigned int c = 0; c < points.n_cells(); ++c)
-      for (unsigned int i = 0; i < n; ++i)
-        {
-          auto &list = neighbours[points.nodes[c * n + i]];
-          list.insert(
-            list.end(), &points.nodes[c * n], &points.nodes[c * n] + n);
-        }
-    for (const auto &group : groups)
-      for (const unsigned int node : group)
-        neighbours[node].insert(
-          neighbours[node].end(), group.begin(), group.end());
+    const unsigned int n_local_nodes = row_of.size() / dim;
+    const auto         neighbours =
+      nodes_that_meet(points, n_local_nodes, groups, links);
     for (unsigned int node = 0; node < n_local_nodes; ++node)
-      // Of an owned node all points may be on other ranks.
-      neighbours[node].push_back(node);
-    for (const auto &link : links)
-      for (auto other = link.begin() + 1; other != link.end(); ++other)
-        {
-          const auto &of_node = neighbours[link.front()];
-          auto       &list    = neighbours[*other];
-          list.insert(list.end(), of_node.begin(), of_node.end());
-          list.insert(list.end(), link.begin(), link.end());
-        }
-    for (const auto &link : links)
-      neighbours[link.front()].insert(
-        neighbours[link.front()].end(), link.begin(), link.end());
-    for (unsigned int node = 0; node < n_local_nodes; ++node)
-      {
-        auto &list = neighbours[node];
-        std::sort(list.begin(), list.end());
-        list.erase(std::unique(list.begin(), list.end()), list.end());
-        for (unsigned int c = 0; c < dim; ++c)
-          if (row_of[dim * node + c] >= 0)
-            {
-              for (const unsigned int other : list)
-                for (unsigned int d = 0; d < dim; ++d)
-                  if (row_of[dim * other + d] >= 0 &&
-                      (!one_triangle ||
-                       row_of[dim * other + d] <= row_of[dim * node + c]))
-                    matrix.column.push_back(row_of[dim * other + d]);
-              matrix.row_start.push_back(matrix.column.size());
-            }
-      }
+      for (unsigned int c = 0; c < dim; ++c)
+        if (row_of[dim * node + c] >= 0)
+          {
+            for (const unsigned int other : neighbours[node])
+              for (unsigned int d = 0; d < dim; ++d)
+                if (row_of[dim * other + d] >= 0 &&
+                    (!one_triangle ||
+                     row_of[dim * other + d] <= row_of[dim * node + c]))
+                  matrix.column.push_back(row_of[dim * other + d]);
+            matrix.row_start.push_back(matrix.column.size());
+          }
     matrix.value.assign(matrix.column.size(), 0.);
 
     // The columns of a node's components stand side by side: one search finds
