@@ -80,6 +80,36 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::string
+  ImplicitMPM::objection_to_move(const MaterialPoints          &points,
+                                 const unsigned int             p,
+                                 const double                   ratio,
+                                 const Tensor<1, dim>          &move,
+                                 const std::array<double, dim> &extent) const
+  {
+    const Moved &next = trial.moved[p];
+    std::string  obstacle;
+    if (!std::isfinite(next.position.square()) ||
+        !std::isfinite(next.velocity.norm_square()))
+      obstacle =
+        format("the velocity of particle %u is not a number", points.id[p]);
+    else if (!(ratio > 0.05))
+      obstacle = format("the volume of particle %u at (%s) would collapse "
+                        "to %.2g of itself",
+                        points.id[p],
+                        text_of_place(points.position[p]).c_str(),
+                        ratio);
+    for (unsigned int d = 0; d < dim; ++d)
+      if (std::abs(move[d]) > largest_move * extent[d])
+        obstacle =
+          format("particle %u at (%s) would cross %.1f cells, more than "
+                 "'Material point method/Largest move'",
+                 points.id[p],
+                 text_of_place(points.position[p]).c_str(),
+                 std::abs(move[d]) / extent[d]);
+    return obstacle;
+  }
+
+  std::string
   ImplicitMPM::transfer(const MaterialPoints &points,
                         const Vector         &v,
                         const Vector         &v_mean,
@@ -151,24 +181,10 @@ namespace geocone::GEOCONE_DIM
             next.spin[k]      = h * (gradient[b][a] - gradient[a][b]) / 2.;
           }
 
-        if (!std::isfinite(next.position.square()) ||
-            !std::isfinite(next.velocity.norm_square()))
-          obstacle =
-            format("the velocity of particle %u is not a number", points.id[p]);
-        else if (!(ratio > 0.05))
-          obstacle = format("the volume of particle %u at (%s) would collapse "
-                            "to %.2g of itself",
-                            points.id[p],
-                            text_of_place(points.position[p]).c_str(),
-                            ratio);
-        for (unsigned int d = 0; d < dim; ++d)
-          if (std::abs(move[d]) > largest_move * extent[d])
-            obstacle =
-              format("particle %u at (%s) would cross %.1f cells, more than "
-                     "'Material point method/Largest move'",
-                     points.id[p],
-                     text_of_place(points.position[p]).c_str(),
-                     std::abs(move[d]) / extent[d]);
+        if (const std::string why =
+              objection_to_move(points, p, ratio, move, extent);
+            !why.empty())
+          obstacle = why;
       });
     return text_of_any_rank(v.get_mpi_communicator(), obstacle);
   }

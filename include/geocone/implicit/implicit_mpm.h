@@ -270,6 +270,15 @@ namespace geocone::GEOCONE_DIM
     void
     solve_mass(Vector &velocity) const;
 
+    /** Why a particle may not go where trial.moved has it, or nothing.
+     *  @param ratio of its volumes @param extent of its cell (m) */
+    std::string
+    objection_to_move(const MaterialPoints          &points,
+                      const unsigned int             p,
+                      const double                   ratio,
+                      const dealii::Tensor<1, dim>  &move,
+                      const std::array<double, dim> &extent) const;
+
     /**
      * Where the particles go by the node velocities v (at t_n + h) from vL,
      * advected by v_mean: trial.moved.
