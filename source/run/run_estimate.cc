@@ -82,6 +82,48 @@ namespace geocone::GEOCONE_DIM
              "make it coarser, or call geocone with --force");
   }
 
+  namespace
+  {
+    /** How much a cell has of what a run computes with. */
+    struct CellCounts
+    {
+      unsigned int degree;
+      bool         is_spline;
+      double       nodes, functions, points; ///< the last ones of FEM
+    };
+
+    CellCounts
+    counts_of_cell(const BackgroundMesh::Expected &expected,
+                   const Method                   &method)
+    {
+      std::string element = ParameterFile::value("Discretisation/Element");
+      if (element == "automatic")
+        // Whether friction has a memory is not known before the mesh: P3 is the more
+        // expensive one.
+        element = Space::automatic_element(
+          expected.is_simplicial, expected.is_grid, method, false);
+      const bool         spline = element[0] == 'B';
+      const unsigned int p      = element.back() - '0';
+      // Of a triangle and a tetrahedron, by Euler's formula and what is usual.
+      const double of_simplex     = dim == 2 ? (p == 1   ? 0.5
+                                                : p == 2 ? 2.
+                                                         : 4.5)
+                                             : (p == 1 ? 0.2 : 1.4);
+      const double nodes_per_cell = expected.is_simplicial ? of_simplex
+                                    : spline               ? 1.
+                                                           : std::pow(p, dim);
+      double       functions =
+        expected.is_simplicial ? (p + 1) * (p + 2) / 2. : std::pow(p + 1., dim);
+      if (dim == 3 && expected.is_simplicial)
+        functions *= (p + 3) / 3.;
+      const double points = !expected.is_simplicial ? std::pow(p + 1., dim)
+                            : p == 1                ? 1.
+                            : p == 2                ? dim + 1.
+                                                    : 7.;
+      return {p, spline, nodes_per_cell, functions, points};
+    }
+  } // namespace
+
   RunEstimate
   estimate_run(const Scene       &scene,
                const Method      &method,
@@ -96,34 +138,12 @@ namespace geocone::GEOCONE_DIM
     e.cells                                 = expected.n_cells;
     e.driver                                = expected.parameter;
 
-    std::string element = ParameterFile::value("Discretisation/Element");
-    if (element == "automatic")
-      // Whether friction has a memory is not known before the mesh: P3 is the more
-      // expensive one.
-      element = Space::automatic_element(
-        expected.is_simplicial, expected.is_grid, method, false);
-    const bool         spline = element[0] == 'B';
-    const unsigned int p      = element.back() - '0';
-    // Of a triangle and a tetrahedron, by Euler's formula and what is usual.
-    const double of_simplex     = dim == 2 ? (p == 1   ? 0.5
-                                              : p == 2 ? 2.
-                                                       : 4.5)
-                                           : (p == 1 ? 0.2 : 1.4);
-    const double nodes_per_cell = expected.is_simplicial ? of_simplex
-                                  : spline               ? 1.
-                                                         : std::pow(p, dim);
-    double       functions =
-      expected.is_simplicial ? (p + 1) * (p + 2) / 2. : std::pow(p + 1., dim);
-    if (dim == 3 && expected.is_simplicial)
-      functions *= (p + 3) / 3.;
-    double nodes = e.cells * nodes_per_cell;
-    e.unknowns   = dim * nodes;
-    e.points     = seeding != nullptr
-                     ? seeding->expected_number(scene, expected)
-                     : e.cells * (!expected.is_simplicial ? std::pow(p + 1., dim)
-                                  : p == 1                ? 1.
-                                  : p == 2                ? dim + 1.
-                                                          : 7.);
+    const CellCounts   of_cell = counts_of_cell(expected, method);
+    const unsigned int p       = of_cell.degree;
+    double             nodes   = e.cells * of_cell.nodes;
+    e.unknowns                 = dim * nodes;
+    e.points = seeding != nullptr ? seeding->expected_number(scene, expected)
+                                  : e.cells * of_cell.points;
     if (seeding != nullptr) // each body of particles has a layer of the mesh
       for (double *number : {&e.cells, &e.unknowns, &nodes})
         *number *= scene.contacts.n_bodies();
@@ -146,10 +166,10 @@ namespace geocone::GEOCONE_DIM
     else
       {
         // Columns per row: the functions that overlap a function's support.
-        const double row =
-          dim * (spline ? std::pow(2. * p + 1., dim) : 3.5 * functions);
-        of_points = e.points * (1000. + 100. * functions);
-        of_nodes  = e.unknowns * (1500. + 60. * row);
+        const double row = dim * (of_cell.is_spline ? std::pow(2. * p + 1., dim)
+                                                    : 3.5 * of_cell.functions);
+        of_points        = e.points * (1000. + 100. * of_cell.functions);
+        of_nodes         = e.unknowns * (1500. + 60. * row);
         // In three dimensions factors fill in as n^(4/3).
         if (dim == 3)
           of_nodes += 60. * std::pow(e.unknowns, 4. / 3.);
