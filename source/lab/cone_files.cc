@@ -355,63 +355,80 @@ namespace geocone::GEOCONE_DIM
       problem.W.setFromTriplets(all.begin(), all.end());
       return problem;
     }
+
+    /** What a file of Siconos begins with. */
+    struct SiconosHead
+    {
+      unsigned int d, n_cones;
+      bool         has_model; ///< as new files have
+      double       storage;   ///< of the matrix: dense, blocks or sparse
+    };
+
+    SiconosHead
+    read_siconos_head(Numbers &in)
+    {
+      const double d_read = in.next("the dimension");
+      if (d_read != 2. && d_read != 3.)
+        in.fail("has the dimension " + Numbers::shown(d_read) +
+                ", which must be 2 or 3");
+      const unsigned int d = d_read;
+      const double       n = in.next("the number of cones");
+      if (!(n >= 1. && n <= most_cones && n == std::floor(n)))
+        in.fail("has " + Numbers::shown(n) + " cones");
+      const unsigned int size = d * static_cast<unsigned int>(n);
+
+      // Old files, and those of contact, begin with the storage, new ones with the
+      // model; the number of rows, which comes next in the former, is more than any
+      // storage, or 2 and comes once more.
+      bool   has_model = false;
+      double model = 1., storage = in.next("the type of the model");
+      double n_rows = in.next("the storage of the matrix");
+      if (n_rows < 3. && size > 2)
+        {
+          has_model = true;
+          model     = storage;
+          storage   = n_rows;
+          n_rows    = in.next("the number of rows");
+        }
+      if (model == 2.)
+        in.fail(
+          "has the type of the model 2 (von Mises), which must be 1 (a "
+          "cone)\n  remedy:  none: the yield surface of Siconos' type 2, "
+          "sqrt(sx^2 + sy^2 - sx sy + 3 txy^2) = sigma_y, that of plane "
+          "stress, is no cone, and stresses return to it by a factor; take "
+          "type 1, or a step of geocone with the material Tresca");
+      if (model != 1.)
+        in.fail("has the type of the model " + Numbers::shown(model) +
+                ", which must be 1 (a cone)");
+      if (storage != 0. && storage != 1. && storage != 2.)
+        in.fail("has the storage of the matrix " + Numbers::shown(storage) +
+                ", which must be 0 (dense), 1 (blocks) or 2 (sparse)\n"
+                "  remedy:  convert it in Siconos, e.g. by NM_triplet()");
+      if (n_rows != size)
+        in.fail("has the number of rows = " + Numbers::shown(n_rows) +
+                ", which must be " + Numbers::shown(size));
+      in.expect(size, "the number of columns");
+      return {d, size / d, has_model, storage};
+    }
   } // namespace
 
   ReducedProblem
   read_siconos(const std::string &file_name)
   {
-    Numbers      in(file_name);
-    const double d_read = in.next("the dimension");
-    if (d_read != 2. && d_read != 3.)
-      in.fail("has the dimension " + Numbers::shown(d_read) +
-              ", which must be 2 or 3");
-    const unsigned int d = d_read;
-    const double       n = in.next("the number of cones");
-    if (!(n >= 1. && n <= most_cones && n == std::floor(n)))
-      in.fail("has " + Numbers::shown(n) + " cones");
-    const unsigned int size = d * static_cast<unsigned int>(n);
-
-    // Old files, and those of contact, begin with the storage, new ones with the
-    // model; the number of rows, which comes next in the former, is more than any
-    // storage, or 2 and comes once more.
-    bool   has_model = false;
-    double model = 1., storage = in.next("the type of the model");
-    double n_rows = in.next("the storage of the matrix");
-    if (n_rows < 3. && size > 2)
-      {
-        has_model = true;
-        model     = storage;
-        storage   = n_rows;
-        n_rows    = in.next("the number of rows");
-      }
-    if (model == 2.)
-      in.fail("has the type of the model 2 (von Mises), which must be 1 (a "
-              "cone)\n  remedy:  none: the yield surface of Siconos' type 2, "
-              "sqrt(sx^2 + sy^2 - sx sy + 3 txy^2) = sigma_y, that of plane "
-              "stress, is no cone, and stresses return to it by a factor; take "
-              "type 1, or a step of geocone with the material Tresca");
-    if (model != 1.)
-      in.fail("has the type of the model " + Numbers::shown(model) +
-              ", which must be 1 (a cone)");
-    if (storage != 0. && storage != 1. && storage != 2.)
-      in.fail("has the storage of the matrix " + Numbers::shown(storage) +
-              ", which must be 0 (dense), 1 (blocks) or 2 (sparse)\n"
-              "  remedy:  convert it in Siconos, e.g. by NM_triplet()");
-    if (n_rows != size)
-      in.fail("has the number of rows = " + Numbers::shown(n_rows) +
-              ", which must be " + Numbers::shown(size));
-    in.expect(size, "the number of columns");
-
-    const unsigned int n_cones = size / d;
-    const Triplets     entries = storage == 0.   ? read_dense(in, size)
-                                 : storage == 1. ? read_blocks(in, size, n_cones)
-                                                 : read_sparse(in, size);
+    Numbers            in(file_name);
+    const SiconosHead  head = read_siconos_head(in);
+    const unsigned int d = head.d, n_cones = head.n_cones;
+    const unsigned int size    = d * n_cones;
+    const Triplets     entries = head.storage == 0. ? read_dense(in, size)
+                                 : head.storage == 1.
+                                   ? read_blocks(in, size, n_cones)
+                                   : read_sparse(in, size);
     const VectorXd     q       = in.vector(size, "the vector q");
     // One number more for each cone, but for a flag, and no model: contact.
     std::string        last;
     const std::size_t  left = in.left(last);
     const unsigned int flag = last == "0" || last == "1";
-    if (!has_model &&
+    if (!head.has_model &&
         (left == n_cones || (left == n_cones + 1 && (n_cones > 1 || flag)) ||
          d == 2))
       {
