@@ -102,6 +102,29 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
+  NodalUpdate::hold_prescribed(const Step &step)
+  {
+    held.clear();
+    for (const PrescribedNode &node : transfer.prescribed)
+      {
+        const unsigned int i = node.node, d = node.component;
+        const double       m = transfer.mass[i];
+        if (!(m > least_mass))
+          continue;
+        const double before = prescribed_velocity(node, step.t);
+        const double after  = prescribed_velocity(node, step.t + step.dt);
+        held.push_back({i, d, after, after - before});
+        if (!node.mine)
+          continue;
+        const double impulse =
+          m * (after - before) - step.dt * force_at(i, d) +
+          (1. - flip_part) * m * (before - transfer.read[node_size * i + d]);
+        add_impulse(node, impulse);
+        sum.support_work += impulse * (before + after) / 2.;
+      }
+  }
+
+  void
   NodalUpdate::accelerate(const Step &step,
                           const bool  velocity_is_read,
                           const bool  moves)
@@ -144,26 +167,7 @@ namespace geocone::GEOCONE_DIM
         sum.impulse += done.impulse;
       }
 
-    // What conditions hold has its velocity from them; the reaction is what the
-    // points get of momentum beyond the forces.
-    held.clear();
-    for (const PrescribedNode &node : transfer.prescribed)
-      {
-        const unsigned int i = node.node, d = node.component;
-        const double       m = mass[i];
-        if (!(m > least_mass))
-          continue;
-        const double before = prescribed_velocity(node, step.t);
-        const double after  = prescribed_velocity(node, step.t + dt);
-        held.push_back({i, d, after, after - before});
-        if (!node.mine)
-          continue;
-        const double impulse =
-          m * (after - before) - dt * force_at(i, d) +
-          (1. - flip_part) * m * (before - read[node_size * i + d]);
-        add_impulse(node, impulse);
-        sum.support_work += impulse * (before + after) / 2.;
-      }
+    hold_prescribed(step);
     for (const auto &range : transfer.mine)
       for (unsigned int i = range[0]; i < range[1]; ++i)
         sum.small_masses += mass[i] > 0. && !(mass[i] > least_mass);

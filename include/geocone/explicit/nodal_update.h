@@ -147,6 +147,11 @@ namespace geocone::GEOCONE_DIM
     double
     prescribed_velocity(const PrescribedNode &node, const double t) const;
 
+    /** Finds the velocities that conditions give; the reaction is what the points get
+     *  of momentum beyond the forces. */
+    void
+    hold_prescribed(const Step &step);
+
     /** Books an impulse to the condition of a node. */
     void
     add_impulse(const PrescribedNode &node, const double impulse);
