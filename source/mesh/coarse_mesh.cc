@@ -80,6 +80,49 @@ namespace geocone::GEOCONE_DIM
       std::sort(faces.begin(), faces.end());
       return faces;
     }
+
+    /** The pieces of a mesh at each vertex: the cells that are joined by faces through
+     *  it. */
+    class VertexPieces
+    {
+    public:
+      explicit VertexPieces(const std::vector<dealii::CellData<dim>> &cells)
+      {
+        for (unsigned int c = 0; c < cells.size(); ++c)
+          for (const unsigned int v : cells[c].vertices)
+            place.emplace(std::make_pair(v, c), place.size());
+        leader.resize(place.size());
+        std::iota(leader.begin(), leader.end(), 0U);
+      }
+
+      /** The number of the piece of a cell at a vertex, less than size(). */
+      unsigned int
+      of(const unsigned int vertex, const unsigned int cell)
+      {
+        unsigned int i = place.at({vertex, cell});
+        while (leader[i] != i)
+          i = leader[i] = leader[leader[i]];
+        return i;
+      }
+
+      void
+      join(const unsigned int vertex,
+           const unsigned int a,
+           const unsigned int b)
+      {
+        leader[of(vertex, a)] = of(vertex, b);
+      }
+
+      std::size_t
+      size() const
+      {
+        return leader.size();
+      }
+
+    private:
+      std::map<std::pair<unsigned int, unsigned int>, unsigned int> place;
+      std::vector<unsigned int>                                     leader;
+    };
   } // namespace
 
   std::vector<CoarseMesh::Face>
@@ -101,20 +144,8 @@ namespace geocone::GEOCONE_DIM
   CoarseMesh::part(
     const std::function<bool(unsigned int, unsigned int)> &are_apart)
   {
-    const std::vector<FaceOfCell> faces = all_faces(*this);
-    // The pieces: of each vertex the cells that are joined by faces through it.
-    std::map<std::pair<unsigned int, unsigned int>, unsigned int> place;
-    std::vector<unsigned int>                                     leader;
-    for (unsigned int c = 0; c < cells.size(); ++c)
-      for (const unsigned int v : cells[c].vertices)
-        place.emplace(std::make_pair(v, c), place.size());
-    leader.resize(place.size());
-    std::iota(leader.begin(), leader.end(), 0U);
-    const auto root = [&](unsigned int i) {
-      while (leader[i] != i)
-        i = leader[i] = leader[leader[i]];
-      return i;
-    };
+    const std::vector<FaceOfCell>          faces = all_faces(*this);
+    VertexPieces                           pieces(cells);
     std::vector<std::array<FaceOfCell, 2>> parted;
     for (std::size_t i = 0; i + 1 < faces.size(); ++i)
       {
@@ -126,12 +157,12 @@ namespace geocone::GEOCONE_DIM
         else
           for (const unsigned int v : a.face)
             if (v != no_vertex)
-              leader[root(place.at({v, a.cell}))] = root(place.at({v, b.cell}));
+              pieces.join(v, a.cell, b.cell);
       }
     if (parted.empty())
       return {};
     // The first piece keeps the vertex.
-    std::vector<unsigned int> new_vertex(leader.size(), no_vertex);
+    std::vector<unsigned int> new_vertex(pieces.size(), no_vertex);
     std::vector<bool>         is_taken(points.size(), false), is_cut = is_taken;
     for (const auto &both : parted)
       for (const unsigned int v : both[0].face)
@@ -140,7 +171,7 @@ namespace geocone::GEOCONE_DIM
     const auto vertex_of = [&](const unsigned int v, const unsigned int cell) {
       if (!is_cut[v])
         return v;
-      unsigned int &own = new_vertex[root(place.at({v, cell}))];
+      unsigned int &own = new_vertex[pieces.of(v, cell)];
       if (own == no_vertex)
         {
           own = is_taken[v] ? points.size() : v;
