@@ -101,6 +101,13 @@ namespace geocone::GEOCONE_DIM
                              "at the start, counterclockwise."
                            : "Vertices x, y, z; x, y, z; ... (m) of a convex "
                              "polyhedron at the start, in any order.");
+    declare_motions();
+    law.declare(*this);
+  }
+
+  void
+  Obstacle::declare_motions()
+  {
     velocity_texts.fill("0");
     load_texts.fill("0");
     for (unsigned int k = 0; k < n_motions; ++k)
@@ -135,7 +142,6 @@ namespace geocone::GEOCONE_DIM
           "free to turn (kg m^2); of a cube M a^2/6, of a ball 2/5 M R^2. "
           "One number for all axes: bodies that are long or flat spin "
           "differently, and rest alike.");
-    law.declare(*this);
   }
 
   void

@@ -225,6 +225,10 @@ namespace geocone::GEOCONE_DIM
     static Choice<Shape>::Words
     shape_words();
 
+    /** Declares what drives it, and the forces and masses where it is free. */
+    void
+    declare_motions();
+
     /** Makes the shape. @throws InputError */
     void
     make_shape();
