@@ -157,21 +157,11 @@ namespace geocone::GEOCONE_DIM
     return !scene->tractions.list.empty() || !scene->absorbing.list.empty();
   }
 
-  std::vector<std::string>
-  ExplicitMPM::prepare(const Scene &scene_, const Method &method)
+  void
+  ExplicitMPM::make_transfer(const Method             &method,
+                             std::vector<std::string> &remarks)
   {
-    scene        = &scene_;
-    affine       = rule.is_affine();
-    b_bar        = space.has_b_bar();
-    axisymmetric = scene->geometry.is_axisymmetric();
-    check_parameters();
-    check_round_body(*scene);
-    seeding.prepare(*scene);
-    balance.prepare();
-    kernels = &transfer_kernels();
-
-    std::vector<std::string> remarks;
-    const auto               lines = mesh.uniform_lines(*scene, method);
+    const auto lines = mesh.uniform_lines(*scene, method);
     if (fast_path && !lines[0].empty() && !acts_on_sides())
       {
         space.choose_element(false, true, method);
@@ -195,6 +185,23 @@ namespace geocone::GEOCONE_DIM
           },
           remarks);
       }
+  }
+
+  std::vector<std::string>
+  ExplicitMPM::prepare(const Scene &scene_, const Method &method)
+  {
+    scene        = &scene_;
+    affine       = rule.is_affine();
+    b_bar        = space.has_b_bar();
+    axisymmetric = scene->geometry.is_axisymmetric();
+    check_parameters();
+    check_round_body(*scene);
+    seeding.prepare(*scene);
+    balance.prepare();
+    kernels = &transfer_kernels();
+
+    std::vector<std::string> remarks;
+    make_transfer(method, remarks);
 
     if (b_bar && space.is_spline() && scene->materials.traits().dilates)
       remarks.push_back(

@@ -252,6 +252,11 @@ namespace geocone::GEOCONE_DIM
     void
     check_parameters() const;
 
+    /** Makes the grid, that of boxes without forces on sides if it can, or a mesh, and
+     *  the points in it. */
+    void
+    make_transfer(const Method &method, std::vector<std::string> &remarks);
+
     /** Makes the points of a uniform grid: those of each rank where they belong. */
     void
     seed_columns(const CartesianGrid &grid, std::vector<std::string> &remarks);
