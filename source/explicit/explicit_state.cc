@@ -32,6 +32,44 @@ namespace geocone::GEOCONE_DIM
     return mass;
   }
 
+  namespace
+  {
+    /** Sums of all ranks in place of their own, and largest values. Collective. */
+    void
+    gather_totals(ExplicitState &s, const MPI_Comm comm)
+    {
+      s.n_points         = Utilities::MPI::sum(s.n_points, comm);
+      s.mass             = Utilities::MPI::sum(s.mass, comm);
+      s.volume           = Utilities::MPI::sum(s.volume, comm);
+      s.kinetic          = Utilities::MPI::sum(s.kinetic, comm);
+      s.potential        = Utilities::MPI::sum(s.potential, comm);
+      s.momentum         = Utilities::MPI::sum(s.momentum, comm);
+      s.angular_momentum = Utilities::MPI::sum(s.angular_momentum, comm);
+      s.largest_speed    = Utilities::MPI::max(s.largest_speed, comm);
+      s.largest_plastic_strain =
+        Utilities::MPI::max(s.largest_plastic_strain, comm);
+    }
+
+    /** The limiting point of all ranks in place of that of each. Collective.
+     *  @param fastest its c^2, < 0 without points */
+    void
+    find_limiting_point(double fastest, const MPI_Comm comm, ExplicitState &s)
+    {
+      std::array<double, 2 + dim> limit = {{fastest, double(s.limiting_id)}};
+      for (unsigned int d = 0; d < dim; ++d)
+        limit[2 + d] = s.limiting_place[d];
+      for (const auto &w : Utilities::MPI::all_gather(comm, limit))
+        if (w[0] >= fastest)
+          {
+            fastest       = w[0];
+            s.limiting_id = static_cast<unsigned int>(w[1]);
+            for (unsigned int d = 0; d < dim; ++d)
+              s.limiting_place[d] = w[2 + d];
+          }
+      s.limiting_wave_speed = std::sqrt(std::max(fastest, 0.));
+    }
+  } // namespace
+
   ExplicitState
   ExplicitMPM::state() const
   {
@@ -85,16 +123,7 @@ namespace geocone::GEOCONE_DIM
               }
           }
       }
-    s.n_points         = Utilities::MPI::sum(s.n_points, comm);
-    s.mass             = Utilities::MPI::sum(s.mass, comm);
-    s.volume           = Utilities::MPI::sum(s.volume, comm);
-    s.kinetic          = Utilities::MPI::sum(s.kinetic, comm);
-    s.potential        = Utilities::MPI::sum(s.potential, comm);
-    s.momentum         = Utilities::MPI::sum(s.momentum, comm);
-    s.angular_momentum = Utilities::MPI::sum(s.angular_momentum, comm);
-    s.largest_speed    = Utilities::MPI::max(s.largest_speed, comm);
-    s.largest_plastic_strain =
-      Utilities::MPI::max(s.largest_plastic_strain, comm);
+    gather_totals(s, comm);
     Utilities::MPI::min(bounds, comm, bounds);
     for (unsigned int d = 0; d < dim; ++d)
       {
@@ -102,18 +131,7 @@ namespace geocone::GEOCONE_DIM
         s.upper[d] = -bounds[dim + d];
       }
 
-    std::array<double, 2 + dim> limit = {{fastest, double(s.limiting_id)}};
-    for (unsigned int d = 0; d < dim; ++d)
-      limit[2 + d] = s.limiting_place[d];
-    for (const auto &w : Utilities::MPI::all_gather(comm, limit))
-      if (w[0] >= fastest)
-        {
-          fastest       = w[0];
-          s.limiting_id = static_cast<unsigned int>(w[1]);
-          for (unsigned int d = 0; d < dim; ++d)
-            s.limiting_place[d] = w[2 + d];
-        }
-    s.limiting_wave_speed = std::sqrt(std::max(fastest, 0.));
+    find_limiting_point(fastest, comm, s);
 
     s.left_front  = mass_quantile(0.01 * s.mass, s.lower[0], s.upper[0]);
     s.right_front = mass_quantile(0.99 * s.mass, s.lower[0], s.upper[0]);
