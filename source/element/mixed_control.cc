@@ -43,52 +43,48 @@ namespace geocone::GEOCONE_DIM
         "Element/Maximum halvings", max_halvings, "0 to 30", "12 is usual");
   }
 
-  ControlReport
-  MixedControl::solve(ElementPoint              &point,
-                      const std::array<bool, 6> &by_stress,
-                      const Tensor6             &target,
-                      Tensor6                   &strain) const
+  namespace
   {
-    ControlReport             report;
-    std::vector<unsigned int> unknown;
-    for (unsigned int i = 0; i < 6; ++i)
-      if (by_stress[i])
-        unknown.push_back(i);
-    const int     n       = unknown.size();
-    const Tensor6 start   = point.stress();
-    const double  modulus = point.modulus();
-    double        change  = 0.; // of the stresses that are asked for
-    for (const unsigned int i : unknown)
-      change = std::max(change, std::abs(target[i] - start[i]));
-
-    // The residual and its scale; not a number if the law fails.
-    double          scale = 0.;
-    Eigen::VectorXd r(n);
-    const auto      evaluate = [&](const Tensor6 &e) {
-      const Tensor6 s = point.try_strain(e);
-      scale           = std::max({norm(s), norm(start), norm(target)});
-      // From no stress to no stress: what the strain would give elastically.
-      if (scale == 0.)
-        scale = std::max(modulus * norm(e), 1e-300);
-      for (int i = 0; i < n; ++i)
-        r[i] = s[unknown[i]] - target[unknown[i]];
-      return r.size() > 0 ? r.cwiseAbs().maxCoeff() : 0. * norm(s);
-    };
-
-    double residual = evaluate(strain);
-    while (!(residual <= tolerance * scale))
+    /** By how much stresses miss their targets. */
+    class StressResidual
+    {
+    public:
+      StressResidual(ElementPoint              &point,
+                     const std::array<bool, 6> &by_stress,
+                     const Tensor6             &target)
+        : point(point)
+        , target(target)
+        , start(point.stress())
+        , modulus(point.modulus())
       {
-        report.residual = residual / scale;
-        if (report.iterations == max_iterations)
-          {
-            report.reason = format("%u iterations leave a relative residual of "
-                                   "%.3g",
-                                   max_iterations,
-                                   report.residual);
-            return report;
-          }
-        ++report.iterations;
+        for (unsigned int i = 0; i < 6; ++i)
+          if (by_stress[i])
+            unknown.push_back(i);
+        r.resize(unknown.size());
+        for (const unsigned int i : unknown)
+          change = std::max(change, std::abs(target[i] - start[i]));
+      }
+
+      /** Finds the residual and its scale. @return not a number if the law fails */
+      double
+      evaluate(const Tensor6 &e)
+      {
+        const Tensor6 s = point.try_strain(e);
+        scale           = std::max({norm(s), norm(start), norm(target)});
+        // From no stress to no stress: what the strain would give elastically.
+        if (scale == 0.)
+          scale = std::max(modulus * norm(e), 1e-300);
+        for (int i = 0; i < r.size(); ++i)
+          r[i] = s[unknown[i]] - target[unknown[i]];
+        return r.size() > 0 ? r.cwiseAbs().maxCoeff() : 0. * norm(s);
+      }
+
+      /** The change of the unknown strains, by differences. */
+      Eigen::VectorXd
+      newton_step(const Tensor6 &strain)
+      {
         const Eigen::VectorXd r0 = r;
+        const int             n  = r.size();
         Eigen::MatrixXd       J(n, n);
         const double          small =
           1e-4 * std::max({norm(strain), change / modulus, 1e-9});
@@ -99,7 +95,54 @@ namespace geocone::GEOCONE_DIM
             evaluate(moved);
             J.col(j) = (r - r0) / small;
           }
-        const Eigen::VectorXd step = J.fullPivLu().solve(-r0);
+        return J.fullPivLu().solve(-r0);
+      }
+
+      Tensor6
+      moved(Tensor6                strain,
+            const double           length,
+            const Eigen::VectorXd &step) const
+      {
+        for (int j = 0; j < step.size(); ++j)
+          strain[unknown[j]] += length * step[j];
+        return strain;
+      }
+
+      double scale = 0.;
+
+    private:
+      ElementPoint             &point;
+      const Tensor6            &target;
+      std::vector<unsigned int> unknown;
+      const Tensor6             start;
+      const double              modulus;
+      double          change = 0.; ///< of the stresses that are asked for
+      Eigen::VectorXd r;
+    };
+  } // namespace
+
+  ControlReport
+  MixedControl::solve(ElementPoint              &point,
+                      const std::array<bool, 6> &by_stress,
+                      const Tensor6             &target,
+                      Tensor6                   &strain) const
+  {
+    ControlReport  report;
+    StressResidual stresses(point, by_stress, target);
+    double         residual = stresses.evaluate(strain);
+    while (!(residual <= tolerance * stresses.scale))
+      {
+        report.residual = residual / stresses.scale;
+        if (report.iterations == max_iterations)
+          {
+            report.reason = format("%u iterations leave a relative residual of "
+                                   "%.3g",
+                                   max_iterations,
+                                   report.residual);
+            return report;
+          }
+        ++report.iterations;
+        const Eigen::VectorXd step = stresses.newton_step(strain);
         if (!step.allFinite() || step.norm() > 1.)
           {
             report.reason = "the stresses do not determine the strains: the "
@@ -111,10 +154,9 @@ namespace geocone::GEOCONE_DIM
         double        length = 1., now = 0.;
         for (; length > 1e-3; length /= 2.)
           {
-            for (int j = 0; j < n; ++j)
-              strain[unknown[j]] = from[unknown[j]] + length * step[j];
-            now = evaluate(strain);
-            if (now < residual || now <= tolerance * scale)
+            strain = stresses.moved(from, length, step);
+            now    = stresses.evaluate(strain);
+            if (now < residual || now <= tolerance * stresses.scale)
               break;
           }
         if (!(length > 1e-3))
@@ -126,7 +168,7 @@ namespace geocone::GEOCONE_DIM
           }
         residual = now;
       }
-    report.residual  = residual / scale;
+    report.residual  = residual / stresses.scale;
     report.converged = true;
     return report;
   }
