@@ -22,6 +22,45 @@ namespace geocone::GEOCONE_DIM
 
     /** Nodes are read and written by four values, the mass up to three beyond. */
     constexpr unsigned int mass_padding = 4;
+
+    /** A side of the grid: only the first and the last function are not zero at the ends
+     *  of an axis. */
+    struct GridSide
+    {
+      std::string  name;
+      unsigned int axis, function;
+    };
+
+    std::vector<GridSide>
+    sides_of_grid(const CartesianGrid &grid)
+    {
+      std::vector<GridSide> sides;
+      for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int end = 0; end < 2; ++end)
+          sides.push_back({side_of_box[d][end],
+                           d,
+                           end == 0 ? 0 : grid.axes[d].n_functions - 1});
+      return sides;
+    }
+
+    /** @throws InputError for a condition on sides that the grid has not */
+    void
+    check_grid_sides(const BoundaryCondition     &condition,
+                     const std::vector<GridSide> &sides)
+    {
+      std::string known;
+      for (const GridSide &side : sides)
+        known += side.name + ", ";
+      for (const std::string &name : condition.sides)
+        if (name != "all" &&
+            std::none_of(sides.begin(), sides.end(), [&](const GridSide &side) {
+              return side.name == name;
+            }))
+          throw InputError(condition.parameter("Sides"),
+                           name,
+                           known + "all: the sides of the background mesh",
+                           "choose among them");
+    }
   } // namespace
 
   CartesianTransfer::CartesianTransfer(const MPI_Comm            comm,
@@ -33,37 +72,14 @@ namespace geocone::GEOCONE_DIM
     , grid(grid)
     , kernels(transfer_kernels())
   {
-    // Only the first and the last function are not zero at the ends of an axis.
-    struct Side
-    {
-      std::string  name;
-      unsigned int axis, function;
-    };
-    std::vector<Side> sides;
-    std::string       known;
-    for (unsigned int d = 0; d < dim; ++d)
-      for (unsigned int end = 0; end < 2; ++end)
-        {
-          sides.push_back({side_of_box[d][end],
-                           d,
-                           end == 0 ? 0 : grid.axes[d].n_functions - 1});
-          known += sides.back().name + ", ";
-        }
+    const std::vector<GridSide> sides = sides_of_grid(grid);
 
     // The last condition in the list that prescribes a component holds it.
     std::map<std::array<unsigned int, dim + 1>, PrescribedNode> of_component;
     for (unsigned int c = 0; c < conditions.list.size(); ++c)
       {
         const BoundaryCondition &condition = *conditions.list[c];
-        for (const std::string &name : condition.sides)
-          if (name != "all" &&
-              std::none_of(sides.begin(), sides.end(), [&](const Side &side) {
-                return side.name == name;
-              }))
-            throw InputError(condition.parameter("Sides"),
-                             name,
-                             known + "all: the sides of the background mesh",
-                             "choose among them");
+        check_grid_sides(condition, sides);
         unsigned int n_found = 0;
         Point<dim>   lower, upper;
         for (unsigned int d = 0; d < dim; ++d)
@@ -71,7 +87,7 @@ namespace geocone::GEOCONE_DIM
             lower[d] = 1e300;
             upper[d] = -1e300;
           }
-        for (const Side &side : sides)
+        for (const GridSide &side : sides)
           if (condition.is_on_side(side.name))
             {
               GridIndex n  = n_functions();
