@@ -273,6 +273,43 @@ namespace geocone::GEOCONE_DIM
     return result;
   }
 
+  namespace
+  {
+    /** Adds a uniaxial extension that takes the violation out, where prescribed
+     *  velocities leave room for one. @return their scale by it */
+    double
+    repair_rates(const BoundScene   &bound,
+                 const BoundProblem &problem,
+                 const double        violation,
+                 VectorXd           &q)
+    {
+      const VectorXd w         = uniaxial_extension(bound, problem);
+      bool           is_usable = true;
+      double         slope     = 0.;
+      for (unsigned int i = 0; i < problem.n_dofs(); ++i)
+        if (problem.is_prescribed[i])
+          {
+            const double v = problem.prescribed[i];
+            is_usable      = is_usable && (v != 0. || std::abs(w[i]) < 1e-12);
+            if (v == 0.)
+              continue;
+            is_usable = is_usable &&
+                        (slope == 0. ||
+                         std::abs(w[i] / v - slope) < 1e-9 * std::abs(slope));
+            slope = w[i] / v;
+          }
+      if (!is_usable)
+        return 1.;
+      // Its strain is a uniaxial extension: -w_n = |w_t| = 1/sqrt2.
+      double a = 0.;
+      for (unsigned int p = 0; p < 3 * problem.n_triangles; ++p)
+        a = std::max(a, problem.cone[p].a);
+      const double delta = 1.001 * violation * sqrt2 / (1. - a);
+      q += delta * w;
+      return 1. + delta * slope;
+    }
+  } // namespace
+
   Bound
   certify_upper(const BoundScene    &bound,
                 const BoundProblem  &problem,
@@ -302,33 +339,7 @@ namespace geocone::GEOCONE_DIM
 
     double scale = 1.; // of the prescribed velocities
     if (result.violation > 0. && result.objection.empty())
-      {
-        const VectorXd w         = uniaxial_extension(bound, problem);
-        bool           is_usable = true;
-        double         slope     = 0.;
-        for (unsigned int i = 0; i < problem.n_dofs(); ++i)
-          if (problem.is_prescribed[i])
-            {
-              const double v = problem.prescribed[i];
-              is_usable      = is_usable && (v != 0. || std::abs(w[i]) < 1e-12);
-              if (v == 0.)
-                continue;
-              is_usable = is_usable &&
-                          (slope == 0. ||
-                           std::abs(w[i] / v - slope) < 1e-9 * std::abs(slope));
-              slope = w[i] / v;
-            }
-        if (is_usable)
-          {
-            // Its strain is a uniaxial extension: -w_n = |w_t| = 1/sqrt2.
-            double a = 0.;
-            for (unsigned int p = 0; p < 3 * problem.n_triangles; ++p)
-              a = std::max(a, problem.cone[p].a);
-            const double delta = 1.001 * result.violation * sqrt2 / (1. - a);
-            result.q += delta * w;
-            scale = 1. + delta * slope;
-          }
-      }
+      scale = repair_rates(bound, problem, result.violation, result.q);
     const auto repaired = problem.B.rates(result.q);
     double     left = 0., power = -problem.dead.dot(result.q);
     for (unsigned int p = 0; p < problem.n_points(); ++p)
