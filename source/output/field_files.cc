@@ -258,6 +258,54 @@ namespace geocone::GEOCONE_DIM
                     name == "cells" ? "UInt" : "Float\" Precision=\"8") +
              escaped(file + ":/" + name) + "\n</DataItem>\n";
     }
+
+    /** The meshes of all states in VTKHDF's terms. Cells have nodes of their own, so
+     *  states of as many nodes have the same ones, and share a mesh. */
+    struct VtkhdfMeshes
+    {
+      using Integers = std::vector<long long>;
+
+      /** The number of the mesh of a state, which its file holds. */
+      std::size_t
+      find_or_add(const FieldTable  &table,
+                  const std::string &file,
+                  const std::size_t  n_nodes_of_state)
+      {
+        const unsigned int n    = table.nodes_per_cell();
+        const auto         same = std::find(n_nodes.begin(),
+                                    n_nodes.end(),
+                                    static_cast<long long>(n_nodes_of_state));
+        const std::size_t  m    = same - n_nodes.begin();
+        if (same == n_nodes.end())
+          {
+            const std::size_t n_new = n_nodes_of_state / n;
+            first_cell.push_back(types.size());
+            n_nodes.push_back(n_nodes_of_state);
+            n_cells.push_back(n_new);
+            for (std::size_t c = 0; c <= n_new; ++c)
+              offsets.push_back(c * n);
+            types.resize(types.size() + n_new, table.kind().vtk_type);
+            nodes_of_cells.push_back({file, "cells", n_new});
+          }
+        return m;
+      }
+
+      void
+      write(Hdf5File &out, const unsigned int nodes_per_cell) const
+      {
+        out.write("VTKHDF/NumberOfPoints", n_nodes);
+        out.write("VTKHDF/NumberOfCells", n_cells);
+        out.write("VTKHDF/NumberOfConnectivityIds", n_nodes);
+        out.write("VTKHDF/Offsets", offsets);
+        out.write("VTKHDF/Types", types);
+        out.write_joined<long long>(
+          "VTKHDF/Connectivity", nodes_of_cells, nodes_per_cell, 0);
+      }
+
+      Integers                    n_nodes, n_cells, first_cell, offsets;
+      std::vector<unsigned char>  types;
+      std::vector<Hdf5File::Part> nodes_of_cells;
+    };
   } // namespace
 
   const FieldTable::Kind &
@@ -445,17 +493,8 @@ namespace geocone::GEOCONE_DIM
   FieldFiles::write_vtkhdf(const FieldTable  &table,
                            const std::string &folder) const
   {
-    using Integers       = std::vector<long long>;
-    const unsigned int n = table.nodes_per_cell();
-
-    // Cells have nodes of their own, so states of as many nodes have the same ones,
-    // and share a mesh.
-    struct
-    {
-      Integers                    n_nodes, n_cells, first_cell, offsets;
-      std::vector<unsigned char>  types;
-      std::vector<Hdf5File::Part> nodes_of_cells;
-    } meshes;
+    using Integers = VtkhdfMeshes::Integers;
+    VtkhdfMeshes meshes;
     struct
     {
       std::vector<double> times;
@@ -464,27 +503,14 @@ namespace geocone::GEOCONE_DIM
     std::size_t n_nodes = 0;
     for (const Hdf5State &state : hdf5)
       {
-        const auto   same    = std::find(meshes.n_nodes.begin(),
-                                    meshes.n_nodes.end(),
-                                    static_cast<long long>(state.n_nodes));
-        const auto   m       = same - meshes.n_nodes.begin();
-        const size_t n_cells = state.n_nodes / n;
-        if (same == meshes.n_nodes.end())
-          {
-            meshes.first_cell.push_back(meshes.types.size());
-            meshes.n_nodes.push_back(state.n_nodes);
-            meshes.n_cells.push_back(n_cells);
-            for (std::size_t c = 0; c <= n_cells; ++c)
-              meshes.offsets.push_back(c * n);
-            meshes.types.resize(meshes.types.size() + n_cells,
-                                table.kind().vtk_type);
-            meshes.nodes_of_cells.push_back({state.file, "cells", n_cells});
-          }
+        const unsigned int m =
+          meshes.find_or_add(table, state.file, state.n_nodes);
         states.times.push_back(state.time);
         states.mesh.push_back(m);
         states.first_node.push_back(n_nodes);
         states.first_cell.push_back(meshes.first_cell[m]);
-        states.first_node_of_cell.push_back(meshes.first_cell[m] * n);
+        states.first_node_of_cell.push_back(meshes.first_cell[m] *
+                                            table.nodes_per_cell());
         n_nodes += state.n_nodes;
       }
     const auto parts = [&](const std::string &name) {
@@ -498,13 +524,7 @@ namespace geocone::GEOCONE_DIM
     Hdf5File out(folder + "/" + base + ".vtkhdf", Hdf5File::Access::create);
     out.write_attribute("VTKHDF", "Version", Integers{2, 0});
     out.write_attribute("VTKHDF", "Type", std::string("UnstructuredGrid"));
-    out.write("VTKHDF/NumberOfPoints", meshes.n_nodes);
-    out.write("VTKHDF/NumberOfCells", meshes.n_cells);
-    out.write("VTKHDF/NumberOfConnectivityIds", meshes.n_nodes);
-    out.write("VTKHDF/Offsets", meshes.offsets);
-    out.write("VTKHDF/Types", meshes.types);
-    out.write_joined<long long>(
-      "VTKHDF/Connectivity", meshes.nodes_of_cells, n, 0);
+    meshes.write(out, table.nodes_per_cell());
     out.write_joined<double>("VTKHDF/Points", parts("nodes"), dim, 3);
 
     out.write_attribute(
