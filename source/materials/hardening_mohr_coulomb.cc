@@ -9,6 +9,13 @@
 
 namespace geocone::GEOCONE_DIM
 {
+  namespace
+  {
+    constexpr const char *curve_parameter[] = {"Cohesion with strain",
+                                               "Friction angle with strain",
+                                               "Dilatancy angle with strain"};
+  } // namespace
+
   HardeningMohrCoulomb::HardeningMohrCoulomb(const std::string &section)
     : MohrCoulomb(section)
   {
@@ -23,13 +30,13 @@ namespace geocone::GEOCONE_DIM
                   modulus,
                   "H (Pa), >= 0: the cohesion is c + H gamma_p, with gamma_p "
                   "the plastic shear strain.");
-    add_parameter("Cohesion with strain",
+    add_parameter(curve_parameter[0],
                   cohesion_text,
                   "How the cohesion (Pa) changes" + forms);
-    add_parameter("Friction angle with strain",
+    add_parameter(curve_parameter[1],
                   friction_text,
                   "How the friction angle (degrees) changes" + forms);
-    add_parameter("Dilatancy angle with strain",
+    add_parameter(curve_parameter[2],
                   dilatancy_text,
                   "How the dilatancy angle (degrees) changes" + forms);
     add_parameter(
@@ -39,6 +46,44 @@ namespace geocone::GEOCONE_DIM
       "belong to, > 0 where the strength falls: a band in a mesh is one "
       "row of cells thick, and takes the same slip. 0: strains of the "
       "mesh, for strength that only grows.");
+  }
+
+  void
+  HardeningMohrCoulomb::check_curves() const
+  {
+    if (!(cohesion_curve.range().first >= 0.))
+      throw InputError(parameter(curve_parameter[0]),
+                       cohesion_text,
+                       "values >= 0 Pa",
+                       "give the cohesion in Pa");
+    if (!(friction_curve.range().first >= 0. &&
+          friction_curve.range().second < 90.))
+      throw InputError(parameter(curve_parameter[1]),
+                       friction_text,
+                       "0 <= phi < 90 degrees",
+                       "give the angle in degrees; soils have 0 to 45");
+    for (const double kappa : places())
+      {
+        const double phi   = friction_curve(kappa),
+                     theta = dilatancy_curve(kappa);
+        if (!(theta >= 0. && theta <= phi * (1. + 1e-12)))
+          throw InputError(
+            parameter(curve_parameter[2]),
+            dilatancy_text,
+            format("0 <= theta <= phi, which is %g degrees at the "
+                   "strain %g",
+                   phi,
+                   kappa),
+            "let the dilatancy fall at least as early as the "
+            "friction; more of it would create energy");
+        if (!(phi > 0. || cohesion_at(kappa) > 0.))
+          throw InputError(
+            parameter(curve_parameter[0]),
+            cohesion_text,
+            format("> 0 Pa at the strain %g, where phi = 0", kappa),
+            "a material without cohesion and friction has no "
+            "strength at all: leave it a little");
+      }
   }
 
   void
@@ -59,13 +104,12 @@ namespace geocone::GEOCONE_DIM
         "strain' and a 'Softening length'");
     slope = 2. * modulus * std::cos(radians(friction_angle()));
 
-    const std::string names[] = {"Cohesion with strain",
-                                 "Friction angle with strain",
-                                 "Dilatancy angle with strain"};
-    cohesion_curve.read(parameter(names[0]), cohesion_text, cohesion());
-    friction_curve.read(parameter(names[1]), friction_text, friction_angle());
+    cohesion_curve.read(
+      parameter(curve_parameter[0]), cohesion_text, cohesion());
+    friction_curve.read(
+      parameter(curve_parameter[1]), friction_text, friction_angle());
     dilatancy_curve.read(
-      parameter(names[2]), dilatancy_text, dilatancy_angle());
+      parameter(curve_parameter[2]), dilatancy_text, dilatancy_angle());
     has_curves =
       !(cohesion_curve.is_constant() && friction_curve.is_constant() &&
         dilatancy_curve.is_constant());
@@ -76,39 +120,7 @@ namespace geocone::GEOCONE_DIM
         "0 beside curves",
         "write it as a curve, e.g. 'Cohesion with strain' = 1: c + "
         "H");
-    if (!(cohesion_curve.range().first >= 0.))
-      throw InputError(parameter(names[0]),
-                       cohesion_text,
-                       "values >= 0 Pa",
-                       "give the cohesion in Pa");
-    if (!(friction_curve.range().first >= 0. &&
-          friction_curve.range().second < 90.))
-      throw InputError(parameter(names[1]),
-                       friction_text,
-                       "0 <= phi < 90 degrees",
-                       "give the angle in degrees; soils have 0 to 45");
-    for (const double kappa : places())
-      {
-        const double phi   = friction_curve(kappa),
-                     theta = dilatancy_curve(kappa);
-        if (!(theta >= 0. && theta <= phi * (1. + 1e-12)))
-          throw InputError(
-            parameter(names[2]),
-            dilatancy_text,
-            format("0 <= theta <= phi, which is %g degrees at the "
-                   "strain %g",
-                   phi,
-                   kappa),
-            "let the dilatancy fall at least as early as the "
-            "friction; more of it would create energy");
-        if (!(phi > 0. || cohesion_at(kappa) > 0.))
-          throw InputError(
-            parameter(names[0]),
-            cohesion_text,
-            format("> 0 Pa at the strain %g, where phi = 0", kappa),
-            "a material without cohesion and friction has no "
-            "strength at all: leave it a little");
-      }
+    check_curves();
 
     if (!(length >= 0.))
       throw InputError(parameter("Softening length"),

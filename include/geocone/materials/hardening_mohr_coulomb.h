@@ -120,6 +120,10 @@ namespace geocone::GEOCONE_DIM
     double
     cohesion_at(const double kappa) const;
 
+    /** @throws InputError where the strength, as it changes, is none of a soil */
+    void
+    check_curves() const;
+
     /** Strains at which the parameters are checked: all that are given. */
     std::vector<double>
     places() const;
