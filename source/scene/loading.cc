@@ -257,6 +257,39 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
+  Stage::prepare_changes()
+  {
+    const std::string section = get_section_name().substr(1) + "/";
+    if (!removed_polygon.empty())
+      check_polygon(removed_polygon, section + "Removed polygon");
+    if (!removed_where_text.empty())
+      {
+        check_formula(
+          removed_where_text, section + "Removed where", FormulaOf::place);
+        removed_where.emplace().prepare(removed_where_text,
+                                        section + "Removed where");
+      }
+    if (!removes() && removal_duration > 0.)
+      throw InputError(section + "Removal duration",
+                       removal_duration,
+                       "0 where nothing is removed",
+                       "give 'Removed polygon' or 'Removed where', too");
+    if (added_materials.empty() && addition_duration > 0.)
+      throw InputError(section + "Addition duration",
+                       addition_duration,
+                       "0 where nothing is added",
+                       "give 'Added materials', too");
+    for (const auto &[entry, value] :
+         {std::pair<const char *, double>("Removal duration", removal_duration),
+          {"Addition duration", addition_duration}})
+      if (value > duration)
+        throw InputError(section + entry,
+                         value,
+                         "at most the duration of the stage",
+                         "make the stage longer");
+  }
+
+  void
   Stage::prepare()
   {
     const std::string section = get_section_name().substr(1) + "/";
@@ -312,33 +345,7 @@ namespace geocone::GEOCONE_DIM
           {"Addition duration", addition_duration}})
       if (!(value >= 0.))
         throw InputError(section + entry, value, ">= 0", "0 is none");
-    if (!removed_polygon.empty())
-      check_polygon(removed_polygon, section + "Removed polygon");
-    if (!removed_where_text.empty())
-      {
-        check_formula(
-          removed_where_text, section + "Removed where", FormulaOf::place);
-        removed_where.emplace().prepare(removed_where_text,
-                                        section + "Removed where");
-      }
-    if (!removes() && removal_duration > 0.)
-      throw InputError(section + "Removal duration",
-                       removal_duration,
-                       "0 where nothing is removed",
-                       "give 'Removed polygon' or 'Removed where', too");
-    if (added_materials.empty() && addition_duration > 0.)
-      throw InputError(section + "Addition duration",
-                       addition_duration,
-                       "0 where nothing is added",
-                       "give 'Added materials', too");
-    for (const auto &[entry, value] :
-         {std::pair<const char *, double>("Removal duration", removal_duration),
-          {"Addition duration", addition_duration}})
-      if (value > duration)
-        throw InputError(section + entry,
-                         value,
-                         "at most the duration of the stage",
-                         "make the stage longer");
+    prepare_changes();
   }
 
   bool

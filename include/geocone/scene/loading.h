@@ -151,6 +151,10 @@ namespace geocone::GEOCONE_DIM
     /** @} */
 
   private:
+    /** Checks what is removed and added, and reads where. @throws InputError */
+    void
+    prepare_changes();
+
     double step_size       = 0.01;
     double first_step_size = 0.;
     double growth          = 1.;
