@@ -401,6 +401,27 @@ namespace geocone
     return value;
   }
 
+  std::map<std::string, const ParameterFile::Line *>
+  ParameterFile::subsections_of(const std::string &section) const
+  {
+    std::map<std::string, const Line *> subsections;
+    unsigned int                        depth  = 0;
+    bool                                inside = false;
+    for (const Line &line : lines)
+      if (line.text.compare(0, 11, "subsection ") == 0)
+        {
+          const std::string name = trim(line.text.substr(11));
+          if (depth == 0)
+            inside = name == section;
+          else if (depth == 1 && inside)
+            subsections.emplace(name, &line);
+          ++depth;
+        }
+      else if (line.text == "end")
+        --depth;
+    return subsections;
+  }
+
   std::vector<std::string>
   ParameterFile::named_sections(const std::string &section,
                                 const std::string &list,
@@ -425,23 +446,8 @@ namespace geocone
         for (const std::string &name : split_names(value))
           ever.insert(name);
       }
-    const std::vector<std::string> names = split_names(value);
-
-    std::map<std::string, const Line *> subsections;
-    unsigned int                        depth  = 0;
-    bool                                inside = false;
-    for (const Line &line : lines)
-      if (line.text.compare(0, 11, "subsection ") == 0)
-        {
-          const std::string name = trim(line.text.substr(11));
-          if (depth == 0)
-            inside = name == section;
-          else if (depth == 1 && inside)
-            subsections.emplace(name, &line);
-          ++depth;
-        }
-      else if (line.text == "end")
-        --depth;
+    const std::vector<std::string> names       = split_names(value);
+    const auto                     subsections = subsections_of(section);
 
     const auto refuse = [&](const std::string &remedy) {
       throw InputError(path,

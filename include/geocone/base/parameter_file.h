@@ -174,6 +174,10 @@ namespace geocone
     std::vector<SetLine>
     set_lines(const bool checks) const;
 
+    /** The subsections of a section, and the first lines of each. */
+    std::map<std::string, const Line *>
+    subsections_of(const std::string &section) const;
+
     std::vector<Line> lines;
     std::string       path_of_file;
     std::string       folder_of_file;
