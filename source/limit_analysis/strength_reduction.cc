@@ -87,6 +87,31 @@ namespace geocone::GEOCONE_DIM
     }
   } // namespace
 
+  void
+  StrengthReduction::prove_root(const Reduced &reduced,
+                                const double   tolerance,
+                                Level         &level) const
+  {
+    const CertifiedBounds::Side &upper = level.bounds.upper,
+                                &lower = level.bounds.lower;
+    if (is_usable(lower))
+      level.lower = prove(
+        [&](const double F) { return certified_lower(reduced(F), tolerance); },
+        factor,
+        lower.bound.load,
+        exponent,
+        -1,
+        level.iterations_lower);
+    if (is_usable(upper))
+      level.upper = prove(
+        [&](const double F) { return certified_upper(reduced(F), tolerance); },
+        factor,
+        upper.bound.load,
+        exponent,
+        +1,
+        level.iterations_upper);
+  }
+
   StrengthReduction::Level
   StrengthReduction::on_mesh(const Reduced &reduced, const double tolerance)
   {
@@ -137,26 +162,7 @@ namespace geocone::GEOCONE_DIM
         constexpr double near = 0.03;
         if (std::abs(std::log(next / factor)) < near || attempt == 30)
           {
-            if (is_usable(lower))
-              level.lower = prove(
-                [&](const double F) {
-                  return certified_lower(reduced(F), tolerance);
-                },
-                factor,
-                lower.bound.load,
-                exponent,
-                -1,
-                level.iterations_lower);
-            if (is_usable(upper))
-              level.upper = prove(
-                [&](const double F) {
-                  return certified_upper(reduced(F), tolerance);
-                },
-                factor,
-                upper.bound.load,
-                exponent,
-                +1,
-                level.iterations_upper);
+            prove_root(reduced, tolerance, level);
             factor = next;
             return level;
           }

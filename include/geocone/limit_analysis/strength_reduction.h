@@ -55,6 +55,12 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
+    /** Proves factors near the root of each bound that is usable. */
+    void
+    prove_root(const Reduced &reduced,
+               const double   tolerance,
+               Level         &level) const;
+
     double factor   = 1.; ///< from where the next mesh begins
     double exponent = 1.; ///< -d log lambda/d log F
   };
