@@ -56,6 +56,34 @@ namespace geocone::GEOCONE_DIM
             report.residual);
   }
 
+  namespace
+  {
+    /**
+     * Blends more elasticity in until the direction leads downhill. Where it does not, the
+     * tangent of flow that is not associated is indefinite along it, and the search would
+     * go astray. (Particles in motion have a mass, and full steps take them past such
+     * iterates sooner.)
+     * @return the blend
+     */
+    double
+    lead_downhill(const StepWorkspace   &work,
+                  const Eigen::VectorXd &defect,
+                  double                 blend,
+                  NewtonLine            &line)
+    {
+      if (!work.traits.contact.exists && !work.traits.points_move &&
+          work.traits.law.non_associativity > 0.)
+        for (const double more : {0.01, 0.05, 0.25})
+          {
+            if (line.slope() < 0. || !work.factorise(more))
+              break;
+            work.solve(nullptr, defect, line.direction);
+            blend = more;
+          }
+      return blend;
+    }
+  } // namespace
+
   void
   NewtonLoop::run(Globalisation &globalisation, const StepWorkspace &work) const
   {
@@ -119,19 +147,9 @@ namespace geocone::GEOCONE_DIM
           contact->solve(prescribed, jump.defect, line.direction);
         else
           work.solve(prescribed, jump.defect, line.direction);
-        // Where the direction does not lead downhill, the tangent of flow that is not
-        // associated is indefinite along it, and the search would go astray. (Particles
-        // in motion have a mass, and full steps take them past such iterates sooner.)
         if (globalisation.needs_descent() && prescribed == nullptr &&
-            line.contact == nullptr && !work.traits.contact.exists &&
-            !work.traits.points_move && work.traits.law.non_associativity > 0.)
-          for (const double more : {0.01, 0.05, 0.25})
-            {
-              if (line.slope() < 0. || !work.factorise(more))
-                break;
-              work.solve(prescribed, jump.defect, line.direction);
-              blend = more;
-            }
+            line.contact == nullptr)
+          blend = lead_downhill(work, jump.defect, *blend, line);
         line.begin();
         const double length = first && jumps ? Globalisation().move(line)
                                              : globalisation.move(line);
