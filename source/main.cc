@@ -23,8 +23,8 @@ namespace
 {
   using namespace geocone;
 
-  /** The dimension of a scene by what tells it, a parameter file or a result. What is
-   *  wrong with it is said by the program of plane scenes. */
+  /** Dimension of a scene by its parameter file or result. Errors in these are reported
+   *  by the program of plane scenes. */
   template <typename Source>
   unsigned int
   dimension_by(const Source &source)
@@ -50,7 +50,7 @@ namespace
     });
   }
 
-  /** Of what the program is called with. */
+  /** Dimension of the scene that the program is called with. */
   unsigned int
   dimension_of(const CommandLine &call)
   {

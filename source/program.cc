@@ -160,7 +160,7 @@ namespace geocone::GEOCONE_DIM
            "obstacles and contacts are\nnamed to show theirs, and there "
            "are none by default:\n\n"
         << text.str()
-        << "\nTries of Newton's method for a step, by what it is like, until "
+        << "\nAttempts of Newton's method at a step, by its properties, until "
            "one "
            "is solved:\n\n"
         << text_of_plans() << std::flush;

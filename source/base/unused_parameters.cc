@@ -99,7 +99,7 @@ namespace geocone
     Rules &all = declared_rules();
     auto  &rules =
       this->parameter.back() == '*' ? all.of_sections : all.of_parameters;
-    // What is compiled for each dimension declares it twice.
+    // Sources that are compiled for each dimension declare their rules twice.
     if (std::none_of(rules.begin(), rules.end(), [&](const UsedWhere &rule) {
           return rule.parameter == this->parameter &&
                  rule.chooser == this->chooser;

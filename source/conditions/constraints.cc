@@ -166,7 +166,7 @@ namespace geocone::GEOCONE_DIM
           axes.push_back(rest / rest.norm());
         }
 
-    // What is left is free: across all that is held.
+    // The remaining axes are free: orthogonal to all prescribed directions.
     if (dim == 2 && held.is_turned())
       axes.push_back(Tensor<1, dim>({-axes[0][1], axes[0][0]}));
     while (axes.size() < dim)

@@ -362,14 +362,15 @@ namespace geocone::GEOCONE_DIM
   ContactTraits
   Contact::traits(const MPI_Comm comm) const
   {
-    const bool rubs_here =
+    const bool frictional =
       std::any_of(list.begin(), list.end(), [](const ContactNode &node) {
         return node.friction > 0. || node.adhesion > 0.;
       });
     ContactTraits result;
     result.exists    = true;
     result.of_bodies = has_pairs;
-    result.rubs      = dealii::Utilities::MPI::max(int(rubs_here), comm) > 0;
+    result.has_friction =
+      dealii::Utilities::MPI::max(int(frictional), comm) > 0;
     result.moves_obstacles  = obstacles.n_free() > 0;
     result.obstacles_loaded = result.moves_obstacles && obstacles.are_loaded();
     return result;

@@ -279,7 +279,7 @@ namespace geocone::GEOCONE_DIM
                             Kinematics              &kinematics,
                             Vector                  &difference) const
   {
-    // Nodes without cells are at rest, and where cells come to be displacements begin.
+    // Nodes without cells are at rest; displacements of new nodes start at zero.
     for (unsigned int i = 0; i < difference.locally_owned_size(); ++i)
       if (!constraints->has_mass(i) || !had_mass[i])
         {

@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// What stages of the implicit material point method do to the body before their first
-// step, and its state as part of a checkpoint.
+// Changes of the body at the beginning of stages of the implicit material point method,
+// and its state as part of a checkpoint.
 #include <geocone/base/log.h>
 #include <geocone/implicit/implicit_mpm.h>
 

@@ -165,9 +165,11 @@ namespace geocone::GEOCONE_DIM
         report.contact = obstacles->report(problem->contact(), v, step.h);
         work.of_others += report.contact.work;
       }
-    // What ghosts take of the work is not there for energies and dissipation.
-    const double ghost_work = problem->ghost_stiffness().work(v);
-    report.identity_error   = energy_identity_error(
+    // Work of the ghost stiffness, which only moving points have, enters neither energies
+    // nor dissipation.
+    const double ghost_work =
+      has_moving_points() ? problem->ghost_stiffness().work(v) : 0.;
+    report.identity_error = energy_identity_error(
       *problem,
       points,
       scene->materials,
@@ -175,7 +177,7 @@ namespace geocone::GEOCONE_DIM
       v,
       (work.of_weight + work.of_others) * (step.solved_h / step.h) -
         ghost_work);
-    // Friction takes of the work what it does not give to the body.
+    // Dissipation by friction in contact is part of the external work.
     report.works.external =
       external_work(work, step, points) + report.contact.dissipation;
     report.works.of_excess =

@@ -356,7 +356,7 @@ namespace geocone::GEOCONE_DIM
       return problem;
     }
 
-    /** What a file of Siconos begins with. */
+    /** Header of a problem file of Siconos. */
     struct SiconosHead
     {
       unsigned int d, n_cones;

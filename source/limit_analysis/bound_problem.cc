@@ -291,7 +291,7 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** The velocity of the body past what it touches at a point, for 1 in each dof. */
+    /** Relative velocity across an interface at a point, for 1 in each dof. */
     struct PassingVelocity
     {
       std::vector<unsigned int>   dofs;

@@ -131,11 +131,9 @@ namespace geocone::GEOCONE_DIM
       "Maximum iterations",
       max_iterations,
       "Linear systems to solve before an attempt at a step is given up, at "
-      "most 1000000; twice as many where it converges. 0: 30 for the elastic "
-      "blend with the return map, 150 for the line search and associated flow "
-      "(slow starts are worth waiting for) but 30 for phi = 0, 20 for it and "
-      "FEM with friction that remembers, 100 for the natural map where nothing "
-      "would follow and otherwise 40, and 60 for all else.",
+      "most 1000000; twice as many where it converges. 0: automatic, the "
+      "limits "
+      "of the plans of Newton's method, which 'geocone --help' lists.",
       prm,
       Integer(0, 1000000));
     globalisation.declare(
@@ -230,7 +228,7 @@ namespace geocone::GEOCONE_DIM
     newton.allowed_if_far       = next.iterations_if_far;
     newton.elastic_first        = elastic_first && next.elastic_first;
     newton.exact_contact        = next.contact == ContactLaw::exact;
-    newton.law.contact_holds    = next.contact == ContactLaw::closed;
+    newton.law.contact_holds    = next.contact == ContactLaw::bilateral;
     newton.law.obstacles_rub    = next.contact != ContactLaw::without_friction;
     std::optional<NaturalMap> map;
     if (next.natural_map)

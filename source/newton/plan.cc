@@ -15,7 +15,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** The tries of one law, which solve what touches, too. */
+    /** Adds the tries of one law, with those for contact. */
     void
     add_tries(const Try         &law,
               const StepTraits  &step,
@@ -25,6 +25,14 @@ namespace geocone::GEOCONE_DIM
       const auto allowed = [&](const unsigned int automatic) {
         return options.max_iterations > 0 ? options.max_iterations : automatic;
       };
+      const ContactTraits &contact      = step.contact;
+      const bool           can_be_exact = !step.has_constraints;
+      // If an obstacle moves away, nodes of an iterate lose their support, the soil yields
+      // there, and the search does not recover. Active contacts are therefore bilateral
+      // until the iterate is near, or far even after three iterations.
+      const bool bilateral_first = contact.exists && step.law.can_yield &&
+                                   !contact.moves_obstacles &&
+                                   !contact.of_bodies && !law.natural_map;
       const auto variant = [&](const ContactLaw   contact,
                                const Start        start,
                                const unsigned int iterations) {
@@ -32,47 +40,41 @@ namespace geocone::GEOCONE_DIM
         next.contact    = contact;
         next.start      = start;
         next.iterations = allowed(iterations);
+        // The bilateral iterate is a better start than the elastic tangent.
+        next.elastic_first = !bilateral_first;
         return next;
       };
-      const ContactTraits &contact      = step.contact;
-      const bool           can_be_exact = !step.has_constraints;
-      // An obstacle that gives way leaves nodes of an iterate without a support, soil
-      // flows there, and the search does not find back. So what touches it stays in
-      // touch until the iterate is near, or far even after three iterations: then it
-      // parts.
-      const bool closed_first = contact.exists && step.law.can_yield &&
-                                !contact.moves_obstacles &&
-                                !contact.of_bodies && !law.natural_map;
-      if (closed_first)
+      if (bilateral_first)
         {
-          Try closed      = variant(ContactLaw::closed, Start::of_step, 10);
-          closed.prepares = closed.is_rough = true;
-          closed.iterations_if_far          = 3;
-          tries.push_back(closed);
+          Try bilateral = variant(ContactLaw::bilateral, Start::of_step, 10);
+          bilateral.prepares = bilateral.is_rough = true;
+          bilateral.elastic_first                 = true;
+          bilateral.iterations_if_far             = 3;
+          tries.push_back(bilateral);
         }
-      const Start start = closed_first ? Start::iterate : Start::of_step;
-      // Where obstacles are free, their motions follow from all of the contact, and steps
-      // in which its states change much wander. Without inertia nothing else bears their
-      // loads: the laws are solved exactly from the start, in a tenth of the iterations.
-      // Where they only follow a try without that comes first, which costs less.
+      const Start start = bilateral_first ? Start::iterate : Start::of_step;
+      // Motions of free obstacles follow from all contacts, and steps in which many states
+      // change converge slowly. Without inertia nothing else carries their loads: contact is
+      // solved exactly from the start, in a tenth of the iterations. Obstacles without loads
+      // are first tried without that, which costs less.
       const bool exact_first = contact.moves_obstacles && !step.has_inertia &&
                                contact.obstacles_loaded && can_be_exact;
       if (exact_first)
         tries.push_back(variant(ContactLaw::exact, start, law.iterations));
-      if (!contact.rubs)
+      if (!contact.has_friction)
         tries.push_back(variant(ContactLaw::linearised, start, law.iterations));
       else
         {
-          // Where many nodes come down in a step, those that would stick hinder each
-          // other: then, too, the laws of contact are solved exactly in each iteration;
-          // or else the step without friction may be a better start.
+          // If many nodes close in a step, those that would stick hinder each other: then,
+          // too, contact is solved exactly in each iteration; or else the frictionless step
+          // may be a better start.
           Try first = variant(
             ContactLaw::linearised, start, std::min(law.iterations, 30U));
           first.iterations_without_flow = 6;
           if (contact.moves_obstacles)
             first.iterations_if_far = 20;
           tries.push_back(first);
-          // Where points flow much is won already, but with obstacles that went astray.
+          // If points yield, the last iterate is a good start, unless obstacles moved.
           if (can_be_exact && !exact_first)
             tries.push_back(variant(
               ContactLaw::exact,
@@ -86,9 +88,6 @@ namespace geocone::GEOCONE_DIM
             variant(ContactLaw::linearised, Start::iterate, law.iterations));
           tries.back().elastic_first = false;
         }
-      if (closed_first)
-        for (auto next = tries.end(); (--next)->contact != ContactLaw::closed;)
-          next->elastic_first = false;
     }
   } // namespace
 
@@ -184,15 +183,15 @@ namespace geocone::GEOCONE_DIM
         std::string(line.natural_map ? "natural map" : "return map") +
         (line.globalisation == Method::elastic_blend ? ", elastic blend"
                                                      : ", line search");
-      text +=
-        line.contact == ContactLaw::closed  ? ", what touches stays in touch"
-        : line.contact == ContactLaw::exact ? ", exact directions of contact"
-        : line.contact == ContactLaw::without_friction
-          ? ", without friction of contact"
-          : "";
-      text += line.start == Start::iterate ? ", from there"
+      text += line.contact == ContactLaw::bilateral ? ", bilateral contact"
+              : line.contact == ContactLaw::exact
+                ? ", exact directions of contact"
+              : line.contact == ContactLaw::without_friction
+                ? ", frictionless contact"
+                : "";
+      text += line.start == Start::iterate ? ", from the last iterate"
               : line.start == Start::flowing_iterate
-                ? ", from there if points flow"
+                ? ", from the last iterate if points yield"
                 : "";
       text += format(": %u iterations", line.iterations);
       if (line.iterations_if_far != Try::unlimited)
@@ -237,14 +236,14 @@ namespace geocone::GEOCONE_DIM
     {
       ContactTraits &contact =
         add("theta >= phi/2, fixed obstacles with friction", mild).contact;
-      contact.exists = contact.rubs = true;
+      contact.exists = contact.has_friction = true;
     }
     {
       ContactTraits &contact =
         add("theta >= phi/2, loaded free obstacles with friction, no inertia",
             mild)
           .contact;
-      contact.exists = contact.rubs = true;
+      contact.exists = contact.has_friction = true;
       contact.moves_obstacles = contact.obstacles_loaded = true;
     }
     std::string text;

@@ -84,7 +84,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** How much a cell has of what a run computes with. */
+    /** Numbers of nodes, basis functions and points per cell. */
     struct CellCounts
     {
       unsigned int degree;

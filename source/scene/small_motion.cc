@@ -79,7 +79,7 @@ namespace geocone::GEOCONE_DIM
       VerticesOfFaces    faces; ///< none of conditions that move
       bool               is_upright;
 
-      /** Keeps what is in the box with these corners, too. */
+      /** Intersects the part with the box of these corners. */
       void
       cut(const std::array<dealii::Point<dim>, 2> &corners)
       {
@@ -172,7 +172,7 @@ namespace geocone::GEOCONE_DIM
           least = time;
       }
 
-      /** What a condition pushes, or nothing. */
+      /** The part of the boundary that a condition moves, or nothing. */
       std::optional<PushedPart>
       part_of(const BoundaryCondition &condition) const;
 

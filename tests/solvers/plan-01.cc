@@ -32,7 +32,7 @@ namespace solvers_plan_01
     step.has_inertia              = bit(6);
     step.has_constraints          = bit(7);
     step.contact.exists           = bit(8);
-    step.contact.rubs             = bit(8) && bit(9);
+    step.contact.has_friction     = bit(8) && bit(9);
     step.contact.moves_obstacles  = bit(8) && bit(10);
     step.contact.obstacles_loaded = bit(8) && bit(10) && bit(11);
     if (bit(12))

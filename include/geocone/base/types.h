@@ -16,7 +16,7 @@
  * The space dimension of a scene, which the build gives: all that depends on it is
  * compiled once for each, in the namespace geocone::dim2 or geocone::dim3, so that both
  * are in one program and neither pays for the other. It is an inline namespace: nobody
- * but main.cc has to name it. CONTRIBUTING.md tells how this is written.
+ * but main.cc has to name it. CONTRIBUTING.md explains how this is written.
  */
 #ifndef GEOCONE_DIMENSION
 #define GEOCONE_DIMENSION 2

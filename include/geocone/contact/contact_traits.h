@@ -6,14 +6,14 @@
 
 namespace geocone
 {
-  /** Properties of the contact of a step on which it depends how it is solved. */
+  /** Properties of the contact in a step that decide how the step is solved. */
   struct ContactTraits
   {
-    bool exists           = false; ///< something may touch
-    bool of_bodies        = false; ///< bodies may touch each other
-    bool rubs             = false; ///< a node has friction or adhesion
+    bool exists           = false; ///< there may be contact
+    bool of_bodies        = false; ///< between deformable bodies
+    bool has_friction     = false; ///< a node has friction or adhesion
     bool moves_obstacles  = false; ///< motions of obstacles are unknowns
-    bool obstacles_loaded = false; ///< these bear loads of their own
+    bool obstacles_loaded = false; ///< these carry loads of their own
   };
 } // namespace geocone
 

@@ -17,8 +17,7 @@ namespace geocone::GEOCONE_DIM
   /**
    * An implicit step, of points that stay (ImplicitFEM) or move (ImplicitMPM): it gives
    * the IncrementalProblem its step, has it solved, and keeps the books of an accepted
-   * one. Derived classes say where points, mass and loads come from, and where points
-   * go.
+   * one. Derived classes define points, mass, loads and the motion of points.
    */
   class ImplicitStepper : public TimeStepper
   {
@@ -65,12 +64,12 @@ namespace geocone::GEOCONE_DIM
     }
 
   protected:
-    /** @param section of the timer, for what follows a solved step */
+    /** @param section of the timer: loads, and the update after a solved step */
     explicit ImplicitStepper(const char *section)
       : section(section)
     {}
 
-    /** What a step is solved with, besides the state. */
+    /** Solver, timer and limits of a step. */
     struct Solving
     {
       const NonsmoothNewton &newton;
@@ -114,7 +113,7 @@ namespace geocone::GEOCONE_DIM
                  const MaterialPoints &points,
                  const Vector         &prescribed) = 0;
 
-    /** What may touch in the step. Collective. */
+    /** Candidates for contact in the step. Collective. */
     virtual ContactStep
     find_contact(const TimeStep       &step,
                  const Kinematics     &kinematics,
@@ -139,7 +138,7 @@ namespace geocone::GEOCONE_DIM
       return "";
     }
 
-    /** Moves what moves with the points, once the step is accepted. */
+    /** Moves boundaries with the points, once the step is accepted. */
     virtual void
     accept_move(const TimeStep & /* step */,
                 const MaterialPoints & /* points */,
@@ -174,7 +173,7 @@ namespace geocone::GEOCONE_DIM
     virtual double
     update_points(const TimeStep &step, MaterialPoints &points) = 0;
 
-    /** Gives the nodes theirs. @return what contact takes when it settles (J/m) */
+    /** Updates the nodes. @return energy dissipated when contact settles (J/m) */
     virtual double
     update_nodes(const TimeStep &step,
                  const Vector   &v_end,
@@ -203,8 +202,8 @@ namespace geocone::GEOCONE_DIM
         MaterialPoints           &points,
         std::vector<std::string> &remarks) = 0;
 
-    /** Gives nodes their state after a change of the body, and leaves of the change of
-     *  forces what acts on nodes of the body. @param had_mass before it, by dof */
+    /** Updates the nodes after a change of the body, and restricts the change of forces
+     *  to its nodes. @param had_mass before it, by dof */
     virtual void
     change_nodes(const std::vector<bool> &had_mass,
                  Kinematics              &kinematics,

@@ -7,9 +7,9 @@
 namespace geocone
 {
   /**
-   * Lets libraries work by one thread per rank: the parallelism is MPI's. What is linked
-   * to this has a GOMP_parallel() of its own besides (one_thread.cc), which makes all
-   * parallel regions of OpenMP, of any library of the process, plain calls.
+   * Lets libraries work by one thread per rank: the parallelism is MPI's. Linking
+   * this function also replaces GOMP_parallel() (one_thread.cc), so that all parallel
+   * regions of OpenMP, in any library of the process, are plain calls.
    */
   void
   use_one_thread();

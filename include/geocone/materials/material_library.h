@@ -52,14 +52,14 @@ namespace geocone::GEOCONE_DIM
     void
     set_axisymmetric();
 
-    /** What prepare() has found, and changes of the laws since then. */
+    /** Properties of the laws, of prepare() and later changes. */
     const LawTraits &
     traits() const
     {
       return found;
     }
 
-    /** About undrained soil that dilates. */
+    /** Warnings about undrained soil that dilates. */
     std::vector<std::string>
     warnings() const;
 

@@ -25,7 +25,7 @@ namespace geocone::GEOCONE_DIM
    * Friction, by name:
    *  - exact: the law at t_{n+1}, or the step is not solved;
    *  - automatic: exact where the continuation gets there, and otherwise with the
-   *    least lag that it has reached, which the report tells.
+   *    least lag that it has reached, which is reported.
    */
   class NonsmoothNewton : public dealii::ParameterAcceptor
   {
@@ -45,7 +45,7 @@ namespace geocone::GEOCONE_DIM
     void
     check(const IncrementalProblem &problem) const;
 
-    /** What a time stepper knows of its problem. */
+    /** Hints of the time stepper for a solve. */
     struct Hints
     {
       bool elastic_first = false; ///< take the elastic tangent once

@@ -40,8 +40,8 @@ namespace geocone::GEOCONE_DIM
   {
     linearised, ///< with the rest of the step
     without_friction,
-    closed, ///< what touches stays in touch
-    exact   ///< solved by ContactDirection for each direction
+    bilateral, ///< active contacts stay closed
+    exact      ///< solved by ContactDirection for each direction
   };
 
   /** A Newton iteration, as a line of a plan. */

@@ -9,8 +9,7 @@
 
 namespace geocone
 {
-  /** Properties of the incremental problem of a step on which it depends how it is
-   *  solved best. */
+  /** Properties of the incremental problem of a step that decide how it is solved. */
   struct StepTraits
   {
     LawTraits     law;

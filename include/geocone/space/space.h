@@ -89,7 +89,7 @@ namespace geocone::GEOCONE_DIM
                       const Method &method,
                       const bool    hard_flow);
 
-    /** About what the element cannot do well with these laws. */
+    /** Warnings about laws that the element represents poorly. */
     std::vector<std::string>
     warnings(const LawTraits &law, const Method &method) const;
 

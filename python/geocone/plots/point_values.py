@@ -35,7 +35,7 @@ def shear_stress(fields):
 
 
 def strain_or_shear(fields):
-    """What is shown of points: plastic strain, on a scale of its logarithm, or the
+    """Quantity shown at the points: plastic strain, on a scale of its logarithm, or the
     shear stress of an elastic body.
 
     @return values, a list over the fields; their name; their scale; its open ends"""
@@ -51,8 +51,8 @@ def strain_or_shear(fields):
 
 
 def view_of(fields, reach):
-    """The box of all points but those that have flown far away: farther from the box of
-    nearly all of them than `reach` tells of its size (2)."""
+    """The box of all points except outliers: those whose distance from the box of nearly
+    all points exceeds `reach`, a function of the size of that box (2)."""
     points = np.concatenate([field.points for field in fields])
     low, high = np.quantile(points, [0.005, 0.995], axis=0)
     far = reach(high - low)
