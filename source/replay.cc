@@ -54,8 +54,9 @@ namespace geocone::GEOCONE_DIM
       Vector             v = thawed.start(), residual = problem.make_vector();
       const SolverReport report =
         newton.solve(problem, system, timer, v, residual, {});
-      const double  cpu     = clock.cpu_time();
-      const Quality quality = problem.internal_forces().quality();
+      const double          cpu     = clock.cpu_time();
+      const InternalForces &forces  = problem.internal_forces();
+      const Quality         quality = forces.quality(forces.excess_work());
 
       Outcome outcome;
       outcome.summary = {

@@ -180,8 +180,6 @@ namespace geocone::GEOCONE_DIM
     // Dissipation by friction in contact is part of the external work.
     report.works.external =
       external_work(work, step, points) + report.contact.dissipation;
-    report.works.of_excess =
-      (step.h / step.solved_h) * problem->internal_forces().excess_work();
     report.works.of_ghosts = (step.h / step.solved_h) * ghost_work;
   }
 
@@ -260,12 +258,12 @@ namespace geocone::GEOCONE_DIM
     accept_move(step, points, v);
     report.load_factor =
       raised.take(*constraints, problem->multipliers(), force, residual);
-    report.quality = problem->internal_forces().quality();
-    report.reactions =
-      constraints->reactions(residual,
-                             points,
-                             problem->internal_forces().total_stress(),
-                             step.solved_at);
+    const InternalForces &forces = problem->internal_forces();
+    const double          excess = forces.excess_work();
+    report.quality               = forces.quality(excess);
+    report.works.of_excess       = (step.h / step.solved_h) * excess;
+    report.reactions             = constraints->reactions(
+      residual, points, forces.total_stress(), step.solved_at);
     take_works(step, points, v, residual, report);
     report.works.dissipation = update_points(step, points);
     constraints->turn_back(v_end);

@@ -278,8 +278,9 @@ namespace geocone::GEOCONE_DIM
     SolverReport &report = work.report;
     if (!report.converged)
       return;
-    report.excess_share = work.problem.internal_forces().excess_share();
-    report.exceeds      = report.excess_share > accepted_excess;
+    const InternalForces &forces = work.problem.internal_forces();
+    report.excess_share          = forces.excess_share(forces.excess_work());
+    report.exceeds               = report.excess_share > accepted_excess;
     if (report.exceeds)
       {
         report.converged = false;

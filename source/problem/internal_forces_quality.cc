@@ -65,21 +65,20 @@ namespace geocone::GEOCONE_DIM
   }
 
   double
-  InternalForces::excess_share() const
+  InternalForces::excess_share(const double excess_work) const
   {
-    const double excess = excess_work();
-    if (excess == 0.)
+    if (excess_work == 0.)
       return 0.;
     double plastic = 0.;
     for (unsigned int p = 0; p < points.n_points(); ++p)
       plastic += points.weight[p] * work(p).plastic;
     plastic = Utilities::MPI::sum(plastic, comm);
-    return plastic > 0. ? excess / plastic
+    return plastic > 0. ? excess_work / plastic
                         : std::numeric_limits<double>::infinity();
   }
 
   Quality
-  InternalForces::quality() const
+  InternalForces::quality(const double excess_work) const
   {
     FlowCheck largest;
     for (const Run &run : runs)
@@ -116,6 +115,6 @@ namespace geocone::GEOCONE_DIM
             largest.complementary / (strain_scale * stress_scale),
             largest.excess,
             largest.exact_map / stress_scale,
-            excess_share()};
+            excess_share(excess_work)};
   }
 } // namespace geocone::GEOCONE_DIM

@@ -141,9 +141,10 @@ namespace geocone::GEOCONE_DIM
     double
     rounding_floor(const Vector &v) const;
 
-    /** Checks of the trial states; the same on all ranks. */
+    /** Checks of the trial states; the same on all ranks.
+     *  @param excess_work as the function excess_work() finds it (J/m) */
     Quality
-    quality() const;
+    quality(const double excess_work) const;
 
     /** Names a point whose trial state is not a number, or nothing. Collective. */
     std::string
@@ -154,9 +155,9 @@ namespace geocone::GEOCONE_DIM
     double
     excess_work() const;
 
-    /** excess_work() over the plastic work of the step, 0 for the exact law. Collective. */
+    /** @p excess_work over the plastic work of the step, 0 for the exact law. Collective. */
     double
-    excess_share() const;
+    excess_share(const double excess_work) const;
 
     /** @name Trial states, by point */
     /** @{ */
