@@ -1,9 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/base/exceptions.h>
 #include <geocone/element/element_output.h>
-#include <geocone/output/statistics_table.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,68 +26,81 @@ namespace geocone::GEOCONE_DIM
     }
   } // namespace
 
-  ElementOutput::ElementOutput(const MPI_Comm comm, Log &log)
-    : OutputBase(comm, log)
-  {}
+  double
+  ElementRecord::deviatoric_strain() const
+  {
+    Tensor6 dev = strain;
+    for (unsigned int i = 0; i < 3; ++i)
+      dev[i] -= volumetric_strain() / 3.;
+    return std::sqrt(2. / 3.) * norm(dev);
+  }
 
   void
-  ElementOutput::prepare(const RunOptions               &options,
-                         const std::vector<std::string> &all_columns)
+  ElementOutput::add_columns(const ElementPoint &point, const double volume)
   {
-    columns = all_columns;
+    using Record              = ElementRecord;
+    const auto add_components = [&](const std::string &name,
+                                    const std::string &unit,
+                                    Tensor6 Record::*member) {
+      for (unsigned int i = 0; i < 6; ++i)
+        if (point.has(i))
+          table.add(name + component_names[i] + unit,
+                    [i, member](const Record &r) { return (r.*member)[i]; });
+    };
+    table.add("increment (-)", [](const Record &r) { return r.increment; });
+    table.add("stage (-)", [](const Record &r) { return r.stage; });
+    add_components("eps ", " (-)", &Record::strain);
+    table.add("eps_v (-)",
+              [](const Record &r) { return r.volumetric_strain(); });
+    table.add("eps_q (-)",
+              [](const Record &r) { return r.deviatoric_strain(); });
+    table.add("ln v (-)", [volume](const Record &r) {
+      return std::log(volume) + r.volumetric_strain();
+    });
+    table.add("strain path (-)", [](const Record &r) { return r.strain_path; });
+    add_components("stress ", " (Pa)", &Record::stress);
+    const std::vector<std::string> of_law = point.names();
+    for (std::size_t k = 0; k < of_law.size(); ++k)
+      table.add(of_law[k], [k](const Record &r) { return r.shown[k]; });
+    table.add("substeps (-)", [](const Record &r) { return r.substeps; });
+    table.add("forced substeps (-)", [](const Record &r) { return r.forced; });
+    names = table.names();
+  }
+
+  void
+  ElementOutput::prepare(const RunOptions &options)
+  {
     make_folder(options);
-    statistics.open(path + "/path.csv", columns, resumes);
+    statistics.open(path + "/path.csv", names, resumes);
     surface_table.open(path + "/surfaces.csv",
                        {"state", "surface", "p (Pa)", "q (Pa)"});
   }
 
-  Json
-  ElementOutput::state(const std::vector<double> &values) const
+  void
+  ElementOutput::add_line(const ElementRecord &record)
   {
-    Json all;
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      all[key(columns[i])] = values[i];
-    return all;
+    last = table.line(record);
+    statistics.add_line(last);
+    if (start.empty())
+      start = least = most = last;
+    for (std::size_t i = 0; i < last.size(); ++i)
+      {
+        least[i] = std::min(least[i], last[i]);
+        most[i]  = std::max(most[i], last[i]);
+      }
   }
 
-  void
-  ElementOutput::add_line(const std::vector<double> &values)
+  double
+  ElementOutput::value_of(const std::string &column) const
   {
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      check_finite(columns[i], values[i]);
-    statistics.add_line(values);
-    last = state(values);
-    if (n_lines++ == 0)
-      start = last;
-    for (const auto &[entry, value] : last.items())
-      for (const bool largest : {false, true})
-        {
-          Json &extreme  = extremes[entry + (largest ? "_most" : "_least")];
-          const double x = value.get<double>();
-          if (extreme.is_null() ||
-              (largest ? x > extreme.get<double>() : x < extreme.get<double>()))
-            extreme = x;
-        }
+    return last[std::find(names.begin(), names.end(), column) - names.begin()];
   }
 
   void
   ElementOutput::state_of_run(StateRow &row)
   {
     OutputBase::state_of_run(row);
-    row(n_lines);
-    for (Json *topic : {&start, &last, &stages, &extremes})
-      {
-        std::string text = topic->dump();
-        row(text);
-        *topic = Json::parse(text);
-      }
-  }
-
-  void
-  ElementOutput::add_stage(const std::string         &stage,
-                           const std::vector<double> &values)
-  {
-    stages[stage] = state(values);
+    row(start, last, stages, least, most);
   }
 
   void
@@ -104,31 +115,33 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ElementOutput::write_summary(const std::string &status, const Json &topics)
+  ElementOutput::add_states(Json &summary) const
   {
-    summary = {{"name", name},
-               {"status", status},
-               {"size", {{"method", "point"}, {"points", 1}}}};
-    for (const auto &[entry, value] : topics.items())
-      summary[entry] = value;
-    summary["start"]    = start;
-    summary["stages"]   = stages;
-    summary["final"]    = last;
-    summary["extremes"] = extremes;
-    write_summary_file();
+    const auto state = [&](const std::vector<double> &line) {
+      Json all;
+      for (std::size_t i = 0; i < line.size(); ++i)
+        all[key(names[i])] = line[i];
+      return all;
+    };
+    summary["start"] = state(start);
+    Json &of_stages  = summary["stages"];
+    for (const auto &[stage, line] : stages)
+      of_stages[stage] = state(line);
+    summary["final"] = state(last);
+    Json &extremes   = summary["extremes"];
+    for (std::size_t i = 0; i < last.size(); ++i)
+      {
+        extremes[key(names[i]) + "_least"] = least[i];
+        extremes[key(names[i]) + "_most"]  = most[i];
+      }
   }
 
   void
-  ElementOutput::report() const
+  ElementOutput::report_results(std::ostream &out) const
   {
-    if (report_for_tests == Report::none)
-      return;
-    if (report_for_tests == Report::expectations)
-      return write_file("output", [](std::ostream &) {});
-    std::string report;
-    for (const auto &[stage, values] : stages.items())
+    for (const auto &[stage, values] : summary["stages"].items())
       {
-        report += "after " + stage + "\n";
+        out << "after " + stage + "\n";
         for (const auto &[entry, value] : values.items())
           {
             // In units that make numbers of order one; substeps depend on last
@@ -143,14 +156,13 @@ namespace geocone::GEOCONE_DIM
                                   : is_strain ? 1e2
                                               : 1.) *
                                  value.get<double>();
-            report += format("  %s %.6f %s\n",
-                             entry.c_str(),
-                             std::abs(shown) < 1e-6 ? 0. : shown,
-                             is_stress   ? "k"
-                             : is_strain ? "%"
-                                         : "");
+            out << format("  %s %.6f %s\n",
+                          entry.c_str(),
+                          std::abs(shown) < 1e-6 ? 0. : shown,
+                          is_stress   ? "k"
+                          : is_strain ? "%"
+                                      : "");
           }
       }
-    write_file("output", [&](std::ostream &out) { out << report; });
   }
 } // namespace geocone::GEOCONE_DIM

@@ -76,8 +76,8 @@ namespace geocone::GEOCONE_DIM
     if (components == StressComponents::axisymmetric)
       materials.set_axisymmetric();
     point = make_element_point(materials.law(0), components, stress, changed);
-    column_names = columns();
-    path.prepare(*point, column_names);
+    element_output.add_columns(*point, initial_volume);
+    path.prepare(*point, element_output.columns());
     if (options.dry_run)
       log.print(headline(options.name));
     if (changed.empty())
@@ -97,7 +97,7 @@ namespace geocone::GEOCONE_DIM
   void
   ElementTest::prepare_output(const RunOptions &options)
   {
-    element_output.prepare(options, column_names);
+    element_output.prepare(options);
   }
 
   std::string
@@ -122,73 +122,30 @@ namespace geocone::GEOCONE_DIM
                            : "plane strain";
   }
 
-  std::vector<std::string>
-  ElementTest::columns() const
-  {
-    std::vector<std::string> all = {"increment (-)", "stage (-)"};
-    for (unsigned int i = 0; i < 6; ++i)
-      if (point->has(i))
-        all.push_back(std::string("eps ") + component_names[i] + " (-)");
-    for (const char *column :
-         {"eps_v (-)", "eps_q (-)", "ln v (-)", "strain path (-)"})
-      all.push_back(column);
-    for (unsigned int i = 0; i < 6; ++i)
-      if (point->has(i))
-        all.push_back(std::string("stress ") + component_names[i] + " (Pa)");
-    for (const std::string &name : point->names())
-      all.push_back(name);
-    all.push_back("substeps (-)");
-    all.push_back("forced substeps (-)");
-    return all;
-  }
-
   void
   ElementTest::add_line(const unsigned int stage)
   {
-    std::vector<double> all = {static_cast<double>(n_increments),
-                               static_cast<double>(stage)};
-    for (unsigned int i = 0; i < 6; ++i)
-      if (point->has(i))
-        all.push_back(strain[i]);
-    // eps_q = sqrt(2/3) ||dev eps||
-    const double eps_v = strain[0] + strain[1] + strain[2];
-    Tensor6      dev   = strain;
-    for (unsigned int i = 0; i < 3; ++i)
-      dev[i] -= eps_v / 3.;
-    all.push_back(eps_v);
-    all.push_back(std::sqrt(2. / 3.) * norm(dev));
-    all.push_back(std::log(initial_volume) + eps_v);
-    all.push_back(strain_path);
-    const Tensor6 stress = point->stress();
-    for (unsigned int i = 0; i < 6; ++i)
-      if (point->has(i))
-        all.push_back(stress[i]);
-    for (const double value : point->values())
-      all.push_back(value);
-    all.push_back(point->counts.substeps - before.substeps);
-    all.push_back(point->counts.forced - before.forced);
-    last_line = std::move(all);
-    element_output.add_line(last_line);
-    largest_p = std::max(largest_p, value_of("p (Pa)"));
-  }
-
-  double
-  ElementTest::value_of(const std::string &column) const
-  {
-    return last_line[std::find(
-                       column_names.begin(), column_names.end(), column) -
-                     column_names.begin()];
+    element_output.add_line({n_increments,
+                             stage,
+                             strain,
+                             point->stress(),
+                             strain_path,
+                             point->values(),
+                             point->counts.substeps - before.substeps,
+                             point->counts.forced - before.forced});
+    largest_p = std::max(largest_p, element_output.value_of("p (Pa)"));
   }
 
   bool
   ElementTest::stops(const ElementStage &stage) const
   {
+    const std::vector<std::string> &names  = element_output.columns();
+    const std::vector<double>      &values = element_output.last_line();
     for (const StopCondition &condition : stage.stop)
-      for (std::size_t i = 0; i < column_names.size(); ++i)
-        if (column_names[i].substr(0, column_names[i].find(" (")) ==
-              condition.name &&
-            (condition.at_most ? last_line[i] <= condition.bound
-                               : last_line[i] >= condition.bound))
+      for (std::size_t i = 0; i < names.size(); ++i)
+        if (names[i].substr(0, names[i].find(" (")) == condition.name &&
+            (condition.at_most ? values[i] <= condition.bound
+                               : values[i] >= condition.bound))
           return true;
     return false;
   }
@@ -313,8 +270,8 @@ namespace geocone::GEOCONE_DIM
     if (element_output.verbosity >= 2)
       log.print(format("  f = %.4g, p = %.6g Pa, q = %.6g Pa",
                        at,
-                       value_of("p (Pa)"),
-                       value_of("q (Pa)")));
+                       element_output.value_of("p (Pa)"),
+                       element_output.value_of("q (Pa)")));
   }
 
   std::string
@@ -328,35 +285,36 @@ namespace geocone::GEOCONE_DIM
   ElementTest::end(const Place &place)
   {
     const ElementStage &stage = *path.stages[place.stage];
-    element_output.add_stage(stage.name, last_line);
+    element_output.end_stage(stage.name);
     if (element_output.verbosity >= 1)
       log.print(format("%s%s: p = %.6g Pa, q = %.6g Pa, eps_v = %.4g %%",
                        stage.name.c_str(),
                        at == positions.back() ? "" : " (stopped)",
-                       value_of("p (Pa)"),
-                       value_of("q (Pa)"),
+                       element_output.value_of("p (Pa)"),
+                       element_output.value_of("q (Pa)"),
                        100. * (strain[0] + strain[1] + strain[2])));
   }
 
-  void
-  ElementTest::write_summary(const std::string &status)
+  Json
+  ElementTest::topics()
   {
-    element_output.write_summary(
-      status,
-      {{"material", materials.name(0)},
-       {"changed_at_start", changed},
-       {"components", components_of_point()},
-       {"axis", component_names[main_component()]},
-       {"counts",
-        {{"increments", n_increments},
-         {"halved_increments", n_cuts},
-         {"newton_iterations", n_iterations},
-         {"worst_residual", worst_residual},
-         {"substeps", point->counts.substeps},
-         {"most_substeps", point->counts.most},
-         {"forced_substeps", point->counts.forced},
-         {"limited_stresses", point->counts.limited}}},
-       {"cost", {{"total_s", total.wall_time()}}}});
+    Json json = {{"size", {{"method", "point"}, {"points", 1}}},
+                 {"material", materials.name(0)},
+                 {"changed_at_start", changed},
+                 {"components", components_of_point()},
+                 {"axis", component_names[main_component()]},
+                 {"counts",
+                  {{"increments", n_increments},
+                   {"halved_increments", n_cuts},
+                   {"newton_iterations", n_iterations},
+                   {"worst_residual", worst_residual},
+                   {"substeps", point->counts.substeps},
+                   {"most_substeps", point->counts.most},
+                   {"forced_substeps", point->counts.forced},
+                   {"limited_stresses", point->counts.limited}}},
+                 {"cost", {{"total_s", total.wall_time()}}}};
+    element_output.add_states(json);
+    return json;
   }
 
   void
@@ -371,7 +329,6 @@ namespace geocone::GEOCONE_DIM
     if (point->counts.limited > 0)
       log.warn(format("%llu stresses were kept at 'Lowest pressure'",
                       point->counts.limited));
-    write_summary("finished");
     log.print(format("%u increments, %u halved, %llu substeps, %llu forced, "
                      "%llu limited",
                      n_increments,
@@ -379,7 +336,6 @@ namespace geocone::GEOCONE_DIM
                      point->counts.substeps,
                      point->counts.forced,
                      point->counts.limited));
-    element_output.report();
   }
 
   void
@@ -387,7 +343,7 @@ namespace geocone::GEOCONE_DIM
   {
     point->state(row);
     row(strain, least_strain, most_strain, control, start_stress, at, guess);
-    row(strain_path, largest_p, last_line);
+    row(strain_path, largest_p);
     row(n_increments, n_iterations, n_cuts, worst_residual);
   }
 

@@ -365,12 +365,12 @@ namespace geocone::GEOCONE_DIM
         "body can stand; the limit is " +
         section + "Largest unbalanced force'");
     if (stage.largest_kinetic_energy > 0. &&
-        !(state.kinetic <= stage.largest_kinetic_energy * work))
+        !(state.energies.kinetic <= stage.largest_kinetic_energy * work))
       throw StepFailure(
         format("the stage '%s' has not ended in equilibrium: the kinetic "
                "energy is %.3g of the stress work, not %.3g",
                stage.name.c_str(),
-               work > 0. ? state.kinetic / work : 0.,
+               work > 0. ? state.energies.kinetic / work : 0.,
                stage.largest_kinetic_energy) +
         "\n  remedy:  give it more time or damping, or check whether the "
         "body can stand; the limit is " +

@@ -38,14 +38,14 @@ namespace geocone::GEOCONE_DIM
     void
     gather_totals(ExplicitState &s, const MPI_Comm comm)
     {
-      s.n_points         = Utilities::MPI::sum(s.n_points, comm);
-      s.mass             = Utilities::MPI::sum(s.mass, comm);
-      s.volume           = Utilities::MPI::sum(s.volume, comm);
-      s.kinetic          = Utilities::MPI::sum(s.kinetic, comm);
-      s.potential        = Utilities::MPI::sum(s.potential, comm);
-      s.momentum         = Utilities::MPI::sum(s.momentum, comm);
-      s.angular_momentum = Utilities::MPI::sum(s.angular_momentum, comm);
-      s.largest_speed    = Utilities::MPI::max(s.largest_speed, comm);
+      s.n_points           = Utilities::MPI::sum(s.n_points, comm);
+      s.mass               = Utilities::MPI::sum(s.mass, comm);
+      s.volume             = Utilities::MPI::sum(s.volume, comm);
+      s.energies.kinetic   = Utilities::MPI::sum(s.energies.kinetic, comm);
+      s.energies.potential = Utilities::MPI::sum(s.energies.potential, comm);
+      s.momentum           = Utilities::MPI::sum(s.momentum, comm);
+      s.angular_momentum   = Utilities::MPI::sum(s.angular_momentum, comm);
+      s.largest_speed      = Utilities::MPI::max(s.largest_speed, comm);
       s.largest_plastic_strain =
         Utilities::MPI::max(s.largest_plastic_strain, comm);
     }
@@ -93,8 +93,8 @@ namespace geocone::GEOCONE_DIM
             const Tensor<1, dim> v = group.velocity.of(p);
             s.mass += m;
             s.volume += group.volume[p];
-            s.kinetic += m * v.norm_square() / 2.;
-            s.potential -= m * (g * (x - datum));
+            s.energies.kinetic += m * v.norm_square() / 2.;
+            s.energies.potential -= m * (g * (x - datum));
             s.momentum += m * v;
             for (unsigned int i = 0; i < n_rotations; ++i)
               {

@@ -396,7 +396,9 @@ namespace geocone::GEOCONE_DIM
       }
     level.cpu_seconds  = time.cpu_time();
     level.mesh_seconds = in_mesh;
-    levels.push_back(level);
+    const auto &levels = limit_output.all_records();
+    level.number       = levels.size() + 1;
+    limit_output.add_record(level);
     place.time = levels.size();
 
     const auto best      = best_of(levels).gap();
@@ -413,15 +415,14 @@ namespace geocone::GEOCONE_DIM
   void
   LimitAnalysis::record(const Place &)
   {
-    limit_output.add_level(levels.size(), levels.back());
     if (limit_output.verbosity >= 1)
       {
-        const BoundLevel &level = levels.back();
+        const BoundLevel &level = limit_output.all_records().back();
         const auto        shown = [](const double value, const bool certified) {
           return certified ? format("%.6g", value) : std::string("?");
         };
         log.print(
-          format("level %zu: %u triangles: ", levels.size(), level.cells) +
+          format("level %u: %u triangles: ", level.number, level.cells) +
           shown(level.lower, level.lower_certified) + " <= " + bounded() +
           " <= " + shown(level.upper, level.upper_certified) +
           (reduces_strength() ? "" : bounded_load.after_number()) +
@@ -452,34 +453,37 @@ namespace geocone::GEOCONE_DIM
                                 bounds.gap);
   }
 
-  void
-  LimitAnalysis::write_summary(const std::string &status)
+  Json
+  LimitAnalysis::topics()
   {
-    Json topics;
-    topics["size"] = {{"method", analysis.word()},
-                      {"cells", levels.empty() ? 0 : levels.back().cells}};
+    const auto &levels = limit_output.all_records();
+    Json        json;
+    json["size"] = {{"method", analysis.word()},
+                    {"cells", levels.empty() ? 0 : levels.back().cells}};
     if (!reduces_strength())
-      topics["load"] = {{"factor_of", bounded_load.word()},
-                        {"unit", bounded_load.unit()}};
+      json["load"] = {{"factor_of", bounded_load.word()},
+                      {"unit", bounded_load.unit()}};
     else
       {
         const Json bounds = bracket().bounds();
-        topics["safety"]  = {{"factor", bounds["middle"]},
+        json["safety"]    = {{"factor", bounds["middle"]},
                              {"lower", bounds["lower"]},
                              {"upper", bounds["upper"]},
                              {"criterion", "certified bounds"}};
       }
     if (bounded_load.non_associated())
-      topics["non_associated"] = bracket().non_associated();
-    topics["cost"] = {{"total_s", total.wall_time()},
-                      {"cpu_s", total.cpu_time()}};
-    limit_output.write_summary(status, levels, bracket(), topics);
+      json["non_associated"] = bracket().non_associated();
+    json["cost"] = {{"total_s", total.wall_time()},
+                    {"cpu_s", total.cpu_time()}};
+    if (!levels.empty())
+      json["bounds"] = limit_output.bounds(bracket());
+    return json;
   }
 
   LoadBracket
   LimitAnalysis::bracket() const
   {
-    LoadBracket best   = best_of(levels);
+    LoadBracket best   = best_of(limit_output.all_records());
     best.name          = bounded();
     best.unit          = reduces_strength() || bounded_load.unit() == "-"
                            ? ""
@@ -505,13 +509,11 @@ namespace geocone::GEOCONE_DIM
       log.warn(format("the gap is %.3g %%, more than 'Analysis/Gap tolerance'; "
                       "raise 'Analysis/Maximum cells' or 'Maximum levels'",
                       100. * *gap));
-    write_summary("finished");
     if (best.lower || best.upper)
       log.print(best.text());
     if (!best.is_associated)
       log.print("for the incremental load beside both: 'Analysis/Kind' = steps "
                 "with 'Mesh/Type' = from the bounds");
-    limit_output.report();
   }
 
   std::array<double, 2>
@@ -531,13 +533,8 @@ namespace geocone::GEOCONE_DIM
   void
   LimitAnalysis::save(Archive &archive)
   {
-    StateRow     row;
-    unsigned int n_levels = levels.size();
-    row(n_levels);
-    for (BoundLevel &level : levels)
-      level.state(row);
-    row(asked_cells);
-    row(reduction);
+    StateRow row;
+    row(asked_cells, reduction);
     archive.write_row("levels", row);
     std::vector<double> numbers;
     if (sizes)
@@ -554,14 +551,8 @@ namespace geocone::GEOCONE_DIM
   void
   LimitAnalysis::load(const Archive &archive)
   {
-    StateRow     row      = archive.read_row("levels");
-    unsigned int n_levels = 0;
-    row(n_levels);
-    levels.resize(n_levels);
-    for (BoundLevel &level : levels)
-      level.state(row);
-    row(asked_cells);
-    row(reduction);
+    StateRow row = archive.read_row("levels");
+    row(asked_cells, reduction);
     const std::vector<double> numbers = archive.read("sizes");
     sizes.reset();
     if (!numbers.empty())

@@ -13,7 +13,7 @@ namespace geocone::GEOCONE_DIM
   void
   BoundLevel::state(StateRow &row)
   {
-    row(cells, unknowns_upper, unknowns_lower, lower, upper, gap);
+    row(number, cells, unknowns_upper, unknowns_lower, lower, upper, gap);
     row(lower_certified, upper_certified, iterations_lower, iterations_upper);
     row(violation_lower, violation_upper, error_lower, error_upper);
     row(gap_share, cpu_seconds, mesh_seconds);
@@ -57,10 +57,6 @@ namespace geocone::GEOCONE_DIM
     return -(n * xy - x * y) / spread;
   }
 
-  LimitOutput::LimitOutput(const MPI_Comm comm, Log &log)
-    : OutputBase(comm, log)
-  {}
-
   void
   LimitOutput::prepare(const RunOptions           &options,
                        const std::string          &unit,
@@ -71,39 +67,34 @@ namespace geocone::GEOCONE_DIM
     make_folder(options);
     fields =
       std::make_unique<FieldFiles>("bounds", FieldsFormat(fields_format));
-    statistics.open(path + "/bounds.csv",
-                    {"level (-)",
-                     "triangles (-)",
-                     "lower bound (" + unit + ")",
-                     "upper bound (" + unit + ")",
-                     "gap (-)",
-                     "certified (-)",
-                     "unknowns of the lower bound (-)",
-                     "unknowns of the upper bound (-)",
-                     "factorisations of the lower bound (-)",
-                     "factorisations of the upper bound (-)",
-                     "CPU time (s)",
-                     "CPU time of the mesh (s)"},
-                    resumes);
-  }
-
-  void
-  LimitOutput::add_level(const unsigned int number, const BoundLevel &level)
-  {
+    const auto add = [&](const std::string &column, const auto member) {
+      table.add(column, [member](const BoundLevel &l) { return l.*member; });
+    };
     // A bound that is not certified is none.
-    const double none = std::numeric_limits<double>::quiet_NaN();
-    statistics.add_line({static_cast<double>(number),
-                         static_cast<double>(level.cells),
-                         level.lower_certified ? level.lower : none,
-                         level.upper_certified ? level.upper : none,
-                         level.certified() ? level.gap : none,
-                         static_cast<double>(level.certified()),
-                         static_cast<double>(level.unknowns_lower),
-                         static_cast<double>(level.unknowns_upper),
-                         static_cast<double>(level.iterations_lower),
-                         static_cast<double>(level.iterations_upper),
-                         level.cpu_seconds,
-                         level.mesh_seconds});
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    add("level (-)", &BoundLevel::number);
+    add("triangles (-)", &BoundLevel::cells);
+    table.add(
+      "lower bound (" + unit + ")",
+      [](const BoundLevel &l) { return l.lower_certified ? l.lower : none; },
+      Finite::may_be);
+    table.add(
+      "upper bound (" + unit + ")",
+      [](const BoundLevel &l) { return l.upper_certified ? l.upper : none; },
+      Finite::may_be);
+    table.add(
+      "gap (-)",
+      [](const BoundLevel &l) { return l.certified() ? l.gap : none; },
+      Finite::may_be);
+    table.add("certified (-)",
+              [](const BoundLevel &l) { return l.certified(); });
+    add("unknowns of the lower bound (-)", &BoundLevel::unknowns_lower);
+    add("unknowns of the upper bound (-)", &BoundLevel::unknowns_upper);
+    add("factorisations of the lower bound (-)", &BoundLevel::iterations_lower);
+    add("factorisations of the upper bound (-)", &BoundLevel::iterations_upper);
+    add("CPU time (s)", &BoundLevel::cpu_seconds);
+    add("CPU time of the mesh (s)", &BoundLevel::mesh_seconds);
+    open_table("bounds.csv");
   }
 
   void
@@ -173,61 +164,46 @@ namespace geocone::GEOCONE_DIM
     fields->write(table, path, number, comm);
   }
 
-  void
-  LimitOutput::write_summary(const std::string             &status,
-                             const std::vector<BoundLevel> &levels,
-                             const LoadBracket             &bracket,
-                             const Json                    &others)
+  Json
+  LimitOutput::bounds(const LoadBracket &bracket) const
   {
-    summary = {{"name", name}, {"status", status}};
-    for (const auto &[topic, value] : others.items())
-      summary[topic] = value;
-    if (!levels.empty())
+    const BoundLevel &last       = records.back();
+    unsigned int      iterations = 0, most = 0;
+    for (const BoundLevel &level : records)
       {
-        const BoundLevel &last       = levels.back();
-        unsigned int      iterations = 0, most = 0;
-        for (const BoundLevel &level : levels)
-          {
-            iterations += level.iterations_lower + level.iterations_upper;
-            most =
-              std::max({most, level.iterations_lower, level.iterations_upper});
-          }
-        const auto order              = order_of_gap(levels);
-        Json       bounds             = bracket.bounds();
-        bounds["order"]               = order ? Json(*order) : Json();
-        bounds["iterations"]          = iterations;
-        bounds["iterations_max"]      = most;
-        bounds["levels"]              = levels.size();
-        bounds["unknowns_lower"]      = last.unknowns_lower;
-        bounds["unknowns_upper"]      = last.unknowns_upper;
-        bounds["violation_lower"]     = last.violation_lower;
-        bounds["violation_upper"]     = last.violation_upper;
-        bounds["error_lower"]         = last.error_lower;
-        bounds["error_upper"]         = last.error_upper;
-        bounds["sum_of_cells_to_gap"] = last.gap_share;
-        summary["bounds"]             = bounds;
+        iterations += level.iterations_lower + level.iterations_upper;
+        most = std::max({most, level.iterations_lower, level.iterations_upper});
       }
-    write_summary_file();
+    const auto order            = order_of_gap(records);
+    Json       json             = bracket.bounds();
+    json["order"]               = order ? Json(*order) : Json();
+    json["iterations"]          = iterations;
+    json["iterations_max"]      = most;
+    json["levels"]              = records.size();
+    json["unknowns_lower"]      = last.unknowns_lower;
+    json["unknowns_upper"]      = last.unknowns_upper;
+    json["violation_lower"]     = last.violation_lower;
+    json["violation_upper"]     = last.violation_upper;
+    json["error_lower"]         = last.error_lower;
+    json["error_upper"]         = last.error_upper;
+    json["sum_of_cells_to_gap"] = last.gap_share;
+    return json;
   }
 
   void
-  LimitOutput::report() const
+  LimitOutput::report_results(std::ostream &out) const
   {
-    if (report_for_tests == Report::none)
-      return;
-    std::string text;
-    if (report_for_tests == Report::results)
-      text = format("%.4g %.4g %d\n",
-                    summary["bounds"]["lower"].get<double>(),
-                    summary["bounds"]["upper"].get<double>(),
-                    int(summary["bounds"]["certified"].get<bool>()));
-    write_file("output", [&](std::ostream &out) { out << text; });
+    const Json &bounds = summary["bounds"];
+    out << format("%.4g %.4g %d\n",
+                  bounds["lower"].get<double>(),
+                  bounds["upper"].get<double>(),
+                  int(bounds["certified"].get<bool>()));
   }
 
   void
   LimitOutput::state_of_run(StateRow &row)
   {
-    OutputBase::state_of_run(row);
-    fields->state(row);
+    TableOutput::state_of_run(row);
+    row(*fields);
   }
 } // namespace geocone::GEOCONE_DIM

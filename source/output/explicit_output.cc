@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/output/explicit_output.h>
-#include <geocone/output/observation_columns.h>
 
 #include <algorithm>
 #include <limits>
@@ -11,47 +10,22 @@ namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
-  ExplicitOutput::ExplicitOutput(const MPI_Comm comm, Log &log)
-    : OutputBase(comm, log)
-  {}
-
   void
-  ExplicitOutput::prepare(const RunOptions &options, const Scene &scene_)
+  ExplicitOutput::prepare(const RunOptions &options, const Scene &of_run)
   {
-    scene = &scene_;
-    make_folder(options);
+    begin(options, of_run);
     point_files = std::make_unique<FieldFiles>("points", fields_format);
     add_step_columns();
     add_body_columns();
     add_balance_columns();
-    add_observations(
-      table,
-      scene->observation,
-      scene->supports(),
-      scene->geometry,
-      [this](const Record &r, const unsigned int i, const unsigned int axis) {
-        return r.report.reactions[scene->observation.conditions[i]]
-          .moment[axis];
-      },
-      [](const Record &r, const unsigned int i, const unsigned int d) {
-        return r.displacements[i][d];
-      });
-    if (writes)
-      statistics.open(path + "/statistics.csv", table.names(), resumes);
-  }
-
-  void
-  ExplicitOutput::add(const std::string                    &column,
-                      const StatisticsTable<Record>::Value &value)
-  {
-    table.add(unit(column), value);
+    add_observed_columns();
+    open_table("statistics.csv");
   }
 
   void
   ExplicitOutput::add_step_columns()
   {
-    add("step", [](const Record &r) { return r.step; });
-    add("time (s)", [](const Record &r) { return r.time; });
+    add_time_columns();
     add("explicit steps (-)", [](const Record &r) { return r.report.n_steps; });
     add("CPU time of rank 0 (s)", [](const Record &r) { return r.cpu; });
     add("smallest step (s)",
@@ -59,12 +33,12 @@ namespace geocone::GEOCONE_DIM
     add("largest step (s)",
         [](const Record &r) { return r.report.largest_step; });
     add("limiting point (-)",
-        [](const Record &r) { return r.state.limiting_id; });
+        [](const Record &r) { return r.last.limiting_id; });
     for (unsigned int d = 0; d < dim; ++d)
       add(std::string("limiting point ") + coordinate[d] + " (m)",
-          [d](const Record &r) { return r.state.limiting_place[d]; });
+          [d](const Record &r) { return r.last.limiting_place[d]; });
     add("limiting wave speed (m/s)",
-        [](const Record &r) { return r.state.limiting_wave_speed; });
+        [](const Record &r) { return r.last.limiting_wave_speed; });
   }
 
   void
@@ -72,29 +46,27 @@ namespace geocone::GEOCONE_DIM
   {
     const auto add_state = [&](const std::string &column,
                                double ExplicitState::*member) {
-      add(column, [member](const Record &r) { return r.state.*member; });
+      add(column, [member](const Record &r) { return r.last.*member; });
     };
-    add("points (-)", [](const Record &r) { return r.state.n_points; });
+    add("points (-)", [](const Record &r) { return r.last.n_points; });
     add_state("mass (kg/m)", &ExplicitState::mass);
     add_state(dim == 2 ? "volume (m^2)" : "volume (m^3)",
               &ExplicitState::volume);
-    add("x least (m)", [](const Record &r) { return r.state.lower[0]; });
-    add("x largest (m)", [](const Record &r) { return r.state.upper[0]; });
-    add("y largest (m)", [](const Record &r) { return r.state.upper[1]; });
+    add("x least (m)", [](const Record &r) { return r.last.lower[0]; });
+    add("x largest (m)", [](const Record &r) { return r.last.upper[0]; });
+    add("y largest (m)", [](const Record &r) { return r.last.upper[1]; });
     if (dim == 3)
       {
-        add("z least (m)", [](const Record &r) { return r.state.lower[2]; });
-        add("z largest (m)", [](const Record &r) { return r.state.upper[2]; });
+        add("z least (m)", [](const Record &r) { return r.last.lower[2]; });
+        add("z largest (m)", [](const Record &r) { return r.last.upper[2]; });
       }
     add_state("x of 1 % of the mass (m)", &ExplicitState::left_front);
     add_state("x of 99 % of the mass (m)", &ExplicitState::right_front);
     add_state("largest speed (m/s)", &ExplicitState::largest_speed);
-    add_state("largest plastic strain (-)",
-              &ExplicitState::largest_plastic_strain);
+    add_strain_columns();
     add("unbalanced force (N/m)",
         [](const Record &r) { return r.report.unbalanced_force; });
-    add_state("kinetic energy (J/m)", &ExplicitState::kinetic);
-    add_state("potential energy (J/m)", &ExplicitState::potential);
+    add_energy_columns(false);
   }
 
   void
@@ -110,43 +82,38 @@ namespace geocone::GEOCONE_DIM
     add_exchange("damping work (J/m)", &Exchange::damping_work);
     add_exchange("stopped energy (J/m)", &Exchange::stopped_energy);
     add_exchange("removed kinetic energy (J/m)", &Exchange::removed_energy);
-    add("numerical loss (J/m)",
-        [this](const Record &) { return balance.loss(); });
+    add_loss_columns();
     for (unsigned int d = 0; d < dim; ++d)
       add(std::string("momentum ") + coordinate[d] + " (N s/m)",
-          [d](const Record &r) { return r.state.momentum[d]; });
+          [d](const Record &r) { return r.last.momentum[d]; });
     for (unsigned int d = 0; d < dim; ++d)
       add(std::string("momentum residual ") + coordinate[d] + " (N s/m)",
           [this, d](const Record &r) { return momentum_residual(r)[d]; });
     for (unsigned int i = 0; i < n_rotations; ++i)
       add(std::string("angular momentum") +
             (dim == 2 ? "" : " " + axis_of_rotation(i)) + " (N m s/m)",
-          [i](const Record &r) { return r.state.angular_momentum[i]; });
+          [i](const Record &r) { return r.last.angular_momentum[i]; });
     add_exchange("removed mass (kg/m)", &Exchange::removed_mass);
     for (unsigned int i = 0; i < dim * scene->dirichlet.list.size(); ++i)
       table.add("force " + scene->dirichlet.list[i / dim]->name + " " +
                   coordinate[i % dim] + unit(" (N/m)"),
                 [i](const Record &r) {
-                  return r.report.reactions[i / dim].force[i % dim];
+                  return r.last.reactions[i / dim].force[i % dim];
                 });
   }
 
   void
   ExplicitOutput::state_of_run(StateRow &row)
   {
-    OutputBase::state_of_run(row);
-    std::size_t n = records.size();
-    row(initial, *point_files, balance, largest_impulse, n);
-    records.resize(n);
-    for (ExplicitRecord &record : records)
-      record.to_row(row);
+    SceneOutput::state_of_run(row);
+    row(initial, *point_files, largest_impulse);
   }
 
   void
   ExplicitOutput::set_initial(const ExplicitState &state)
   {
     initial = state;
-    balance.begin({state.kinetic, 0., state.potential});
+    balance.begin(state.energies);
   }
 
   void
@@ -159,10 +126,10 @@ namespace geocone::GEOCONE_DIM
     // the rest is that of an external force.
     if (scene->gravity.is_ramped())
       works.external +=
-        e.gravity_work -
-        (initial.potential - e.removed_potential - record.state.potential);
+        e.gravity_work - (initial.energies.potential - e.removed_potential -
+                          record.last.energies.potential);
     works.dissipation = e.stress_work + e.damping_work + e.stopped_energy;
-    balance.set({record.state.kinetic, 0., record.state.potential},
+    balance.set(record.last.energies,
                 works,
                 e.removed_energy + e.removed_potential,
                 e.removed_potential);
@@ -171,25 +138,23 @@ namespace geocone::GEOCONE_DIM
   Tensor<1, dim>
   ExplicitOutput::momentum_residual(const ExplicitRecord &record) const
   {
-    return record.state.momentum - initial.momentum +
+    return record.last.momentum - initial.momentum +
            record.exchange.removed_momentum - record.exchange.impulse;
   }
 
   void
-  ExplicitOutput::add_record(const ExplicitRecord &record)
+  ExplicitOutput::add_step(const ExplicitRecord &record)
   {
-    const ExplicitState &s           = record.state;
+    const ExplicitState &s           = record.last;
     const double         work_before = balance.works().external;
     update_balance(record);
-    largest_impulse =
-      std::max({largest_impulse,
-                record.exchange.impulse.norm(),
-                s.mass * scene->gravity.at(1e300).norm() * record.time,
-                std::sqrt(2. * s.mass * std::max(s.kinetic, initial.kinetic))});
-    const std::vector<double> line = table.line(record);
-    records.push_back(record);
-    if (writes)
-      statistics.add_line(line);
+    largest_impulse = std::max(
+      {largest_impulse,
+       record.exchange.impulse.norm(),
+       s.mass * scene->gravity.at(1e300).norm() * record.time,
+       std::sqrt(2. * s.mass *
+                 std::max(s.energies.kinetic, initial.energies.kinetic))});
+    add_record(record);
 
     // At the start next to nothing is turned over: a hundred-thousandth of what the
     // weight could do over the size of the body counts as such. Velocities are known
@@ -300,37 +265,29 @@ namespace geocone::GEOCONE_DIM
       }
   }
 
-  void
-  ExplicitOutput::write_summary(const std::string &status,
-                                const LawCounts   &counts,
-                                const Json        &size,
-                                const Json        &cost)
+  Json
+  ExplicitOutput::results(const LawCounts &counts) const
   {
-    if (!writes)
-      return;
-    summary = Json{{"name", name}, {"status", status}};
-    if (!records.empty())
-      {
-        const ExplicitRecord &last = records.back();
-        add_points(last.displacements, {}, summary);
-        summary["explicit"] = steps();
-        summary["state"]    = body();
-        summary["motion"]   = {{"front_x_m", last.state.upper[0]},
-                               {"front_y_m", last.state.upper[1]}};
-        summary["energy"]   = energy();
-        summary["momentum"] = momentum();
-        summary["law"]      = {
-               {"updates", counts.updates},
-               {"substeps", counts.substeps},
-               {"substeps_per_update",
-           counts.updates > 0 ? double(counts.substeps) / counts.updates : 0.},
-               {"most_substeps", counts.most},
-               {"forced_substeps", counts.forced},
-               {"limited_stresses", counts.limited}};
-      }
-    summary["size"] = size;
-    summary["cost"] = cost;
-    write_summary_file();
+    Json json = Json::object();
+    if (records.empty())
+      return json;
+    const ExplicitState &last = records.back().last;
+    add_points(json);
+    json["explicit"] = steps();
+    json["state"]    = body();
+    json["motion"]   = {{"front_x_m", last.upper[0]},
+                        {"front_y_m", last.upper[1]}};
+    json["energy"]   = energy();
+    json["momentum"] = momentum();
+    json["law"]      = {
+           {"updates", counts.updates},
+           {"substeps", counts.substeps},
+           {"substeps_per_update",
+       counts.updates > 0 ? double(counts.substeps) / counts.updates : 0.},
+           {"most_substeps", counts.most},
+           {"forced_substeps", counts.forced},
+           {"limited_stresses", counts.limited}};
+    return json;
   }
 
   Json
@@ -354,7 +311,7 @@ namespace geocone::GEOCONE_DIM
   Json
   ExplicitOutput::body() const
   {
-    const ExplicitState &s    = records.back().state;
+    const ExplicitState &s    = records.back().last;
     Json                 json = {
                       {"points", s.n_points},
                       {unit("mass_kg_per_m"), s.mass},
@@ -378,9 +335,8 @@ namespace geocone::GEOCONE_DIM
   Json
   ExplicitOutput::energy() const
   {
-    const Exchange &e    = records.back().exchange;
-    Json            json = balance.json(
-      [this](const std::string &in_plane) { return unit(in_plane); }, false);
+    const Exchange &e                  = records.back().exchange;
+    Json            json               = SceneOutput::energy(false);
     json[unit("stress_work_J_per_m")]  = e.stress_work;
     json[unit("gravity_work_J_per_m")] = e.gravity_work;
     json[unit("support_work_J_per_m")] = e.support_work;
@@ -391,13 +347,14 @@ namespace geocone::GEOCONE_DIM
   Json
   ExplicitOutput::momentum() const
   {
-    const ExplicitState &s       = records.back().state;
+    const ExplicitState &s       = records.back().last;
     double               largest = 0.;
     for (const ExplicitRecord &record : records)
       largest = std::max(largest, momentum_residual(record).norm());
     // What a turning body of this size and energy would have.
-    const double turning = std::sqrt(2. * initial.mass * initial.kinetic) *
-                           (initial.lower.norm() + initial.upper.norm());
+    const double turning =
+      std::sqrt(2. * initial.mass * initial.energies.kinetic) *
+      (initial.lower.norm() + initial.upper.norm());
     const double angular = initial.angular_momentum.norm();
     Json         json    = {
                  {"angular_change_relative",
@@ -415,10 +372,10 @@ namespace geocone::GEOCONE_DIM
   void
   ExplicitOutput::print_result() const
   {
-    if (!writes || records.empty())
+    if (!writes)
       return;
     const ExplicitRecord &last = records.back();
-    const ExplicitState  &s    = last.state;
+    const ExplicitState  &s    = last.last;
     log.print(
       format("%lu explicit steps of %.3g to %.3g s; the body reaches from x = "
              "%.4g to %.4g m, up to y = %.4g m",
@@ -431,7 +388,7 @@ namespace geocone::GEOCONE_DIM
     log.print(format(
       "kinetic energy %.4g %s (at most %.4g), stress work %.4g, released "
       "%.4g, numerical loss %.2g %s; momentum to %.1e",
-      s.kinetic,
+      s.energies.kinetic,
       unit("J/m").c_str(),
       balance.largest_kinetic(),
       last.exchange.stress_work,
@@ -447,23 +404,29 @@ namespace geocone::GEOCONE_DIM
                summary["law"]["most_substeps"].get<unsigned int>(),
                summary["law"]["forced_substeps"].get<unsigned long long>(),
                summary["law"]["limited_stresses"].get<unsigned long long>()));
-    if (report_for_tests == Report::expectations)
-      write_file("output", [](std::ostream &) {});
-    else if (report_for_tests != Report::none)
-      write_file("output", [&](std::ostream &out) {
-        out << "time  kinetic  stress work  gravity work  x  y  plastic\n";
-        for (const ExplicitRecord &record : records)
-          out << format("%.6g %.7g %.7g %.7g %.7g %.7g %.7g %.7g\n",
-                        record.time,
-                        record.state.kinetic,
-                        record.exchange.stress_work,
-                        record.exchange.gravity_work,
-                        record.state.lower[0],
-                        record.state.upper[0],
-                        record.state.upper[1],
-                        record.state.largest_plastic_strain);
-        out << "explicit steps " << summary["explicit"]["steps"] << " points "
-            << s.n_points << "\n";
-      });
+    const Json &cost = summary["cost"];
+    log.print(format("%.1f s in all; %.1f ns per point and step (CPU, all "
+                     "ranks), %.0f bytes per point",
+                     cost["total_s"].get<double>(),
+                     cost["cpu_ns_per_point_step"].get<double>(),
+                     cost["bytes_per_point"].get<double>()));
+  }
+
+  void
+  ExplicitOutput::report_results(std::ostream &out) const
+  {
+    out << "time  kinetic  stress work  gravity work  x  y  plastic\n";
+    for (const ExplicitRecord &record : records)
+      out << format("%.6g %.7g %.7g %.7g %.7g %.7g %.7g %.7g\n",
+                    record.time,
+                    record.last.energies.kinetic,
+                    record.exchange.stress_work,
+                    record.exchange.gravity_work,
+                    record.last.lower[0],
+                    record.last.upper[0],
+                    record.last.upper[1],
+                    record.last.largest_plastic_strain);
+    out << "explicit steps " << summary["explicit"]["steps"] << " points "
+        << records.back().last.n_points << "\n";
   }
 } // namespace geocone::GEOCONE_DIM

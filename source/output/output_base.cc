@@ -163,9 +163,13 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  OutputBase::write_summary_file()
+  OutputBase::write_summary(const std::string &status, const Json &topics)
   {
-    summary_written                  = std::chrono::steady_clock::now();
+    if (!writes)
+      return;
+    summary_written = std::chrono::steady_clock::now();
+    summary         = {{"name", name}, {"status", status}};
+    summary.update(topics);
     summary["run"]                   = run_topic();
     summary["run"]["parameter_file"] = parameter_file;
     summary["warnings"]              = log.warnings();
@@ -186,6 +190,16 @@ namespace geocone::GEOCONE_DIM
     });
     if (!what.empty())
       throw RunError("'" + what + "' of the summary" + not_finite_remedy);
+  }
+
+  void
+  OutputBase::report() const
+  {
+    if (writes && report_for_tests != Report::none)
+      write_file("output", [&](std::ostream &out) {
+        if (report_for_tests == Report::results)
+          report_results(out);
+      });
   }
 
   bool

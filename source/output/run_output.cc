@@ -1,45 +1,37 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/base/exceptions.h>
-#include <geocone/output/observation_columns.h>
 #include <geocone/output/run_output.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <cmath>
 
 namespace geocone::GEOCONE_DIM
 {
-  RunOutput::RunOutput(const MPI_Comm comm, Log &log)
-    : OutputBase(comm, log)
-  {}
-
   void
   RunOutput::prepare(const RunOptions &options,
-                     const Scene      &scene_,
+                     const Scene      &of_run,
                      const bool        points_move_,
                      const bool        points_leave_)
   {
-    scene        = &scene_;
     points_move  = points_move_;
     points_leave = points_leave_;
-    make_folder(options);
+    begin(options, of_run);
     if (const auto &load = scene->observation.reference)
       reference_case.set_default("limit_load/value", *load);
     fields = std::make_unique<Fields>(fields_format);
 
     add_load_columns();
     add_solver_columns();
-    add_energy_columns();
-    if (touches())
+    add_balance_columns();
+    if (scene->has_contact())
       add_contact_columns();
     table.add("energy identity error (-)",
               [](const Record &r) { return r.last.identity_error; });
     add_observed_columns();
+    add_pressure_columns();
+    open_table("statistics.csv");
     if (!writes)
       return;
-    statistics.open(path + "/statistics.csv", table.names(), resumes);
     newton.open(path + "/newton.csv",
                 {"step",
                  "time (s)",
@@ -59,17 +51,15 @@ namespace geocone::GEOCONE_DIM
   void
   RunOutput::add_load_columns()
   {
-    table.add("step", [](const Record &r) { return r.step; });
-    table.add("time (s)", [](const Record &r) { return r.time; });
-    table.add("displacement (m)",
-              [](const Record &r) { return r.displacement; });
-    table.add(unit("load (N/m)"), [](const Record &r) { return r.load; });
-    const Observation &observation = scene->observation;
-    const auto         supports    = scene->supports();
-    for (unsigned int i = 0; i < dim * observation.conditions.size(); ++i)
-      table.add("reaction " + supports[observation.conditions[i / dim]] + " " +
-                  coordinate[i % dim] + unit(" (N/m)"),
-                [i](const Record &r) { return r.reactions[i]; });
+    add_time_columns();
+    add("displacement (m)", [](const Record &r) { return r.displacement; });
+    add("load (N/m)", [](const Record &r) { return r.load; });
+    const auto supports = scene->supports();
+    for (const unsigned int c : scene->observation.conditions)
+      for (unsigned int d = 0; d < dim; ++d)
+        table.add(
+          "reaction " + supports[c] + " " + coordinate[d] + unit(" (N/m)"),
+          [c, d](const Record &r) { return r.last.reactions[c].force[d]; });
     if (scene->loading.reduces_strength())
       table.add("strength factor (-)", [this](const Record &r) {
         return scene->loading.strength_factor(r.time);
@@ -116,8 +106,7 @@ namespace geocone::GEOCONE_DIM
     table.add("apex points (-)", [](const Record &r) {
       return r.last.newton.table.back().n_apex;
     });
-    table.add("largest plastic strain (-)",
-              [](const Record &r) { return r.last.largest_plastic_strain; });
+    add_strain_columns();
     table.add("unknowns (-)", [](const Record &r) { return r.last.unknowns; });
     table.add("multipliers (-)",
               [](const Record &r) { return r.last.multipliers; });
@@ -126,35 +115,26 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  RunOutput::add_energy_columns()
+  RunOutput::add_balance_columns()
   {
-    const auto add_energy = [&](const std::string &column,
-                                double Energies::*member) {
-      table.add(unit(column),
-                [member](const Record &r) { return r.last.energies.*member; });
-    };
     // Sums over the run, of which a record has the step's part only.
     const auto add_work = [&](const std::string &column,
                               double Works::*member) {
-      table.add(unit(column), [this, member](const Record &) {
-        return balance.works().*member;
-      });
+      add(column,
+          [this, member](const Record &) { return balance.works().*member; });
     };
-    add_energy("kinetic energy (J/m)", &Energies::kinetic);
-    add_energy("elastic energy (J/m)", &Energies::elastic);
-    add_energy("potential energy (J/m)", &Energies::potential);
+    add_energy_columns(true);
     add_work("plastic dissipation (J/m)", &Works::dissipation);
     add_work("external work (J/m)", &Works::external);
-    if (touches())
+    if (scene->has_contact())
       add_work("contact dissipation (J/m)", &Works::contact_dissipation);
-    table.add(unit("total energy (J/m)"),
-              [this](const Record &) { return balance.total(); });
+    add("total energy (J/m)",
+        [this](const Record &) { return balance.total(); });
     if (scene->loading.changes_body() || points_leave)
-      table.add(unit("removed energy (J/m)"),
-                [this](const Record &) { return balance.removed(); });
-    table.add(unit("numerical loss (J/m)"),
-              [this](const Record &) { return balance.loss(); });
-    if (remembers())
+      add("removed energy (J/m)",
+          [this](const Record &) { return balance.removed(); });
+    add_loss_columns();
+    if (scene->materials.traits().remembers())
       add_work("work of friction memory (J/m)", &Works::of_excess);
     if (points_move)
       add_work("work of ghost stiffness (J/m)", &Works::of_ghosts);
@@ -174,19 +154,8 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  RunOutput::add_observed_columns()
+  RunOutput::add_pressure_columns()
   {
-    add_observations(
-      table,
-      scene->observation,
-      scene->supports(),
-      scene->geometry,
-      [](const Record &r, const unsigned int i, const unsigned int axis) {
-        return r.moments[n_rotations * i + axis];
-      },
-      [](const Record &r, const unsigned int i, const unsigned int d) {
-        return r.displacements[i][d];
-      });
     if (scene->materials.traits().undrained)
       for (unsigned int i = 0; i < scene->observation.points.size(); ++i)
         table.add(
@@ -198,8 +167,8 @@ namespace geocone::GEOCONE_DIM
   void
   RunOutput::state_of_run(StateRow &row)
   {
-    OutputBase::state_of_run(row);
-    row(newton, *fields, records, balance, n_load_jumps);
+    SceneOutput::state_of_run(row);
+    row(newton, *fields, n_load_jumps);
   }
 
   void
@@ -246,22 +215,21 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  RunOutput::add_step(const StepRecord &record)
+  RunOutput::add_step(const ImplicitRecord &record)
   {
     balance.add_step(
       record.last.energies, record.last.of_lost, record.last.works);
-    const std::vector<double> line = table.line(record);
-    records.push_back(record);
+    add_record(record);
     records.back().last.newton.table.clear(); // only the numbers are kept
-    if (writes)
-      statistics.add_line(line);
     warn_of_jump();
     balance.warn_if_created(
       log, record.time, unit("J/m"), 0., "take smaller steps");
   }
 
   bool
-  moves_on(const StepRecord &a, const StepRecord &b, const StepRecord &c)
+  moves_on(const ImplicitRecord &a,
+           const ImplicitRecord &b,
+           const ImplicitRecord &c)
   {
     return !b.resets && !c.resets &&
            (b.displacement - a.displacement) *
@@ -277,9 +245,9 @@ namespace geocone::GEOCONE_DIM
     const std::size_t n = records.size();
     if (n < 3 || !scene->observation.has_load())
       return;
-    const StepRecord &a = records[n - 3], &b = records[n - 2],
-                     &c = records[n - 1];
-    const double around = (a.load + c.load) / 2.;
+    const ImplicitRecord &a = records[n - 3], &b = records[n - 2],
+                         &c = records[n - 1];
+    const double around     = (a.load + c.load) / 2.;
     if (!moves_on(a, b, c) ||
         std::abs(c.load - a.load) > 0.25 * std::abs(around) ||
         std::abs(b.load - around) <= 0.5 * std::abs(around))
@@ -313,17 +281,5 @@ namespace geocone::GEOCONE_DIM
       path, time, mesh, space, points, scene->materials, kinematics);
     fields->write_obstacles(
       path, time, mesh, scene->obstacles, moved_obstacles);
-  }
-
-  bool
-  RunOutput::touches() const
-  {
-    return scene->has_contact();
-  }
-
-  bool
-  RunOutput::remembers() const
-  {
-    return scene->materials.traits().remembers();
   }
 } // namespace geocone::GEOCONE_DIM

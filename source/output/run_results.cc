@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 // The results of a run: its summary, and what is printed of it.
-#include <geocone/output/observation_columns.h>
 #include <geocone/output/run_output.h>
 
 #include <cmath>
@@ -22,8 +21,8 @@ namespace geocone::GEOCONE_DIM
     double first = 0., last = 0.;
     for (std::size_t i = 1; i < records.size(); ++i)
       {
-        const StepRecord &now = records[i], &before = records[i - 1];
-        const double      reduction = scene->loading.strength_factor(now.time) -
+        const ImplicitRecord &now = records[i], &before = records[i - 1];
+        const double reduction = scene->loading.strength_factor(now.time) -
                                  scene->loading.strength_factor(before.time);
         if (!(reduction > 0.))
           continue;
@@ -77,7 +76,7 @@ namespace geocone::GEOCONE_DIM
   RunOutput::contact() const
   {
     ContactReport worst;
-    for (const StepRecord &record : records)
+    for (const ImplicitRecord &record : records)
       worst.take_worse(record.last.contact);
     const ContactReport last =
       records.empty() ? ContactReport() : records.back().last.contact;
@@ -109,7 +108,7 @@ namespace geocone::GEOCONE_DIM
     const double dissipation = balance.works().dissipation;
     if (n > 1 && scene->observation.has_load())
       {
-        const StepRecord &a = records[n - 2], &b = records[n - 1];
+        const ImplicitRecord &a = records[n - 2], &b = records[n - 1];
         if (b.time > a.time && b.load != 0.)
           delay = tau * (b.load - a.load) / (b.time - a.time) / b.load;
       }
@@ -124,7 +123,7 @@ namespace geocone::GEOCONE_DIM
   RunOutput::motion() const
   {
     Motion worst;
-    for (const StepRecord &record : records)
+    for (const ImplicitRecord &record : records)
       worst.take_worse(record.last.motion);
     const Works             &works = balance.works();
     const dealii::Point<dim> front =
@@ -134,8 +133,8 @@ namespace geocone::GEOCONE_DIM
     unsigned int n_drops = 0;
     for (std::size_t i = 1; i + 1 < records.size(); ++i)
       {
-        const StepRecord &a = records[i - 1], &b = records[i],
-                         &c = records[i + 1];
+        const ImplicitRecord &a = records[i - 1], &b = records[i],
+                             &c = records[i + 1];
         n_drops += moves_on(a, b, c) &&
                    std::abs(b.load) <
                      0.95 * std::min(std::abs(a.load), std::abs(c.load));
@@ -189,7 +188,7 @@ namespace geocone::GEOCONE_DIM
   {
     std::vector<LoadPoint> curve;
     double                 offset = 0.;
-    for (const StepRecord &record : records)
+    for (const ImplicitRecord &record : records)
       {
         // A reset of the displacement is no step of the curve.
         if (record.resets && !curve.empty())
@@ -220,28 +219,13 @@ namespace geocone::GEOCONE_DIM
   }
 
   Json
-  RunOutput::energy() const
-  {
-    Json json =
-      balance.json([this](const std::string &name) { return unit(name); },
-                   scene->gravity.is_ramped());
-    json[unit("elastic_J_per_m")]     = records.back().last.energies.elastic;
-    json[unit("dissipation_J_per_m")] = balance.works().dissipation;
-    double identity                   = 0.;
-    for (const StepRecord &record : records)
-      identity = std::max(identity, record.last.identity_error);
-    json["identity_error_max"] = identity;
-    return json;
-  }
-
-  Json
   RunOutput::results() const
   {
     unsigned int iterations = 0, most = 0, substeps = 0, failures = 0,
                  regularised = 0, lagging = 0, at_floor = 0;
     Quality quality;
-    double  residual = 0., lag = 0.;
-    for (const StepRecord &record : records)
+    double  residual = 0., lag = 0., identity = 0.;
+    for (const ImplicitRecord &record : records)
       {
         regularised += record.regularised;
         iterations += record.iterations;
@@ -253,13 +237,20 @@ namespace geocone::GEOCONE_DIM
         lag      = std::max(lag, record.last.newton.friction_lag);
         lagging += record.last.newton.friction_lag > 0.;
         at_floor += record.last.newton.at_rounding_floor;
+        identity = std::max(identity, record.last.identity_error);
       }
 
     Json json;
     if (scene->observation.has_load())
       json["limit_load"] = limit_load();
     if (!records.empty())
-      add_points(records.back().displacements, records.back().pressures, json);
+      {
+        const auto &pressures = records.back().pressures;
+        for (unsigned int i = 0; i < pressures.size(); ++i)
+          json["points"][format("excess_pore_pressure_%u_Pa", i + 1)] =
+            finite_or_null(pressures[i]);
+        add_points(json);
+      }
     json["newton"] = {
       {"steps", records.size()},
       {"substeps", substeps},
@@ -274,9 +265,9 @@ namespace geocone::GEOCONE_DIM
       {"steps_at_rounding_floor", at_floor},
       {"steps_with_friction_lag", lagging},
       {"friction_lag_max", lag}};
-    if (remembers())
+    if (scene->materials.traits().remembers())
       json["friction_memory"] = friction_memory();
-    if (touches())
+    if (scene->has_contact())
       json["contact"] = contact();
     if (points_move)
       json["motion"] = motion();
@@ -296,63 +287,55 @@ namespace geocone::GEOCONE_DIM
              {"exact_natural_map_error_max", quality.exact_natural_map}});
     if (!records.empty())
       {
-        json["state"]  = {{"largest_plastic_strain",
-                           records.back().last.largest_plastic_strain}};
-        json["energy"] = energy();
+        const StepReport &last = records.back().last;
+        json["state"]          = {
+                   {"largest_plastic_strain", last.largest_plastic_strain}};
+        Json &topic                        = json["energy"];
+        topic                              = energy(scene->gravity.is_ramped());
+        topic[unit("elastic_J_per_m")]     = last.energies.elastic;
+        topic[unit("dissipation_J_per_m")] = dissipation;
+        topic["identity_error_max"]        = identity;
       }
+    add_outcome(json);
     return json;
   }
 
   void
-  RunOutput::write_summary(const std::string &status,
-                           const Json        &size,
-                           const Json        &cost)
+  RunOutput::add_outcome(Json &json) const
   {
-    if (!writes)
-      return;
-    summary = Json{{"name", name}, {"status", status}};
-    summary.update(results());
     if (scene->loading.reduces_strength())
-      summary["safety"] = safety();
+      json["safety"] = safety();
     if (bracket)
       {
-        summary["bounds"] = bracket->bounds();
+        json["bounds"] = bracket->bounds();
         if (!bracket->is_associated)
           {
-            Json      &topic     = summary["non_associated"];
-            const auto load      = bracketed_load();
+            Json      &topic     = json["non_associated"];
+            const auto load      = bracketed_load(json);
             topic                = bracket->non_associated();
             topic["incremental"] = load ? Json(*load) : Json();
           }
       }
-    if (field_errors)
-      {
-        // Where the exact field is zero there is no relative error.
-        const auto relative = [](const double error) {
-          return std::isfinite(error) ? Json(error) : Json();
-        };
-        summary["field_errors"] = {
-          {"displacement", relative(field_errors->displacement)},
-          {"stress", relative(field_errors->stress)}};
-      }
+    if (
+      field_errors) // where the exact field is zero there is no relative error
+      json["field_errors"] = {
+        {"displacement", finite_or_null(field_errors->displacement)},
+        {"stress", finite_or_null(field_errors->stress)}};
     if (failure)
-      summary["failure"] = {{"stage", failure->stage},
-                            {"carried_until_s", failure->carried_until},
-                            {"not_until_s", failure->not_until},
-                            {"reason", failure->reason}};
-    summary["size"] = size;
-    summary["cost"] = cost;
-    write_summary_file();
+      json["failure"] = {{"stage", failure->stage},
+                         {"carried_until_s", failure->carried_until},
+                         {"not_until_s", failure->not_until},
+                         {"reason", failure->reason}};
   }
 
   std::optional<double>
-  RunOutput::bracketed_load() const
+  RunOutput::bracketed_load(const Json &of_run) const
   {
     if (!bracket || bracket->unit != unit("N/m") ||
-        !summary.contains("limit_load") ||
-        summary["limit_load"]["value"].is_null())
+        !of_run.contains("limit_load") ||
+        of_run["limit_load"]["value"].is_null())
       return std::nullopt;
-    return summary["limit_load"]["value"].get<double>();
+    return of_run["limit_load"]["value"].get<double>();
   }
 
   void
@@ -405,7 +388,7 @@ namespace geocone::GEOCONE_DIM
         summary["quality"]["cone_excess_max_Pa"].get<double>(),
         100. * summary["quality"]["excess_work_relative"].get<double>(),
         100. * summary["quality"]["excess_work_step_max"].get<double>()));
-    if (remembers())
+    if (scene->materials.traits().remembers())
       warn_of_memory();
     if (summary.contains("safety"))
       print_safety();
@@ -414,17 +397,22 @@ namespace geocone::GEOCONE_DIM
     if (bracket)
       {
         log.print(bracket->text());
-        if (const auto load = bracketed_load())
+        if (const auto load = bracketed_load(summary))
           log.print(bracket->beside(*load));
       }
     if (field_errors)
       log.print(format("relative L2 errors: displacement %.3e, stress %.3e",
                        field_errors->displacement,
                        field_errors->stress));
-    if (report_for_tests == Report::expectations)
-      write_file("output", [](std::ostream &) {});
-    else if (report_for_tests != Report::none)
-      write_file("output", [&](std::ostream &out) { report_loads(out); });
+    const Json &cost  = summary["cost"];
+    const Json &ratio = cost["ratio_to_factorise_and_solve"];
+    log.print(format(
+      "%.1f s in all; step loop %.2f s = %.2f x its factorisations and solves; "
+      "%.0f MB at most",
+      cost["total_s"].get<double>(),
+      cost["step_loop_s"].get<double>(),
+      ratio.is_null() ? 0. : ratio.get<double>(),
+      cost["peak_memory_MB"].get<double>()));
   }
 
   bool
@@ -496,10 +484,10 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  RunOutput::report_loads(std::ostream &out) const
+  RunOutput::report_results(std::ostream &out) const
   {
     out << "time [s]  displacement [mm]  load [" << unit("N/m") << "]\n";
-    for (const StepRecord &record : records)
+    for (const ImplicitRecord &record : records)
       out << format("%.6g %.6g %.8g\n",
                     record.time,
                     1e3 * record.displacement,

@@ -86,26 +86,22 @@ namespace geocone::GEOCONE_DIM
   void
   ExplicitSimulation::record_step(const Stage &, const Place &place)
   {
-    state = stepper.state();
-    explicit_output.add_record(
-      {place.step,
-       place.time,
-       step_loop.last_cpu_time(),
-       report,
-       state,
-       stepper.exchange(),
-       observed_points.displacements(stepper.points())});
+    state           = stepper.state();
+    state.reactions = std::move(report.reactions);
+    explicit_output.add_step({{place.step,
+                               place.time,
+                               state,
+                               observed_points.displacements(stepper.points())},
+                              step_loop.last_cpu_time(),
+                              report,
+                              stepper.exchange()});
   }
 
   std::string
   ExplicitSimulation::progress_of_step() const
   {
-    return format("%lu explicit steps  kinetic energy = %.3g %s  plastic "
-                  "strain <= %.3g",
-                  stepper.n_steps,
-                  state.kinetic,
-                  scene.geometry.unit("J/m").c_str(),
-                  state.largest_plastic_strain);
+    return format("%lu explicit steps  ", stepper.n_steps) +
+           explicit_output.text_of_motion(state);
   }
 
   void
@@ -120,23 +116,20 @@ namespace geocone::GEOCONE_DIM
     explicit_output.write_points(t, stepper.points());
   }
 
-  void
-  ExplicitSimulation::write_summary(const std::string &status)
+  Json
+  ExplicitSimulation::topics()
   {
-    explicit_output.write_summary(status, stepper.law_counts(), size(), cost());
-  }
-
-  void
-  ExplicitSimulation::finish(const double)
-  {
-    write_summary("finished");
-    explicit_output.print_result();
-    const Json costs = cost();
-    log.print(format("%.1f s in all; %.1f ns per point and step (CPU, all "
-                     "ranks), %.0f bytes per point",
-                     costs["total_s"].get<double>(),
-                     costs["cpu_ns_per_point_step"].get<double>(),
-                     costs["bytes_per_point"].get<double>()));
+    Json json    = explicit_output.results(stepper.law_counts());
+    json["size"] = {{"method", method.name()},
+                    {"element", stepper.element()},
+                    {"cells", stepper.grid().n_cells()},
+                    {"nodes", stepper.grid().n_all_nodes()},
+                    {"points", state.n_points},
+                    {"ranks", Utilities::MPI::n_mpi_processes(comm)},
+                    {"imbalance", imbalance(stepper.n_points_of_rank(), comm)},
+                    {"repartitions", stepper.grid().n_repartitions()}};
+    json["cost"] = cost();
+    return json;
   }
 
   void
@@ -150,19 +143,6 @@ namespace geocone::GEOCONE_DIM
   {
     stepper.load(archive);
     state = stepper.state();
-  }
-
-  Json
-  ExplicitSimulation::size() const
-  {
-    return {{"method", method.name()},
-            {"element", stepper.element()},
-            {"cells", stepper.grid().n_cells()},
-            {"nodes", stepper.grid().n_all_nodes()},
-            {"points", state.n_points},
-            {"ranks", Utilities::MPI::n_mpi_processes(comm)},
-            {"imbalance", imbalance(stepper.n_points_of_rank(), comm)},
-            {"repartitions", stepper.grid().n_repartitions()}};
   }
 
   Json

@@ -508,14 +508,6 @@ namespace geocone::GEOCONE_DIM
   {
     const Observation &observation = scene.observation;
     present.resets = place.in_stage == 1 && stage.reset_displacement;
-    for (const unsigned int c : observation.conditions)
-      {
-        const Reaction &reaction = present.last.reactions[c];
-        for (unsigned int d = 0; d < dim; ++d)
-          present.reactions.push_back(reaction.force[d]);
-        for (unsigned int axis = 0; axis < n_rotations; ++axis)
-          present.moments.push_back(reaction.moment[axis]);
-      }
     present.displacements =
       observed_points.displacements(points, kinematics.displacement);
     if (scene.materials.traits().undrained)
@@ -528,12 +520,11 @@ namespace geocone::GEOCONE_DIM
       }
     else if (!observation.conditions.empty())
       {
-        const double sign = observation.factor < 0. ? -1. : 1.;
-        present.displacement =
-          sign *
-          kinematics.supports[observation.conditions[0]][observation.component];
-        present.load =
-          observation.factor * present.reactions[observation.component];
+        const double       sign = observation.factor < 0. ? -1. : 1.;
+        const unsigned int c    = observation.conditions[0];
+        const unsigned int d    = observation.component;
+        present.displacement    = sign * kinematics.supports[c][d];
+        present.load = observation.factor * present.last.reactions[c].force[d];
       }
     run_output.add_step(present);
   }
@@ -541,16 +532,12 @@ namespace geocone::GEOCONE_DIM
   std::string
   ImplicitSimulation::progress_of_step() const
   {
-    const std::string result =
-      !scene.observation.has_load()
-        ? format("kinetic energy = %.3g %s  plastic strain <= %.3g",
-                 present.last.energies.kinetic,
-                 scene.geometry.unit("J/m").c_str(),
-                 present.last.largest_plastic_strain)
-        : format("u = %.4g mm  load = %.1f %s",
-                 1e3 * present.displacement,
-                 present.load,
-                 scene.geometry.unit("N/m").c_str());
+    const std::string result = !scene.observation.has_load()
+                                 ? run_output.text_of_motion(present.last)
+                                 : format("u = %.4g mm  load = %.1f %s",
+                                          1e3 * present.displacement,
+                                          present.load,
+                                          scene.geometry.unit("N/m").c_str());
     return result + format("  %u iterations%s",
                            present.iterations,
                            present.last.newton.friction_lag > 0.
@@ -565,10 +552,23 @@ namespace geocone::GEOCONE_DIM
       t, mesh, space, points, kinematics, stepper->moved_obstacles());
   }
 
-  void
-  ImplicitSimulation::write_summary(const std::string &status)
+  Json
+  ImplicitSimulation::topics()
   {
-    run_output.write_summary(status, size(), cost());
+    Json json    = run_output.results();
+    json["size"] = {
+      {"method", method.name()},
+      {"element", space.element()},
+      {"cells", mesh.triangulation().n_global_active_cells()},
+      {"dofs", stepper->n_unknowns()},
+      {"points", Utilities::MPI::sum(points.n_points(), comm)},
+      {"lost_points", stepper->n_lost()},
+      {"nonzeros", Utilities::MPI::sum(stepper->n_nonzeros(), comm)},
+      {"ranks", Utilities::MPI::n_mpi_processes(comm)},
+      {"imbalance", imbalance(points.n_points(), comm)},
+      {"repartitions", stepper->n_repartitions()}};
+    json["cost"] = cost();
+    return json;
   }
 
   void
@@ -582,18 +582,6 @@ namespace geocone::GEOCONE_DIM
                               kinematics.displacement,
                               stepper->has_moving_points(),
                               t));
-    write_summary("finished");
-    run_output.print_result();
-    const Json costs = cost();
-    log.print(format(
-      "%.1f s in all; step loop %.2f s = %.2f x its factorisations and solves; "
-      "%.0f MB at most",
-      costs["total_s"].get<double>(),
-      costs["step_loop_s"].get<double>(),
-      costs["ratio_to_factorise_and_solve"].is_null()
-        ? 0.
-        : costs["ratio_to_factorise_and_solve"].get<double>(),
-      costs["peak_memory_MB"].get<double>()));
   }
 
   void
@@ -631,21 +619,6 @@ namespace geocone::GEOCONE_DIM
     if (!method.is_mpm())
       load_nodes(archive, "displacement", mesh, space, kinematics.displacement);
     stepper->load(archive, points);
-  }
-
-  Json
-  ImplicitSimulation::size() const
-  {
-    return {{"method", method.name()},
-            {"element", space.element()},
-            {"cells", mesh.triangulation().n_global_active_cells()},
-            {"dofs", stepper->n_unknowns()},
-            {"points", Utilities::MPI::sum(points.n_points(), comm)},
-            {"lost_points", stepper->n_lost()},
-            {"nonzeros", Utilities::MPI::sum(stepper->n_nonzeros(), comm)},
-            {"ranks", Utilities::MPI::n_mpi_processes(comm)},
-            {"imbalance", imbalance(points.n_points(), comm)},
-            {"repartitions", stepper->n_repartitions()}};
   }
 
   Json

@@ -46,6 +46,9 @@ namespace geocone::GEOCONE_DIM
           record_start();
         follow_programme();
         finish(place.time);
+        write_summary("finished");
+        output().print_result();
+        output().report();
       }
     catch (const std::exception &error)
       {
@@ -125,6 +128,12 @@ namespace geocone::GEOCONE_DIM
                    format("  %.0f s left",
                           total.wall_time() / (place.step - first_step) *
                             (n_steps - place.step)));
+  }
+
+  void
+  Simulation::write_summary(const std::string &status)
+  {
+    output().write_summary(status, topics());
   }
 
   void

@@ -6,54 +6,106 @@
 
 #include <geocone/element/element_point.h>
 #include <geocone/output/output_base.h>
+#include <geocone/output/statistics_table.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace geocone::GEOCONE_DIM
 {
-  /** The folder of an element test: path.csv, surfaces.csv, summary.json. */
+  /** The point after an accepted increment, or at the start. */
+  struct ElementRecord
+  {
+    unsigned int increment   = 0;
+    unsigned int stage       = 0; ///< from 1; 0: the start
+    Tensor6      strain      = {};
+    Tensor6      stress      = {}; ///< (Pa)
+    double       strain_path = 0.; ///< sum of the norms of the increments
+    std::vector<double> shown;     ///< ElementPoint::values()
+    unsigned long long  substeps = 0, forced = 0; ///< of the increment
+
+    double
+    volumetric_strain() const
+    {
+      return strain[0] + strain[1] + strain[2];
+    }
+
+    /** eps_q = sqrt(2/3) ||dev eps||. */
+    double
+    deviatoric_strain() const;
+  };
+
+  /** The folder of an element test: path.csv, surfaces.csv, summary.json. Records, which
+   *  may be millions, are not kept. */
   class ElementOutput : public OutputBase
   {
   public:
-    ElementOutput(const MPI_Comm comm, Log &log);
+    using OutputBase::OutputBase;
+
+    /** Names the columns of path.csv. @param volume specific volume at the start (-) */
+    void
+    add_columns(const ElementPoint &point, const double volume);
 
     /** Makes the folder. @throws InputError */
     void
-    prepare(const RunOptions &options, const std::vector<std::string> &columns);
+    prepare(const RunOptions &options);
 
-    /** A line of path.csv: an accepted increment, or the start. */
+    /** Adds a line to path.csv. */
     void
-    add_line(const std::vector<double> &values);
+    add_line(const ElementRecord &record);
 
-    /** The state at the end of a stage; the start has no name. */
+    const std::vector<std::string> &
+    columns() const
+    {
+      return names;
+    }
+
+    /** The last line. */
+    const std::vector<double> &
+    last_line() const
+    {
+      return last;
+    }
+
+    /** The value of a column in the last line. */
+    double
+    value_of(const std::string &column) const;
+
+    /** Lets the last line be the state at the end of a stage. */
     void
-    add_stage(const std::string &name, const std::vector<double> &values);
+    end_stage(const std::string &name)
+    {
+      stages.emplace_back(name, last);
+    }
 
     /** Lines of surfaces.csv. @param state 0 for the start, 1 for the end */
     void
     add_yield_curves(const unsigned int             state,
                      const std::vector<YieldCurve> &curves);
 
-    /** Writes summary.json. @param topics what is put beside the states */
+    /** Adds the states to the topics of the summary. */
     void
-    write_summary(const std::string &status, const Json &topics);
+    add_states(Json &summary) const;
 
     void
     state_of_run(StateRow &row) override;
 
-    /** The report for tests, if it is wanted; expectations come after it. */
-    void
-    report() const;
-
   private:
-    Json
-    state(const std::vector<double> &values) const;
+    void
+    report_results(std::ostream &out) const override;
 
-    std::vector<std::string> columns;
-    CsvFile                  surface_table;
-    unsigned int             n_lines = 0;
-    Json                     start, last, stages, extremes;
+    StatisticsTable<ElementRecord> table;
+    std::vector<std::string>       names; ///< of its columns
+    CsvFile                        surface_table;
+
+    /** @name Lines of path.csv: the first and the last one, of stages the last ones, and
+     *  the extremes of each column */
+    /** @{ */
+    std::vector<double>                                      start, last;
+    std::vector<std::pair<std::string, std::vector<double>>> stages;
+    std::vector<double>                                      least, most;
+    /** @} */
   };
 } // namespace geocone::GEOCONE_DIM
 

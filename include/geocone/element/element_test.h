@@ -56,8 +56,8 @@ namespace geocone::GEOCONE_DIM
     progress(const Place &place) const override;
     void
     end(const Place &place) override;
-    void
-    write_summary(const std::string &status) override;
+    Json
+    topics() override;
     void
     finish(const double t) override;
     void
@@ -73,9 +73,6 @@ namespace geocone::GEOCONE_DIM
     const char *
     components_of_point() const;
 
-    std::vector<std::string>
-    columns() const;
-
     /** Enters the present state as a line of the table. */
     void
     add_line(const unsigned int stage);
@@ -84,17 +81,11 @@ namespace geocone::GEOCONE_DIM
     bool
     stops(const ElementStage &stage) const;
 
-    /** The value of a column in the last line. */
-    double
-    value_of(const std::string &column) const;
-
     void
     state(StateRow &row);
 
     void
     write_surfaces();
-    Json
-    topics() const;
 
     /** The component with the largest range of strain. */
     unsigned int
@@ -122,8 +113,6 @@ namespace geocone::GEOCONE_DIM
     double                        at = 0.;        ///< f in the stage
     Tensor6                       guess{};        ///< increment per unit of f
     std::vector<double>           positions; ///< f of the stage's increments
-    std::vector<std::string>      column_names;
-    std::vector<double>           last_line;
     double                        strain_path = 0., largest_p = 0.;
     unsigned int n_increments = 0, n_iterations = 0, n_cuts = 0;
     double       worst_residual = 0.;

@@ -15,6 +15,7 @@
 #include <geocone/points/seeding.h>
 #include <geocone/scene/scene.h>
 #include <geocone/space/space.h>
+#include <geocone/time_stepping/step_record.h>
 #include <geocone/transfer/grid_transfer.h>
 
 #include <functional>
@@ -25,22 +26,20 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** The state of the points at one time, of all ranks. */
-  struct ExplicitState
+  /** The state of the points at one time, of all ranks. Its reactions are those of the
+   *  ExplicitReport of the step. */
+  struct ExplicitState : StepEnd
   {
-    unsigned long          n_points  = 0;
-    double                 mass      = 0.; ///< (kg/m)
-    double                 volume    = 0.; ///< (m^2)
-    double                 kinetic   = 0.; ///< (J/m)
-    double                 potential = 0.; ///< from the lower corner (J/m)
-    dealii::Tensor<1, dim> momentum;       ///< (N s/m)
+    unsigned long          n_points = 0;
+    double                 mass     = 0.; ///< (kg/m)
+    double                 volume   = 0.; ///< (m^2)
+    dealii::Tensor<1, dim> momentum;      ///< (N s/m)
     /** About the axes of n_rotations through the origin. */
     dealii::Tensor<1, n_rotations> angular_momentum;
     dealii::Point<dim> lower, upper; ///< bounds of the positions (m)
     /** 1 and 99 % of the mass lie left of these (m). */
     double left_front = 0., right_front = 0.;
-    double largest_speed          = 0.;
-    double largest_plastic_strain = 0.;
+    double largest_speed = 0.; ///< (m/s)
 
     /** The point that limits the step, that with the fastest elastic wave: its
      *  number, place and wave speed. */
@@ -51,11 +50,10 @@ namespace geocone::GEOCONE_DIM
     void
     state(StateRow &row)
     {
+      StepEnd::state(row);
       row(n_points,
           mass,
           volume,
-          kinetic,
-          potential,
           momentum,
           angular_momentum,
           lower,
@@ -63,7 +61,6 @@ namespace geocone::GEOCONE_DIM
           left_front,
           right_front,
           largest_speed,
-          largest_plastic_strain,
           limiting_id,
           limiting_place,
           limiting_wave_speed);
@@ -82,10 +79,11 @@ namespace geocone::GEOCONE_DIM
     /** Mean force on the body per condition, and mean moment. */
     std::vector<Reaction> reactions;
 
+    /** Of a step that has not ended: without reactions. */
     void
     state(StateRow &row)
     {
-      row(n_steps, smallest_step, largest_step, unbalanced_force, reactions);
+      row(n_steps, smallest_step, largest_step, unbalanced_force);
     }
   };
 

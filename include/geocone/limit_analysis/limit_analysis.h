@@ -130,8 +130,8 @@ namespace geocone::GEOCONE_DIM
     progress(const Place &place) const override;
     void
     write_fields(const double t) override;
-    void
-    write_summary(const std::string &status) override;
+    Json
+    topics() override;
     void
     finish(const double t) override;
     void
@@ -156,9 +156,8 @@ namespace geocone::GEOCONE_DIM
     unsigned int most_levels   = 12;
     double       tolerance     = 1e-3;
 
-    std::optional<CellSizes> sizes;           ///< of the next mesh
-    double                  asked_cells = 0.; ///< of it, or 0 for the first one
-    std::vector<BoundLevel> levels;
+    std::optional<CellSizes> sizes; ///< of the next mesh
+    double asked_cells = 0.;        ///< of it, or 0 for the first one
 
     std::optional<std::array<double, 2>> davis; ///< of the last mesh
 

@@ -6,7 +6,7 @@
 
 #include <geocone/limit_analysis/certificate.h>
 #include <geocone/output/load_bracket.h>
-#include <geocone/output/output_base.h>
+#include <geocone/output/table_output.h>
 
 #include <memory>
 #include <optional>
@@ -19,6 +19,7 @@ namespace geocone::GEOCONE_DIM
    *  load. */
   struct BoundLevel
   {
+    unsigned int number = 0; ///< from 1
     unsigned int cells = 0, unknowns_upper = 0, unknowns_lower = 0;
     double       lower = 0., upper = 0., gap = 0.; ///< gap: upper/lower - 1
     bool         lower_certified = false, upper_certified = false;
@@ -53,19 +54,16 @@ namespace geocone::GEOCONE_DIM
 
   /** What is written of a limit analysis: bounds.csv, a line per level, the fields
    *  of the levels, and the summary. */
-  class LimitOutput : public OutputBase
+  class LimitOutput : public TableOutput<BoundLevel>
   {
   public:
-    LimitOutput(const MPI_Comm comm, Log &log);
+    using TableOutput::TableOutput;
 
     /** @param unit of the load, e.g. "N/m"; @param reference or nothing */
     void
     prepare(const RunOptions           &options,
             const std::string          &unit,
             const std::optional<double> reference);
-
-    void
-    add_level(const unsigned int number, const BoundLevel &level);
 
     /** Writes the triangles with both mechanisms and their part of the gap. */
     void
@@ -76,20 +74,17 @@ namespace geocone::GEOCONE_DIM
                  const Bound               &lower,
                  const std::vector<double> &gap);
 
-    void
-    write_summary(const std::string             &status,
-                  const std::vector<BoundLevel> &levels,
-                  const LoadBracket             &bracket,
-                  const Json                    &others);
-
-    /** What the file 'output' of tests has. */
-    void
-    report() const;
+    /** The topic "bounds" of the summary, of one level at least. */
+    Json
+    bounds(const LoadBracket &bracket) const;
 
     void
     state_of_run(StateRow &row) override;
 
   private:
+    void
+    report_results(std::ostream &out) const override;
+
     std::unique_ptr<FieldFiles> fields;
   };
 } // namespace geocone::GEOCONE_DIM

@@ -5,11 +5,8 @@
 #define geocone_output_explicit_output_h
 
 #include <geocone/explicit/explicit_mpm.h>
-#include <geocone/output/energy_balance.h>
 #include <geocone/output/field_files.h>
-#include <geocone/output/output_base.h>
-#include <geocone/output/statistics_table.h>
-#include <geocone/scene/scene.h>
+#include <geocone/output/scene_output.h>
 
 #include <memory>
 #include <string>
@@ -17,22 +14,18 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** The points and the balance at the end of a step of the loading programme. */
-  struct ExplicitRecord
+  /** A step of the loading programme, of many explicit ones. */
+  struct ExplicitRecord : StepRecord<ExplicitState>
   {
-    unsigned int   step = 0;
-    double         time = 0.;
-    double         cpu  = 0.; ///< CPU time of its explicit steps, this rank (s)
+    double         cpu = 0.; ///< CPU time of its explicit steps, this rank (s)
     ExplicitReport report;
-    ExplicitState  state;
     Exchange       exchange;
-    std::vector<dealii::Tensor<1, dim>> displacements; ///< of observed points
 
-    /** For checkpoints. */
     void
-    to_row(StateRow &row)
+    state(StateRow &row)
     {
-      row(step, time, cpu, report, state, exchange, displacements);
+      StepRecord::state(row);
+      row(cpu, report, exchange);
     }
   };
 
@@ -46,10 +39,10 @@ namespace geocone::GEOCONE_DIM
    *                       supports and damping,
    * which is zero up to rounding. Read only with respect to the state.
    */
-  class ExplicitOutput : public OutputBase
+  class ExplicitOutput : public SceneOutput<ExplicitRecord>
   {
   public:
-    ExplicitOutput(const MPI_Comm comm, Log &log);
+    using SceneOutput::SceneOutput;
 
     /** Makes the folder, or enters that of the run before. @throws InputError */
     void
@@ -62,32 +55,27 @@ namespace geocone::GEOCONE_DIM
     void
     set_initial(const ExplicitState &state);
 
-    /** Adds a line to statistics.csv. */
+    /** Adds a step to statistics.csv and to the balance of energy. */
     void
-    add_record(const ExplicitRecord &record);
+    add_step(const ExplicitRecord &record);
 
     /** Writes the points, if wanted. */
     void
     write_points(const double time, const std::vector<PointArrays> &groups);
 
-    /** Writes summary.json. @param status running | finished | failed: why */
-    void
-    write_summary(const std::string &status,
-                  const LawCounts   &counts,
-                  const Json        &size,
-                  const Json        &cost);
+    /** The topics of the summary: all that the steps have brought.
+     *  @param counts since the start, of all ranks */
+    Json
+    results(const LawCounts &counts) const;
 
-    /** Prints the result; in tests also a file `output` with all records. */
     void
-    print_result() const;
+    print_result() const override;
 
   private:
     using Record = ExplicitRecord;
 
     /** @name The columns of statistics.csv, with their units in plane strain */
     /** @{ */
-    void
-    add(const std::string &column, const StatisticsTable<Record>::Value &value);
     void
     add_step_columns();
     void
@@ -115,12 +103,8 @@ namespace geocone::GEOCONE_DIM
     dealii::Tensor<1, dim>
     momentum_residual(const ExplicitRecord &record) const;
 
-    /** As Geometry::unit(). */
-    std::string
-    unit(const std::string &in_plane_strain) const
-    {
-      return scene->geometry.unit(in_plane_strain);
-    }
+    void
+    report_results(std::ostream &out) const override;
 
     /** One of the values that laws show, of the points of a group; not a number
      *  where its law does not know it. */
@@ -129,15 +113,9 @@ namespace geocone::GEOCONE_DIM
          const PointArrays &group,
          double            *values) const;
 
-    const Scene            *scene = nullptr;
-    StatisticsTable<Record> table;
-
     ExplicitState               initial;
-    std::vector<ExplicitRecord> records;
     std::unique_ptr<FieldFiles> point_files;
-
-    EnergyBalance balance;
-    double        largest_impulse = 0.; ///< of all records, for scales
+    double largest_impulse = 0.; ///< of all records, for scales
   };
 } // namespace geocone::GEOCONE_DIM
 

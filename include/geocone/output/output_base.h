@@ -19,6 +19,7 @@
 #include <chrono>
 #include <exception>
 #include <functional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -86,6 +87,24 @@ namespace geocone::GEOCONE_DIM
 
     unsigned int verbosity = 1;
 
+    /** Writes summary.json, with the topics "run" and "warnings" of every run.
+     * @param status running | finished | failed: why
+     * @param topics those of the method, in their order
+     * @throws StepFailure if the run says that it has finished, but a number is
+     * not finite; the summary then says so, too
+     */
+    void
+    write_summary(const std::string &status, const Json &topics);
+
+    /** Prints the results of a run that has finished, from its last summary. */
+    virtual void
+    print_result() const
+    {}
+
+    /** Writes the file 'output' of tests, if asked for; expectations come after it. */
+    void
+    report() const;
+
     /** What the tables and the summary of the rest of the run need of what was
      *  before, for a checkpoint. */
     virtual void
@@ -99,13 +118,9 @@ namespace geocone::GEOCONE_DIM
     void
     make_folder(const RunOptions &options);
 
-    /**
-     * Writes summary.json, with the topics "run" and "warnings" of every run.
-     * @throws StepFailure if the run says that it has finished, but a number is
-     * not finite; the summary then says so, too
-     */
-    void
-    write_summary_file();
+    /** The results that tests compare. */
+    virtual void
+    report_results(std::ostream &out) const = 0;
 
     const MPI_Comm comm;
     const bool     writes; ///< whether this is the rank that writes tables
@@ -125,6 +140,7 @@ namespace geocone::GEOCONE_DIM
                                            {"hdf5", FieldsFormat::hdf5},
                                            {"both", FieldsFormat::both}}};
 
+  private:
     /** What the file 'output' of tests has. */
     enum class Report
     {
@@ -139,7 +155,6 @@ namespace geocone::GEOCONE_DIM
        {"states", Report::results},
        {"expectations", Report::expectations}}};
 
-  private:
     Choice<IfExists> if_exists = if_exists_choice();
 
     bool                     pictures = true;

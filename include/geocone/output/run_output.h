@@ -5,13 +5,11 @@
 #define geocone_output_run_output_h
 
 #include <geocone/base/parameter_file.h>
-#include <geocone/output/energy_balance.h>
 #include <geocone/output/exact_solution.h>
 #include <geocone/output/fields.h>
 #include <geocone/output/limit_load.h>
 #include <geocone/output/load_bracket.h>
-#include <geocone/output/output_base.h>
-#include <geocone/output/statistics_table.h>
+#include <geocone/output/scene_output.h>
 #include <geocone/time_stepping/time_stepper.h>
 
 #include <memory>
@@ -21,49 +19,42 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** An accepted step of the loading programme, with all its substeps. */
-  struct StepRecord
+  /** A step with all its substeps: the report is of the last one, works are of the
+   *  step. */
+  struct ImplicitRecord : StepRecord<StepReport>
   {
-    unsigned int        step         = 0;
-    unsigned int        substeps     = 0; ///< accepted
-    unsigned int        failures     = 0; ///< substeps tried in vain
-    unsigned int        iterations   = 0; ///< of all substeps, failed ones too
-    unsigned int        regularised  = 0; ///< Jacobians that needed a blend
-    bool                resets       = false; ///< displacements count from here
-    double              time         = 0.;
-    double              displacement = 0.;
-    double              load         = 0.;
-    double              raised       = 0.; ///< way of raised loads (m)
-    std::vector<double> reactions;         ///< of the observed conditions
-    std::vector<double> moments;           ///< of the same, n_rotations each
-    std::vector<dealii::Tensor<1, dim>> displacements; ///< of observed points
-    std::vector<double> pressures; ///< in excess, of the same in undrained soil
-    StepReport          last; ///< of the last substep; works are of the step
+    unsigned int substeps     = 0;     ///< accepted
+    unsigned int failures     = 0;     ///< substeps tried in vain
+    unsigned int iterations   = 0;     ///< of all substeps, failed ones too
+    unsigned int regularised  = 0;     ///< Jacobians that needed a blend
+    bool         resets       = false; ///< displacements count from here
+    double       displacement = 0.;    ///< of the load (m)
+    double       load         = 0.;    ///< (N/m)
+    double       raised       = 0.;    ///< way of raised loads (m)
+    std::vector<double>
+      pressures; ///< in excess, of observed points in undrained soil
 
     void
     state(StateRow &row)
     {
-      row(step,
-          substeps,
+      StepRecord::state(row);
+      row(substeps,
           failures,
           iterations,
           regularised,
           resets,
-          time,
           displacement,
           load,
           raised,
-          reactions,
-          moments,
-          displacements,
-          pressures,
-          last);
+          pressures);
     }
   };
 
   /** Whether what presses moves on in one direction over three records. */
   bool
-  moves_on(const StepRecord &a, const StepRecord &b, const StepRecord &c);
+  moves_on(const ImplicitRecord &a,
+           const ImplicitRecord &b,
+           const ImplicitRecord &c);
 
   /** How a stage ended that was to go on until failure. */
   struct Failure
@@ -75,14 +66,13 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * The folder of a run and what it holds: parameters.prm (as used),
-   * statistics.csv (a line per step), newton.csv (a line per iteration),
-   * summary.json, VTU series, log.txt. Read only with respect to the state.
+   * The folder of an implicit run: statistics.csv (a line per step), newton.csv (a line
+   * per iteration), summary.json, VTU series. Read only with respect to the state.
    */
-  class RunOutput : public OutputBase
+  class RunOutput : public SceneOutput<ImplicitRecord>
   {
   public:
-    RunOutput(const MPI_Comm comm, Log &log);
+    using SceneOutput::SceneOutput;
 
     /**
      * Makes the folder, or enters that of the run before.
@@ -120,9 +110,9 @@ namespace geocone::GEOCONE_DIM
                      const double       h,
                      const StepReport  &report);
 
-    /** Adds an accepted step to statistics.csv. */
+    /** Adds an accepted step to statistics.csv and to the balance of energy. */
     void
-    add_step(const StepRecord &record);
+    add_step(const ImplicitRecord &record);
 
     /** Writes fields, if wanted. */
     void
@@ -133,11 +123,9 @@ namespace geocone::GEOCONE_DIM
                  const Kinematics               &kinematics,
                  const std::vector<RigidMotion> &moved_obstacles);
 
-    /** Writes summary.json. @param status running | finished | failed: why */
-    void
-    write_summary(const std::string &status,
-                  const Json        &size,
-                  const Json        &cost);
+    /** The topics of the summary: all that the steps have brought. */
+    Json
+    results() const;
 
     /** Adds the errors against exact fields to the summaries to come. */
     void
@@ -157,12 +145,11 @@ namespace geocone::GEOCONE_DIM
     void
     set_failure(const Failure &failure);
 
-    /** Prints the result; in tests also a file `output` with all loads. */
     void
-    print_result() const;
+    print_result() const override;
 
   private:
-    using Record = StepRecord;
+    using Record = ImplicitRecord;
 
     /** @name The columns of statistics.csv */
     /** @{ */
@@ -171,21 +158,21 @@ namespace geocone::GEOCONE_DIM
     void
     add_solver_columns();
     void
-    add_energy_columns();
+    add_balance_columns();
     void
     add_contact_columns();
     void
-    add_observed_columns();
+    add_pressure_columns();
     /** @} */
 
-    /** @name The summary: all that the steps have brought, and some of its topics */
+    /** @name Topics of the summary */
     /** @{ */
-    Json
-    results() const;
+    /** The last ones: the factor of safety, bounds, errors and how the run failed. */
+    void
+    add_outcome(Json &json) const;
+
     Json
     limit_load() const;
-    Json
-    energy() const;
     Json
     safety() const;
 
@@ -205,28 +192,13 @@ namespace geocone::GEOCONE_DIM
     void
     print_limit_load() const;
 
-    /** What tests compare. */
     void
-    report_loads(std::ostream &out) const;
+    report_results(std::ostream &out) const override;
 
-    /** See Geometry::unit(). */
-    std::string
-    unit(const std::string &in_plane_strain) const
-    {
-      return scene->geometry.unit(in_plane_strain);
-    }
-
-    /** Whether the friction of some of the soil has a memory. */
-    bool
-    remembers() const;
-
-    /** Whether there are obstacles. */
-    bool
-    touches() const;
-
-    /** The load that stands beside the bracket, if there are both in one unit. */
+    /** The load of a summary that stands beside the bracket, if there are both in one
+     *  unit. */
     std::optional<double>
-    bracketed_load() const;
+    bracketed_load(const Json &of_run) const;
 
     /** Warns if the memory of friction has changed the result by more than about 1 %. */
     void
@@ -243,19 +215,15 @@ namespace geocone::GEOCONE_DIM
     void
     warn_of_jump();
 
-    const Scene                *scene = nullptr;
-    StatisticsTable<StepRecord> table;
-    CsvFile                     newton;
-    std::unique_ptr<Fields>     fields;
-    std::vector<StepRecord>     records;
-    std::optional<FieldErrors>  field_errors;
-    std::optional<Failure>      failure;
-    std::optional<LoadBracket>  bracket;
+    CsvFile                    newton;
+    std::unique_ptr<Fields>    fields;
+    std::optional<FieldErrors> field_errors;
+    std::optional<Failure>     failure;
+    std::optional<LoadBracket> bracket;
 
-    EnergyBalance balance;
-    bool          points_move  = false;
-    bool          points_leave = false;
-    unsigned int  n_load_jumps = 0;
+    bool         points_move  = false;
+    bool         points_leave = false;
+    unsigned int n_load_jumps = 0;
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -56,17 +56,13 @@ namespace geocone::GEOCONE_DIM
     }
     void
     write_fields(const double t) override;
-    void
-    write_summary(const std::string &status) override;
-    void
-    finish(const double t) override;
+    Json
+    topics() override;
     void
     save(Archive &archive) override;
     void
     load(const Archive &archive) override;
 
-    Json
-    size() const;
     Json
     cost() const;
 

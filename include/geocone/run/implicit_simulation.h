@@ -95,8 +95,8 @@ namespace geocone::GEOCONE_DIM
     has_fields_at_start() const override;
     void
     write_fields(const double t) override;
-    void
-    write_summary(const std::string &status) override;
+    Json
+    topics() override;
     void
     finish(const double t) override;
     void
@@ -131,8 +131,6 @@ namespace geocone::GEOCONE_DIM
     state(StateRow &row);
 
     Json
-    size() const;
-    Json
     cost() const;
 
     /** How many of them are: where the exact law has no solution nearby, smaller steps
@@ -162,10 +160,10 @@ namespace geocone::GEOCONE_DIM
     double         done       = 0.;    ///< of the present step (s)
     bool           is_in_step = false; ///< whether the step has begun
     /** Substeps that were halved in a row for SolverReport::exceeds. */
-    unsigned int halved_for_excess = 0;
-    StepRecord   present;      ///< of the present step, or the last one
-    double       reached = 0.; ///< time of the last substep solved (s)
-    double       raised  = 0.; ///< way of raised loads since a reset (m)
+    unsigned int   halved_for_excess = 0;
+    ImplicitRecord present;      ///< of the present step, or the last one
+    double         reached = 0.; ///< time of the last substep solved (s)
+    double         raised  = 0.; ///< way of raised loads since a reset (m)
     /** @} */
 
     dealii::TimerOutput timer;

@@ -123,12 +123,14 @@ namespace geocone::GEOCONE_DIM
     write_fields(const double)
     {}
 
-    virtual void
-    write_summary(const std::string &status) = 0;
+    /** The topics of the summary, in their order: results, size, cost. */
+    virtual Json
+    topics() = 0;
 
-    /** Adds to the results, prints them, and what they cost. @p t: the end */
+    /** Adds to the results of a run that has come to its end. @p t: the end */
     virtual void
-    finish(const double t) = 0;
+    finish(const double)
+    {}
 
     virtual void
     save(Archive &archive) = 0;
@@ -148,6 +150,10 @@ namespace geocone::GEOCONE_DIM
 
     void
     print_progress();
+
+    /** @param status running | finished | failed: why */
+    void
+    write_summary(const std::string &status);
 
     /** Writes what is due after a step, or not. */
     void

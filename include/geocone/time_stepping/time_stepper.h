@@ -8,7 +8,7 @@
 #include <geocone/contact/obstacle_contact.h>
 #include <geocone/lab/freezer.h>
 #include <geocone/newton/nonsmooth_newton.h>
-#include <geocone/time_stepping/energies.h>
+#include <geocone/time_stepping/step_record.h>
 
 #include <deal.II/base/timer.h>
 
@@ -59,18 +59,13 @@ namespace geocone::GEOCONE_DIM
   };
 
   /** What a step came to. Nothing has changed if it did not converge. */
-  struct StepReport
+  struct StepReport : StepEnd
   {
     bool         converged = false;
     SolverReport newton;
     Quality      quality;
-    Energies     energies; ///< at its end
-    Energies     of_lost;  ///< of particles that have left the mesh
-    Works        works;    ///< of the step
-
-    /** Forces on the body of each of Scene::supports() (N/m), and their moments
-     *  (N m/m). */
-    std::vector<Reaction> reactions;
+    Energies     of_lost; ///< of particles that have left the mesh
+    Works        works;   ///< of the step
 
     unsigned int unknowns    = 0;
     unsigned int multipliers = 0; ///< independent rows of H
@@ -85,9 +80,6 @@ namespace geocone::GEOCONE_DIM
     /** By which raised loads are multiplied at its end; 1: none are. */
     double load_factor = 1.;
 
-    /** Largest cumulative plastic strain of all points. */
-    double largest_plastic_strain = 0.;
-
     /**
      * Defect of the discrete energy identity of the step on the grid,
      *   dE_kin + dE_el + sum V s'(-z) + |v - vL|_M^2/2 + sum V ds'S ds/2 = work,
@@ -98,20 +90,18 @@ namespace geocone::GEOCONE_DIM
     void
     state(StateRow &row)
     {
+      StepEnd::state(row);
       row(converged,
           newton,
           quality,
-          energies,
           of_lost,
           works,
-          reactions,
           unknowns,
           multipliers,
           rows,
           motion,
           contact,
           load_factor,
-          largest_plastic_strain,
           identity_error);
     }
   };

@@ -1,0 +1,162 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_output_scene_output_h
+#define geocone_output_scene_output_h
+
+#include <geocone/output/energy_balance.h>
+#include <geocone/output/table_output.h>
+#include <geocone/scene/scene.h>
+
+#include <string>
+
+namespace geocone::GEOCONE_DIM
+{
+  /**
+   * The outputs of a run of a scene: the columns of statistics.csv and the topics of
+   * the summary that all methods share, each once.
+   * @tparam Record a StepRecord
+   */
+  template <typename Record>
+  class SceneOutput : public TableOutput<Record>
+  {
+  public:
+    using TableOutput<Record>::TableOutput;
+
+    void
+    state_of_run(StateRow &row) override
+    {
+      TableOutput<Record>::state_of_run(row);
+      row(balance);
+    }
+
+    /** Motion and flow of the body at the end of a step, for the line of progress. */
+    std::string
+    text_of_motion(const StepEnd &end) const
+    {
+      return format("kinetic energy = %.3g %s  plastic strain <= %.3g",
+                    end.energies.kinetic,
+                    unit("J/m").c_str(),
+                    end.largest_plastic_strain);
+    }
+
+  protected:
+    using TableOutput<Record>::table;
+    using TableOutput<Record>::records;
+
+    /** Makes the folder, or enters that of the run before. @throws InputError */
+    void
+    begin(const RunOptions &options, const Scene &of_run)
+    {
+      scene = &of_run;
+      this->make_folder(options);
+    }
+
+    /** See Geometry::unit(). */
+    std::string
+    unit(const std::string &in_plane_strain) const
+    {
+      return scene->geometry.unit(in_plane_strain);
+    }
+
+    /** Adds a column, named with its unit in plane strain. */
+    void
+    add(const std::string                             &column,
+        const typename StatisticsTable<Record>::Value &value,
+        const Finite                                   finite = Finite::must_be)
+    {
+      table.add(unit(column), value, finite);
+    }
+
+    /** @name Columns of all methods, in groups where each of them has its own between */
+    /** @{ */
+    void
+    add_time_columns()
+    {
+      add("step", [](const Record &r) { return r.step; });
+      add("time (s)", [](const Record &r) { return r.time; });
+    }
+
+    void
+    add_strain_columns()
+    {
+      add("largest plastic strain (-)",
+          [](const Record &r) { return r.last.largest_plastic_strain; });
+    }
+
+    /** @param knows_elastic whether the method knows Energies::elastic */
+    void
+    add_energy_columns(const bool knows_elastic)
+    {
+      add("kinetic energy (J/m)",
+          [](const Record &r) { return r.last.energies.kinetic; });
+      if (knows_elastic)
+        add("elastic energy (J/m)",
+            [](const Record &r) { return r.last.energies.elastic; });
+      add("potential energy (J/m)",
+          [](const Record &r) { return r.last.energies.potential; });
+    }
+
+    void
+    add_loss_columns()
+    {
+      add("numerical loss (J/m)",
+          [this](const Record &) { return balance.loss(); });
+    }
+
+    /** Moments of the observed conditions, but of a round body, which they do not turn,
+     *  and displacements of the observed points. */
+    void
+    add_observed_columns()
+    {
+      const Observation &observation = scene->observation;
+      const auto         supports    = scene->supports();
+      if (!scene->geometry.is_axisymmetric())
+        for (const unsigned int c : observation.conditions)
+          for (unsigned int axis = 0; axis < n_rotations; ++axis)
+            table.add(
+              "moment " + supports[c] +
+                (dim == 2 ? "" : " " + axis_of_rotation(axis)) +
+                unit(" (N m/m)"),
+              [c, axis](const Record &r) {
+                return r.last.reactions[c].moment[axis];
+              },
+              Finite::may_be);
+      for (unsigned int i = 0; i < observation.points.size(); ++i)
+        for (unsigned int d = 0; d < dim; ++d)
+          add(
+            format("displacement of point %u %c (m)", i + 1, coordinate[d]),
+            [i, d](const Record &r) { return r.displacements[i][d]; },
+            Finite::may_be);
+    }
+    /** @} */
+
+    /** @name Topics of all summaries */
+    /** @{ */
+    /** The observed displacements at the end, under "points". */
+    void
+    add_points(Json &summary) const
+    {
+      const auto &displacements = records.back().displacements;
+      for (unsigned int i = 0; i < displacements.size(); ++i)
+        for (unsigned int d = 0; d < dim; ++d)
+          summary["points"]
+                 [format("displacement_%u_%c_m", i + 1, coordinate[d])] =
+                   finite_or_null(displacements[i][d]);
+    }
+
+    /** @param weight_changes see EnergyBalance::json() */
+    Json
+    energy(const bool weight_changes) const
+    {
+      return balance.json(
+        [this](const std::string &name) { return unit(name); }, weight_changes);
+    }
+    /** @} */
+
+    const Scene  *scene = nullptr;
+    EnergyBalance balance;
+  };
+} // namespace geocone::GEOCONE_DIM
+
+#endif

@@ -1,0 +1,61 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_output_table_output_h
+#define geocone_output_table_output_h
+
+#include <geocone/output/output_base.h>
+#include <geocone/output/statistics_table.h>
+
+#include <string>
+#include <vector>
+
+namespace geocone::GEOCONE_DIM
+{
+  /** The outputs of a run that keeps its records, each a line of its table. */
+  template <typename Record>
+  class TableOutput : public OutputBase
+  {
+  public:
+    using OutputBase::OutputBase;
+
+    /** Adds a record and its line.
+     *  @throws StepFailure if a value of it is not finite, but must be */
+    void
+    add_record(const Record &record)
+    {
+      const std::vector<double> line = table.line(record);
+      records.push_back(record);
+      if (writes)
+        statistics.add_line(line);
+    }
+
+    /** All so far. */
+    const std::vector<Record> &
+    all_records() const
+    {
+      return records;
+    }
+
+    void
+    state_of_run(StateRow &row) override
+    {
+      OutputBase::state_of_run(row);
+      row(records);
+    }
+
+  protected:
+    /** Begins the table, of which all columns are known, in the folder. */
+    void
+    open_table(const std::string &file)
+    {
+      if (writes)
+        statistics.open(path + "/" + file, table.names(), resumes);
+    }
+
+    StatisticsTable<Record> table;
+    std::vector<Record>     records;
+  };
+} // namespace geocone::GEOCONE_DIM
+
+#endif
