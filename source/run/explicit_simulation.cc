@@ -68,23 +68,24 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ExplicitSimulation::begin_stage(const Stage &stage, const double t)
+  ExplicitSimulation::begin(const Place &place)
   {
-    for (const std::string &remark : stepper.begin_stage(stage, t))
+    const Stage &stage = stage_of(place);
+    for (const std::string &remark : stepper.begin_stage(stage, place.time))
       log.print("stage " + stage.name + ": " + remark);
   }
 
   Simulation::Ended
-  ExplicitSimulation::advance_step(const Stage &stage,
-                                   const Place &place,
-                                   const double h)
+  ExplicitSimulation::advance(Place &place)
   {
-    report = stepper.advance(stage, place.time, h);
+    const double h = step_size(place);
+    report         = stepper.advance(stage_of(place), place.time, h);
+    place.time += h;
     return Ended::well;
   }
 
   void
-  ExplicitSimulation::record_step(const Stage &, const Place &place)
+  ExplicitSimulation::record(const Place &place)
   {
     state           = stepper.state();
     state.reactions = std::move(report.reactions);
@@ -98,16 +99,17 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::string
-  ExplicitSimulation::progress_of_step() const
+  ExplicitSimulation::progress(const Place &place) const
   {
-    return format("%lu explicit steps  ", stepper.n_steps) +
+    return format(
+             "t = %.4g s  %lu explicit steps  ", place.time, stepper.n_steps) +
            explicit_output.text_of_motion(state);
   }
 
   void
-  ExplicitSimulation::end_stage(const Stage &stage)
+  ExplicitSimulation::end(const Place &place)
   {
-    stepper.check_equilibrium(stage, state, report);
+    stepper.check_equilibrium(stage_of(place), state, report);
   }
 
   void

@@ -294,15 +294,10 @@ namespace geocone::GEOCONE_DIM
                   stepper->linear_solver_name().c_str());
   }
 
-  bool
-  ImplicitSimulation::has_fields_at_start() const
-  {
-    return method.is_mpm();
-  }
-
   void
-  ImplicitSimulation::begin_stage(const Stage &stage, const double t)
+  ImplicitSimulation::begin(const Place &place)
   {
+    const Stage &stage = stage_of(place);
     if (stage.reset_displacement)
       {
         stepper->reset(kinematics, points);
@@ -311,7 +306,7 @@ namespace geocone::GEOCONE_DIM
     if (stage.changes_body())
       {
         const BodyChange change =
-          stepper->change_body(stage, t, timer, kinematics, points);
+          stepper->change_body(stage, place.time, timer, kinematics, points);
         run_output.change_body(change);
         for (const std::string &remark : change.remarks)
           log.print("stage " + stage.name + ": " + remark);
@@ -324,11 +319,11 @@ namespace geocone::GEOCONE_DIM
   }
 
   Simulation::Ended
-  ImplicitSimulation::advance_step(const Stage &stage,
-                                   const Place &place,
-                                   const double h)
+  ImplicitSimulation::advance(Place &place)
   {
-    const unsigned int step = place.step + 1;
+    const Stage       &stage = stage_of(place);
+    const double       h     = step_size(place);
+    const unsigned int step  = place.step + 1;
     if (!is_in_step)
       {
         is_in_step   = true;
@@ -364,7 +359,7 @@ namespace geocone::GEOCONE_DIM
             ++end.in_stage;
             ++end.step;
             end.time = reached;
-            record_step(stage, end);
+            record(end);
           }
         run_output.set_failure(
           {stage.name, reached, reached + 2. * substep, failure.what()});
@@ -373,6 +368,7 @@ namespace geocone::GEOCONE_DIM
       }
     done       = 0.;
     is_in_step = false;
+    place.time += h;
     return Ended::well;
   }
 
@@ -504,10 +500,10 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  ImplicitSimulation::record_step(const Stage &stage, const Place &place)
+  ImplicitSimulation::record(const Place &place)
   {
     const Observation &observation = scene.observation;
-    present.resets = place.in_stage == 1 && stage.reset_displacement;
+    present.resets = place.in_stage == 1 && stage_of(place).reset_displacement;
     present.displacements =
       observed_points.displacements(points, kinematics.displacement);
     if (scene.materials.traits().undrained)
@@ -530,7 +526,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::string
-  ImplicitSimulation::progress_of_step() const
+  ImplicitSimulation::progress(const Place &place) const
   {
     const std::string result = !scene.observation.has_load()
                                  ? run_output.text_of_motion(present.last)
@@ -538,11 +534,11 @@ namespace geocone::GEOCONE_DIM
                                           1e3 * present.displacement,
                                           present.load,
                                           scene.geometry.unit("N/m").c_str());
-    return result + format("  %u iterations%s",
-                           present.iterations,
-                           present.last.newton.friction_lag > 0.
-                             ? " (friction lags)"
-                             : "");
+    return format("t = %.4g s  ", place.time) + result +
+           format("  %u iterations%s",
+                  present.iterations,
+                  present.last.newton.friction_lag > 0. ? " (friction lags)"
+                                                        : "");
   }
 
   void

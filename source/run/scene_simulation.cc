@@ -38,44 +38,16 @@ namespace geocone::GEOCONE_DIM
   void
   SceneSimulation::record_start()
   {
-    if (has_fields_at_start())
+    if (method.is_mpm())
       write_fields(0.);
   }
 
-  void
-  SceneSimulation::begin(const Place &place)
-  {
-    begin_stage(stage_of(place), place.time);
-  }
-
-  Simulation::Ended
-  SceneSimulation::advance(Place &place)
+  double
+  SceneSimulation::step_size(const Place &place)
   {
     if (place.in_stage == 0 || sizes.empty()) // of this stage, or resumed
       sizes = stage_of(place).step_sizes();
-    const double h     = sizes[place.in_stage];
-    const Ended  ended = advance_step(stage_of(place), place, h);
-    if (ended != Ended::run)
-      place.time += h;
-    return ended;
-  }
-
-  void
-  SceneSimulation::record(const Place &place)
-  {
-    record_step(stage_of(place), place);
-  }
-
-  std::string
-  SceneSimulation::progress(const Place &place) const
-  {
-    return format("t = %.4g s  ", place.time) + progress_of_step();
-  }
-
-  void
-  SceneSimulation::end(const Place &place)
-  {
-    end_stage(stage_of(place));
+    return sizes[place.in_stage];
   }
 
   bool

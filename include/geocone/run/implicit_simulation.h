@@ -82,17 +82,13 @@ namespace geocone::GEOCONE_DIM
     std::string
     headline(const std::string &name) const override;
     void
-    begin_stage(const Stage &stage, const double t) override;
+    begin(const Place &place) override;
     Ended
-    advance_step(const Stage &stage,
-                 const Place &place,
-                 const double h) override;
+    advance(Place &place) override;
     void
-    record_step(const Stage &stage, const Place &place) override;
+    record(const Place &place) override;
     std::string
-    progress_of_step() const override;
-    bool
-    has_fields_at_start() const override;
+    progress(const Place &place) const override;
     void
     write_fields(const double t) override;
     Json

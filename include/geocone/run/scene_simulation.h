@@ -28,28 +28,14 @@ namespace geocone::GEOCONE_DIM
     virtual std::vector<std::string>
     prepare_method(const RunOptions &options) = 0;
 
-    virtual void
-    begin_stage(const Stage &stage, const double t) = 0;
-
-    /** A step from place.time to h later, or what is left of it. */
-    virtual Ended
-    advance_step(const Stage &stage, const Place &place, const double h) = 0;
-
-    virtual void
-    record_step(const Stage &stage, const Place &place) = 0;
-
-    virtual std::string
-    progress_of_step() const = 0;
-
-    /** Tests after the last step of a stage. */
-    virtual void
-    end_stage(const Stage &)
-    {}
-
-    /** Whether fields are written before the first step. */
-    virtual bool
-    has_fields_at_start() const = 0;
     /** @} */
+
+    const Stage &
+    stage_of(const Place &place) const;
+
+    /** Size of the step that comes next (s). */
+    double
+    step_size(const Place &place);
 
     Scene          scene;
     Method         method;
@@ -62,21 +48,8 @@ namespace geocone::GEOCONE_DIM
     programme() const override;
     void
     record_start() override;
-    void
-    begin(const Place &place) override;
-    Ended
-    advance(Place &place) override;
-    void
-    record(const Place &place) override;
-    std::string
-    progress(const Place &place) const override;
-    void
-    end(const Place &place) override;
     bool
     wants_fields(const Place &place) const override;
-
-    const Stage &
-    stage_of(const Place &place) const;
 
     std::vector<double> sizes; ///< of the steps of the present stage (s)
   };
