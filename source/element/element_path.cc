@@ -50,14 +50,14 @@ namespace geocone::GEOCONE_DIM
         {
           condition.at_most = text[place - 1] == '<';
           const auto parts  = split_names(text.substr(0, place - 1));
-          condition.name    = parts.empty() ? "" : parts[0];
           condition.bound   = number(text.substr(place + 1), parameter);
           for (const std::string &column : columns)
             {
               const std::string name = column.substr(0, column.find(" ("));
-              if (name == condition.name)
+              if (!parts.empty() && name == parts[0])
                 return condition;
               known += (known.empty() ? "" : ", ") + name;
+              ++condition.column;
             }
         }
       throw InputError(parameter,

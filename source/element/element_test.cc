@@ -139,15 +139,11 @@ namespace geocone::GEOCONE_DIM
   bool
   ElementTest::stops(const ElementStage &stage) const
   {
-    const std::vector<std::string> &names  = element_output.columns();
-    const std::vector<double>      &values = element_output.last_line();
-    for (const StopCondition &condition : stage.stop)
-      for (std::size_t i = 0; i < names.size(); ++i)
-        if (names[i].substr(0, names[i].find(" (")) == condition.name &&
-            (condition.at_most ? values[i] <= condition.bound
-                               : values[i] >= condition.bound))
-          return true;
-    return false;
+    return std::any_of(
+      stage.stop.begin(), stage.stop.end(), [&](const StopCondition &s) {
+        const double value = element_output.last_line()[s.column];
+        return s.at_most ? value <= s.bound : value >= s.bound;
+      });
   }
 
   void
@@ -345,20 +341,5 @@ namespace geocone::GEOCONE_DIM
     row(strain, least_strain, most_strain, control, start_stress, at, guess);
     row(strain_path, largest_p);
     row(n_increments, n_iterations, n_cuts, worst_residual);
-  }
-
-  void
-  ElementTest::save(Archive &archive)
-  {
-    StateRow row;
-    state(row);
-    archive.write_row("point", row);
-  }
-
-  void
-  ElementTest::load(const Archive &archive)
-  {
-    StateRow row = archive.read_row("point");
-    state(row);
   }
 } // namespace geocone::GEOCONE_DIM

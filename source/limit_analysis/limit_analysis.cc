@@ -531,42 +531,14 @@ namespace geocone::GEOCONE_DIM
   }
 
   void
-  LimitAnalysis::save(Archive &archive)
+  LimitAnalysis::state(StateRow &row)
   {
-    StateRow row;
-    row(asked_cells, reduction);
-    archive.write_row("levels", row);
-    std::vector<double> numbers;
-    if (sizes)
-      for (std::size_t i = 0; i < sizes->triangles.size(); ++i)
-        for (unsigned int j = 0; j < 3; ++j)
-          {
-            for (unsigned int d = 0; d < dim; ++d)
-              numbers.push_back(sizes->triangles[i][j][d]);
-            numbers.push_back(sizes->sizes[i][j]);
-          }
-    archive.write("sizes", numbers);
-  }
-
-  void
-  LimitAnalysis::load(const Archive &archive)
-  {
-    StateRow row = archive.read_row("levels");
-    row(asked_cells, reduction);
-    const std::vector<double> numbers = archive.read("sizes");
-    sizes.reset();
-    if (!numbers.empty())
+    bool has_sizes = sizes.has_value();
+    row(asked_cells, reduction, has_sizes);
+    if (!has_sizes)
+      return sizes.reset();
+    if (!sizes)
       sizes.emplace();
-    for (std::size_t i = 0; i + 9 <= numbers.size(); i += 9)
-      {
-        sizes->triangles.emplace_back();
-        sizes->sizes.emplace_back();
-        for (unsigned int j = 0; j < 3; ++j)
-          {
-            for (unsigned int d = 0; d < dim; ++d)
-              sizes->triangles.back()[j][d] = numbers[i + 3 * j + d];
-            sizes->sizes.back()[j] = numbers[i + 3 * j + dim];
-          }
-      }
+    row(sizes->triangles, sizes->sizes);
   }
 } // namespace geocone::GEOCONE_DIM

@@ -193,50 +193,45 @@ namespace geocone::GEOCONE_DIM
               *next++ = value(group, p, d);
       };
     };
-    const auto add = [&](const std::string &name, const auto &value) {
-      table.columns.push_back({name, 1, filled(1, value)});
+    const auto add = [&](const std::string &name,
+                         const auto        &value,
+                         const unsigned int n_components = 1) {
+      table.columns.push_back(
+        {name, n_components, filled(n_components, value)});
     };
+    using Group = PointArrays;
+    using Index = unsigned int;
     table.positions =
-      filled(dim, [](const auto &group, const unsigned int p, const int d) {
-        return group.position[d][p];
+      filled(dim, [](const Group &g, const Index p, const Index d) {
+        return g.position[d][p];
       });
-    table.columns.push_back(
-      {"velocity",
-       dim,
-       filled(dim, [](const auto &group, const unsigned int p, const int d) {
-         return group.velocity[d][p];
-       })});
-    table.columns.push_back(
-      {"displacement",
-       dim,
-       filled(dim, [](const auto &group, const unsigned int p, const int d) {
-         return group.position[d][p] - group.start[d][p];
-       })});
-    table.columns.push_back(
-      {"material", 1, filled(1, [](const auto &group, const unsigned int, int) {
-         return double(group.of_material);
-       })});
-    add("volume", [](const auto &group, const unsigned int p, int) {
-      return group.volume[p];
-    });
+    add(
+      "velocity",
+      [](const Group &g, const Index p, const Index d) {
+        return g.velocity[d][p];
+      },
+      dim);
+    add(
+      "displacement",
+      [](const Group &g, const Index p, const Index d) {
+        return g.position[d][p] - g.start[d][p];
+      },
+      dim);
+    add("material", [](const Group &g, Index, Index) { return g.of_material; });
+    add("volume",
+        [](const Group &g, const Index p, Index) { return g.volume[p]; });
     if (scene->geometry
           .is_axisymmetric()) // what a point is in the plane of pictures
-      table.columns.push_back(
-        {"area",
-         1,
-         filled(1, [this](const auto &group, const unsigned int p, int) {
-           return group.volume[p] / Geometry::measure(scene->geometry.symmetry,
-                                                      group.position.of(p));
-         })});
+      add("area", [this](const Group &g, const Index p, Index) {
+        return g.volume[p] /
+               Geometry::measure(scene->geometry.symmetry, g.position.of(p));
+      });
     for (int i = 0; i < n_mandel; ++i)
       add(std::string("stress_") + tensor_component[i],
-          [i](const auto &group, const unsigned int p, int) {
-            return group.stress[i][p];
-          });
-    add("cumulative_plastic_strain",
-        [](const auto &group, const unsigned int p, int) {
-          return group.cumulative_plastic_strain[p];
-        });
+          [i](const Group &g, const Index p, Index) { return g.stress[i][p]; });
+    add("cumulative_plastic_strain", [](const Group &g, const Index p, Index) {
+      return g.cumulative_plastic_strain[p];
+    });
 
     // What any of the laws can show; where a law cannot, not a number.
     for (const std::string &name : scene->materials.shown_names())

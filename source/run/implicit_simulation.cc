@@ -597,9 +597,6 @@ namespace geocone::GEOCONE_DIM
   void
   ImplicitSimulation::save(Archive &archive)
   {
-    StateRow row;
-    state(row);
-    archive.write_row("step", row);
     save_nodes(archive, "velocity", mesh, space, kinematics.velocity);
     if (!method.is_mpm())
       save_nodes(archive, "displacement", mesh, space, kinematics.displacement);
@@ -609,8 +606,6 @@ namespace geocone::GEOCONE_DIM
   void
   ImplicitSimulation::load(const Archive &archive)
   {
-    StateRow row = archive.read_row("step");
-    state(row);
     load_nodes(archive, "velocity", mesh, space, kinematics.velocity);
     if (!method.is_mpm())
       load_nodes(archive, "displacement", mesh, space, kinematics.displacement);

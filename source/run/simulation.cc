@@ -155,6 +155,7 @@ namespace geocone::GEOCONE_DIM
       StateRow row;
       row(place);
       output().state_of_run(row);
+      state(row);
       archive.write_row("run", row);
       save(archive);
     });
@@ -178,7 +179,10 @@ namespace geocone::GEOCONE_DIM
         }
       why_not = dealii::Utilities::MPI::broadcast(comm, why_not);
       if (why_not.empty())
-        load(archive);
+        {
+          state(row);
+          load(archive);
+        }
       return why_not;
     });
     first_step = place.step;

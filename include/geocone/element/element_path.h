@@ -20,7 +20,7 @@ namespace geocone::GEOCONE_DIM
   /** A condition on a column of the results, "NAME <= NUMBER" or ">=". */
   struct StopCondition
   {
-    std::string name; ///< of the column, without its unit
+    std::size_t column  = 0;
     bool        at_most = true;
     double      bound   = 0.;
   };

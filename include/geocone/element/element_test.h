@@ -61,9 +61,7 @@ namespace geocone::GEOCONE_DIM
     void
     finish(const double t) override;
     void
-    save(Archive &archive) override;
-    void
-    load(const Archive &archive) override;
+    state(StateRow &row) override;
 
     /** To the end of an increment, in parts where it must be.
      *  @throws StepFailure */
@@ -80,9 +78,6 @@ namespace geocone::GEOCONE_DIM
     /** Whether the stage is over before its end. */
     bool
     stops(const ElementStage &stage) const;
-
-    void
-    state(StateRow &row);
 
     void
     write_surfaces();

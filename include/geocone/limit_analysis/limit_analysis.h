@@ -135,9 +135,7 @@ namespace geocone::GEOCONE_DIM
     void
     finish(const double t) override;
     void
-    save(Archive &archive) override;
-    void
-    load(const Archive &archive) override;
+    state(StateRow &row) override;
 
     Scene             scene;
     Method            method;

@@ -96,6 +96,8 @@ namespace geocone::GEOCONE_DIM
     void
     finish(const double t) override;
     void
+    state(StateRow &row) override; ///< but for fields
+    void
     save(Archive &archive) override;
     void
     load(const Archive &archive) override;
@@ -121,10 +123,6 @@ namespace geocone::GEOCONE_DIM
         const double        h,
         const double        size,
         const SolverReport &report);
-
-    /** What is state here, but for fields. */
-    void
-    state(StateRow &row);
 
     Json
     cost() const;

@@ -132,10 +132,18 @@ namespace geocone::GEOCONE_DIM
     finish(const double)
     {}
 
+    /** @name The state, for checkpoints: numbers, and what has rows of its own */
+    /** @{ */
     virtual void
-    save(Archive &archive) = 0;
+    state(StateRow &)
+    {}
     virtual void
-    load(const Archive &archive) = 0;
+    save(Archive &)
+    {}
+    virtual void
+    load(const Archive &)
+    {}
+    /** @} */
     /** @} */
 
     const MPI_Comm comm;
