@@ -144,6 +144,19 @@ namespace geocone
   }
 
   std::string
+  as_text(const std::string &name,
+          const Declared    &section,
+          const std::string &indent)
+  {
+    std::string text = indent + "subsection " + name + "\n";
+    for (const auto &[entry, declared] : section.entries)
+      text += indent + "  set " + entry + " = " + declared.value + "\n";
+    for (const auto &[below, declared] : section.sections)
+      text += as_text(below, declared, indent + "  ");
+    return text + indent + "end\n";
+  }
+
+  std::string
   joined(const std::vector<std::string> &sections, const std::string &name)
   {
     std::string path;

@@ -549,24 +549,6 @@ namespace geocone
   }
 
   std::string
-  ParameterFile::section(const std::string &name)
-  {
-    std::ostringstream out;
-    print(out, false);
-    std::istringstream in(out.str());
-    std::string        text;
-    bool               inside = false;
-    for (std::string line; std::getline(in, line);)
-      {
-        inside = inside || line == "subsection " + name;
-        if (inside)
-          text += line + "\n";
-        inside = inside && line != "end"; // those inside of it are indented
-      }
-    return text;
-  }
-
-  std::string
   ParameterFile::value(const std::string &path)
   {
     const auto [sections, name] = sections_and_name(path);

@@ -16,7 +16,7 @@ namespace geocone::GEOCONE_DIM
   FrictionMemory::declare(dealii::ParameterAcceptor &section)
   {
     section.add_parameter(
-      "Friction memory",
+      entry,
       text,
       "Time (s) in which the strength follows the normal stress, "
       ">= 0; it makes flow with little dilatancy well-posed. 0: at "
@@ -46,8 +46,7 @@ namespace geocone::GEOCONE_DIM
     catch (const dealii::ExceptionBase &)
       {}
     if (!given || !(*given >= 0.) || !std::isfinite(*given))
-      throw InputError(section.get_section_name().substr(1) +
-                         "/Friction memory",
+      throw InputError(section.get_section_name().substr(1) + "/" + entry,
                        text,
                        "automatic | a time >= 0 s",
                        "0 is the exact law; take a time in which what is "

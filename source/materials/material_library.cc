@@ -1,9 +1,11 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <geocone/base/declared_parameters.h>
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/materials/drucker_prager.h>
+#include <geocone/materials/friction_memory.h>
 #include <geocone/materials/hardening_mohr_coulomb.h>
 #include <geocone/materials/linear_elastic.h>
 #include <geocone/materials/material_library.h>
@@ -15,7 +17,6 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
-#include <sstream>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -289,20 +290,15 @@ namespace geocone::GEOCONE_DIM
   std::string
   Materials::as_parameters() const
   {
-    std::istringstream in(ParameterFile::section("Materials"));
-    std::string        text, material;
-    for (std::string line; std::getline(in, line);)
+    Declared values = all_declared().sections.at("Materials");
+    for (unsigned int m = 0; m < size(); ++m)
       {
-        const std::size_t begin = line.find_first_not_of(' ');
-        if (begin == 2 && line.compare(begin, 11, "subsection ") == 0)
-          material = line.substr(begin + 11);
-        const auto i = std::find(names.begin(), names.end(), material);
-        if (begin != std::string::npos && i != names.end() &&
-            line.compare(begin, 19, "set Friction memory") == 0)
-          line = format("    set Friction memory = %.17g",
-                        in_closed_form[i - names.begin()]->friction_memory());
-        text += line + "\n";
+        auto      &entries = values.sections.at(names[m]).entries;
+        const auto memory  = entries.find(FrictionMemory::entry);
+        if (memory != entries.end())
+          memory->second.value =
+            format("%.17g", in_closed_form[m]->friction_memory());
       }
-    return text;
+    return as_text("Materials", values);
   }
 } // namespace geocone::GEOCONE_DIM

@@ -40,6 +40,12 @@ namespace geocone
   Declared
   all_declared();
 
+  /** Lines of a parameter file that set all values of a section. */
+  std::string
+  as_text(const std::string &name,
+          const Declared    &section,
+          const std::string &indent = "");
+
   /** The names in a map. */
   template <typename T>
   std::vector<std::string>

@@ -110,10 +110,6 @@ namespace geocone
       return folder_of_file;
     }
 
-    /** The text of one section, with the present values. */
-    static std::string
-    section(const std::string &name);
-
     /** The present value of a declared parameter, after parse(). */
     static std::string
     value(const std::string &path);

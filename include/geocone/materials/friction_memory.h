@@ -25,7 +25,10 @@ namespace geocone::GEOCONE_DIM
       : text(text)
     {}
 
-    /** Declares 'Friction memory'. */
+    /** Name of its parameter. */
+    static constexpr const char *entry = "Friction memory";
+
+    /** Declares its parameter. */
     void
     declare(dealii::ParameterAcceptor &section);
 
