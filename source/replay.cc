@@ -33,7 +33,7 @@ namespace geocone::GEOCONE_DIM
       const ParameterFile file =
         ParameterFile::from_text(frozen.materials, file_name, overrides);
       Materials       materials(file);
-      const Regions   regions(file); // stand in the same section
+      const Regions   regions(materials.names()); // in the same section
       NonsmoothNewton newton(stress_methods());
       file.parse();
       materials.prepare();

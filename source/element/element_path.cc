@@ -254,25 +254,21 @@ namespace geocone::GEOCONE_DIM
   }
 
   ElementPath::ElementPath(const ParameterFile &file)
-    : dealii::ParameterAcceptor("/Path")
-    , names(file.named_sections("Path", "Names", "loading"))
+    : NamedList(file,
+                "Path",
+                "Names of the stages, comma-separated, in their order; each "
+                "has a subsection of that name.",
+                "loading")
   {
-    add_parameter("Names",
-                  names,
-                  "Names of the stages, comma-separated, in their order; each "
-                  "has a subsection of that name.");
-    for (const std::string &stage : names)
-      stages.push_back(std::make_unique<ElementStage>(stage));
+    make();
   }
 
   void
   ElementPath::prepare(const ElementPoint             &point,
                        const std::vector<std::string> &columns)
   {
-    if (stages.empty())
-      throw InputError(
-        "Path/Names", "", "at least one name", "set Names = shear");
-    for (const auto &stage : stages)
+    require_one("shear");
+    for (const auto &stage : list)
       stage->prepare(point, columns);
   }
 } // namespace geocone::GEOCONE_DIM

@@ -89,7 +89,7 @@ namespace geocone::GEOCONE_DIM
   ElementTest::programme() const
   {
     std::vector<unsigned int> n;
-    for (const auto &stage : path.stages)
+    for (const auto &stage : path.list)
       n.push_back(stage->positions().size());
     return n;
   }
@@ -104,13 +104,13 @@ namespace geocone::GEOCONE_DIM
   ElementTest::headline(const std::string &name) const
   {
     std::size_t n = 0;
-    for (const auto &stage : path.stages)
+    for (const auto &stage : path.list)
       n += stage->positions().size();
     return format("%s: one point of '%s', %s, %zu stages, %zu increments",
                   name.c_str(),
                   materials.name(0).c_str(),
                   components_of_point(),
-                  path.stages.size(),
+                  path.list.size(),
                   n);
   }
 
@@ -155,7 +155,7 @@ namespace geocone::GEOCONE_DIM
   void
   ElementTest::begin(const Place &place)
   {
-    control      = path.stages[place.stage]->control(*point);
+    control      = path.list[place.stage]->control(*point);
     start_stress = point->stress();
     guess        = {};
     at           = 0.;
@@ -164,7 +164,7 @@ namespace geocone::GEOCONE_DIM
   Simulation::Ended
   ElementTest::advance(Place &place)
   {
-    const ElementStage &stage = *path.stages[place.stage];
+    const ElementStage &stage = *path.list[place.stage];
     if (place.in_stage == 0 || positions.empty()) // of this stage, or resumed
       positions = stage.positions();
     follow(stage, positions[place.in_stage]);
@@ -274,13 +274,13 @@ namespace geocone::GEOCONE_DIM
   ElementTest::progress(const Place &place) const
   {
     // An increment takes microseconds.
-    return place.step % 100000 == 0 ? path.stages[place.stage]->name : "";
+    return place.step % 100000 == 0 ? path.list[place.stage]->name : "";
   }
 
   void
   ElementTest::end(const Place &place)
   {
-    const ElementStage &stage = *path.stages[place.stage];
+    const ElementStage &stage = *path.list[place.stage];
     element_output.end_stage(stage.name);
     if (element_output.verbosity >= 1)
       log.print(format("%s%s: p = %.6g Pa, q = %.6g Pa, eps_v = %.4g %%",

@@ -52,7 +52,7 @@ namespace geocone::GEOCONE_DIM
       constexpr double most     = 1e9;
       const bool       is_fixed = fixed_step > 0.;
       const double     step = is_fixed ? fixed_step : courant * stability_limit;
-      for (const auto &stage : loading.stages)
+      for (const auto &stage : loading.list)
         if (!(stage->duration <= most * step))
           throw InputError(
             is_fixed ? "Explicit/Time step" : "Explicit/Courant number",
@@ -236,7 +236,7 @@ namespace geocone::GEOCONE_DIM
                          " s, which an elastic wave takes through a cell",
                        "take a smaller step, or 0 for the largest stable one; "
                        "'Explicit/Allow unstable step' = true forces it");
-    if (const Stage &first = *scene->loading.stages.front(); first.removes())
+    if (const Stage &first = *scene->loading.list.front(); first.removes())
       {
         unsigned long n_removed = 0;
         for (const PointArrays &group : groups)

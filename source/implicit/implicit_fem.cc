@@ -41,7 +41,7 @@ namespace geocone::GEOCONE_DIM
           is_there.push_back(
             !scene.loading.adds(scene.materials.name(cell->material_id())));
         }
-      for (const auto &stage : scene.loading.stages)
+      for (const auto &stage : scene.loading.list)
         {
           unsigned int n_removed = 0, n_all = 0;
           for (unsigned int c = 0; c < cells.size(); ++c)
@@ -155,7 +155,7 @@ namespace geocone::GEOCONE_DIM
     // Formulas have values just after the beginning of each stage, or are refused.
     Vector v     = problem->make_vector();
     double start = 0.;
-    for (const auto &stage : scene->loading.stages)
+    for (const auto &stage : scene->loading.list)
       {
         constraints->set_values(v, start + 1e-6 * stage->duration);
         start += stage->duration;

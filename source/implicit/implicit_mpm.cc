@@ -64,7 +64,7 @@ namespace geocone::GEOCONE_DIM
       bodies->check_start(points, *constraints);
     constraints->check_axis(*mesh, *space);
     moving->check_held_particles(points);
-    if (const Stage &first = *scene->loading.stages.front(); first.removes())
+    if (const Stage &first = *scene->loading.list.front(); first.removes())
       {
         const MPI_Comm comm = mesh->triangulation().get_communicator();
         check_removal(

@@ -183,7 +183,7 @@ namespace geocone::GEOCONE_DIM
                        "grid velocity | particle velocity where some points "
                        "are fixed and touch others that are not",
                        "leave out 'Points = fixed': all of them stay");
-    for (const auto &stage : scene->loading.stages)
+    for (const auto &stage : scene->loading.list)
       {
         const std::string section = "Loading/" + stage->name + "/";
         if (stage->reset_displacement && is_fixed)

@@ -56,7 +56,7 @@ namespace geocone::GEOCONE_DIM
         scene.absorbing.refuse("frozen problems", remedy);
       }
     std::size_t n_steps = 0;
-    for (const auto &stage : scene.loading.stages)
+    for (const auto &stage : scene.loading.list)
       n_steps += stage->step_sizes().size();
     for (const unsigned int number : steps)
       if (number > n_steps)

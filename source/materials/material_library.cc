@@ -122,20 +122,17 @@ namespace geocone::GEOCONE_DIM
   }
 
   Materials::Materials(const ParameterFile &file)
-    : dealii::ParameterAcceptor("/Materials")
-    , names(file.named_sections("Materials", "Names", "soil"))
+    : NamedList(file,
+                "Materials",
+                "Names of the materials, comma-separated; each has a "
+                "subsection of that name.",
+                "soil")
   {
-    add_parameter("Names",
-                  names,
-                  "Names of the materials, comma-separated; each has a "
-                  "subsection of that name.");
-    if (names.empty())
-      throw InputError(
-        "Materials/Names", "", "at least one name", "set Names = soil");
-    types.resize(names.size());
-    for (std::size_t i = 0; i < names.size(); ++i)
+    require_one("soil");
+    types.resize(names().size());
+    for (unsigned int i = 0; i < types.size(); ++i)
       {
-        const std::string section = "Materials/" + names[i];
+        const std::string section = "Materials/" + name(i);
         types[i] = file.peek(section + "/Type", "Mohr-Coulomb");
         std::string documentation = "The law, one of:";
         for (const std::string &type : material_types())
@@ -145,7 +142,7 @@ namespace geocone::GEOCONE_DIM
           " Mohr-Coulomb is the cone of the stresses in the plane, the "
           "Drucker-Prager criterion of Guillet et al. (2025) in plane strain; "
           "Drucker-Prager is the cone of all principal stresses.";
-        enter_subsection(names[i]);
+        enter_subsection(name(i));
         add_parameter("Type", types[i], documentation);
         leave_subsection();
         list.push_back(make_material(types[i], section));
@@ -169,7 +166,7 @@ namespace geocone::GEOCONE_DIM
   {
     for (unsigned int i = 0; i < list.size(); ++i)
       if (!list[i]->set_axisymmetric())
-        throw InputError("Materials/" + names[i] + "/Type",
+        throw InputError("Materials/" + name(i) + "/Type",
                          types[i],
                          "spatial Mohr-Coulomb | spatial Tresca | "
                          "Drucker-Prager | von Mises | modified Cam-Clay | "
@@ -217,7 +214,7 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int m = 0; m < size(); ++m)
       if (in_closed_form[m] != nullptr && list[m]->fluid_modulus() > 0. &&
           in_closed_form[m]->dilates())
-        all.push_back("the undrained soil '" + names[m] +
+        all.push_back("the undrained soil '" + name(m) +
                       "' dilates, and gets stronger the more it flows: "
                       "set its Dilatancy angle = 0");
     return all;
@@ -229,7 +226,7 @@ namespace geocone::GEOCONE_DIM
   {
     for (unsigned int i = 0; i < list.size(); ++i)
       if (list[i]->fluid_modulus() > 0.)
-        throw InputError("Materials/" + names[i] + "/Pore fluid bulk modulus",
+        throw InputError("Materials/" + name(i) + "/Pore fluid bulk modulus",
                          list[i]->fluid_modulus(),
                          "0 with " + what,
                          remedy);
@@ -240,7 +237,7 @@ namespace geocone::GEOCONE_DIM
   {
     for (unsigned int i = 0; i < list.size(); ++i)
       if (in_closed_form[i] == nullptr)
-        throw InputError("Materials/" + names[i] + "/Type",
+        throw InputError("Materials/" + name(i) + "/Type",
                          types[i],
                          "a law in closed form where Discretisation/Method = " +
                            method,
@@ -293,7 +290,7 @@ namespace geocone::GEOCONE_DIM
     Declared values = all_declared().sections.at("Materials");
     for (unsigned int m = 0; m < size(); ++m)
       {
-        auto      &entries = values.sections.at(names[m]).entries;
+        auto      &entries = values.sections.at(name(m)).entries;
         const auto memory  = entries.find(FrictionMemory::entry);
         if (memory != entries.end())
           memory->second.value =

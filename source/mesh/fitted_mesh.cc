@@ -68,7 +68,7 @@ namespace geocone::GEOCONE_DIM
             lines = scene.water.lines(domain.get_boundary_points().first,
                                       domain.get_boundary_points().second);
             // What a stage removes is removed by cells.
-            for (const auto &stage : scene.loading.stages)
+            for (const auto &stage : scene.loading.list)
               if (const Polygon &polygon = stage->removed_polygon;
                   !polygon.empty())
                 for (std::size_t i = 0; i < polygon.size(); ++i)

@@ -31,7 +31,7 @@ namespace geocone::GEOCONE_DIM
                                               explicit_output.fields_asked());
     log.print(options.name + ": " + estimate.text());
     estimate.check(options.force);
-    for (const auto &stage : scene.loading.stages)
+    for (const auto &stage : scene.loading.list)
       stage->check_explicit();
     std::vector<std::string> remarks = stepper.prepare(scene, method);
     if (const std::string warning = scene.warn_of_records(); !warning.empty())

@@ -83,7 +83,7 @@ namespace geocone::GEOCONE_DIM
       if (!std::isfinite(tau))
         return "";
       double longest = 0.;
-      for (const auto &stage : scene.loading.stages)
+      for (const auto &stage : scene.loading.list)
         for (const double size : stage->step_sizes())
           longest = std::max(longest, size);
       constexpr double most = 1e4;
@@ -218,7 +218,7 @@ namespace geocone::GEOCONE_DIM
     scene.materials.check_closed_form(method.name());
     if (scene.loading.reduces_strength())
       scene.materials.reduce_strength(1.);
-    for (const auto &stage : scene.loading.stages)
+    for (const auto &stage : scene.loading.list)
       stage->check_implicit();
     newton.prepare();
     step_control.prepare();

@@ -148,7 +148,7 @@ namespace geocone::GEOCONE_DIM
       for (double *number : {&e.cells, &e.unknowns, &nodes})
         *number *= scene.contacts.n_bodies();
     double outputs = seeding != nullptr ? 1. : 0.;
-    for (const auto &stage : scene.loading.stages)
+    for (const auto &stage : scene.loading.list)
       {
         const double n = stage->expected_steps();
         e.steps += n;

@@ -24,7 +24,7 @@ namespace geocone::GEOCONE_DIM
   SceneSimulation::programme() const
   {
     std::vector<unsigned int> n;
-    for (const auto &stage : scene.loading.stages)
+    for (const auto &stage : scene.loading.list)
       n.push_back(stage->step_sizes().size());
     return n;
   }
@@ -32,7 +32,7 @@ namespace geocone::GEOCONE_DIM
   const Stage &
   SceneSimulation::stage_of(const Place &place) const
   {
-    return *scene.loading.stages[place.stage];
+    return *scene.loading.list[place.stage];
   }
 
   void

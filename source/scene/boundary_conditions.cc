@@ -31,8 +31,8 @@ namespace geocone::GEOCONE_DIM
        {"segments"}}};
   } // namespace
 
-  BoundaryCondition::BoundaryCondition(const std::string &list,
-                                       const std::string &name,
+  BoundaryCondition::BoundaryCondition(const std::string &name,
+                                       const std::string &list,
                                        const std::string &quantity,
                                        const std::string &unit,
                                        const std::string &unset,
@@ -361,30 +361,8 @@ namespace geocone::GEOCONE_DIM
                                          const std::string   &unit,
                                          const std::string   &unset,
                                          const std::string   &documentation)
-    : dealii::ParameterAcceptor("/" + section)
-    , names(file.named_sections(section, "Names", ""))
+    : NamedList(file, section, documentation)
   {
-    add_parameter("Names", names, documentation);
-    for (const std::string &condition : names)
-      list.push_back(std::make_unique<BoundaryCondition>(
-        section, condition, quantity, unit, unset, file.folder()));
-  }
-
-  void
-  BoundaryConditions::prepare()
-  {
-    for (const auto &condition : list)
-      condition->prepare();
-  }
-
-  void
-  BoundaryConditions::refuse(const std::string &method,
-                             const std::string &remedy) const
-  {
-    if (!list.empty())
-      throw InputError(get_section_name().substr(1) + "/Names",
-                       list[0]->name,
-                       "none with " + method,
-                       remedy);
+    make(section, quantity, unit, unset, file.folder());
   }
 } // namespace geocone::GEOCONE_DIM

@@ -65,16 +65,13 @@ namespace geocone
   }
 
   Contacts::Contacts(const ParameterFile &file)
-    : dealii::ParameterAcceptor("/Contacts")
-    , names(file.named_sections("Contacts", "Names", ""))
+    : NamedList(file,
+                "Contacts",
+                "Names of pairs of bodies that touch, rub and part, "
+                "comma-separated; each has a subsection of that name. FEM "
+                "and implicit MPM.")
   {
-    add_parameter("Names",
-                  names,
-                  "Names of pairs of bodies that touch, rub and part, "
-                  "comma-separated; each has a subsection of that name. FEM "
-                  "and implicit MPM.");
-    for (const std::string &pair : names)
-      list.push_back(std::make_unique<BodyPair>(pair));
+    make();
   }
 
   void
@@ -103,23 +100,13 @@ namespace geocone
     for (unsigned int a = 0; a < body.size(); ++a)
       for (unsigned int b = a + 1; b < body.size(); ++b)
         if (body[a] != body[b] && !are_apart(a, b))
-          throw InputError("Contacts/Names",
-                           dealii::Patterns::Tools::to_string(names),
+          throw InputError(parameter(),
+                           dealii::Patterns::Tools::to_string(names()),
                            "a contact between each two bodies of particles: "
                            "between '" +
                              materials[a] + "' and '" + materials[b] +
                              "' there is none",
                            "add one, or name both materials in the same body");
-  }
-
-  void
-  Contacts::refuse(const std::string &what, const std::string &remedy) const
-  {
-    if (!list.empty())
-      throw InputError("Contacts/Names",
-                       dealii::Patterns::Tools::to_string(names),
-                       "none with " + what,
-                       remedy);
   }
 
   bool

@@ -555,10 +555,9 @@ namespace geocone::GEOCONE_DIM
       "elements, beside material that moves.");
   }
 
-  Regions::Regions(const ParameterFile &parameter_file)
+  Regions::Regions(const std::vector<std::string> &materials)
   {
-    for (const std::string &name :
-         parameter_file.named_sections("Materials", "Names", "soil"))
+    for (const std::string &name : materials)
       regions.push_back(std::make_unique<Region>(name));
   }
 

@@ -396,15 +396,14 @@ namespace geocone::GEOCONE_DIM
   }
 
   LoadingProgramme::LoadingProgramme(const ParameterFile &file)
-    : dealii::ParameterAcceptor("/Loading")
-    , names(file.named_sections("Loading", "Stages", "push"))
+    : NamedList(file,
+                "Loading",
+                "Names of the stages in order, comma-separated; each has a "
+                "subsection of that name.",
+                "push",
+                "Stages")
   {
-    add_parameter("Stages",
-                  names,
-                  "Names of the stages in order, comma-separated; each has a "
-                  "subsection of that name.");
-    for (const std::string &stage : names)
-      stages.push_back(std::make_unique<Stage>(stage));
+    make();
   }
 
   std::string
@@ -426,7 +425,7 @@ namespace geocone::GEOCONE_DIM
   bool
   LoadingProgramme::reduces_strength() const
   {
-    return std::any_of(stages.begin(), stages.end(), [](const auto &stage) {
+    return std::any_of(list.begin(), list.end(), [](const auto &stage) {
       return stage->strength_factor > 0.;
     });
   }
@@ -435,7 +434,7 @@ namespace geocone::GEOCONE_DIM
   LoadingProgramme::strength_factor(const double t) const
   {
     double begin = 0., factor = 1.;
-    for (const auto &stage : stages)
+    for (const auto &stage : list)
       {
         const double end = begin + stage->duration;
         if (stage->strength_factor > 0.)
@@ -456,7 +455,7 @@ namespace geocone::GEOCONE_DIM
   LoadingProgramme::factor_before(const std::string &stage) const
   {
     double factor = 1.;
-    for (const auto &one : stages)
+    for (const auto &one : list)
       {
         if (one->name == stage)
           break;
@@ -470,7 +469,7 @@ namespace geocone::GEOCONE_DIM
   LoadingProgramme::duration() const
   {
     double sum = 0.;
-    for (const auto &stage : stages)
+    for (const auto &stage : list)
       sum += stage->duration;
     return sum;
   }
@@ -479,16 +478,16 @@ namespace geocone::GEOCONE_DIM
   LoadingProgramme::stage_at(const double t) const
   {
     double end = 0.;
-    for (const auto &stage : stages)
+    for (const auto &stage : list)
       if (end += stage->duration; t < end)
         return *stage;
-    return *stages.back();
+    return *list.back();
   }
 
   bool
   LoadingProgramme::raises_loads() const
   {
-    return std::any_of(stages.begin(), stages.end(), [](const auto &stage) {
+    return std::any_of(list.begin(), list.end(), [](const auto &stage) {
       return stage->raises_loads();
     });
   }
@@ -496,7 +495,7 @@ namespace geocone::GEOCONE_DIM
   bool
   LoadingProgramme::changes_body() const
   {
-    return std::any_of(stages.begin(), stages.end(), [](const auto &stage) {
+    return std::any_of(list.begin(), list.end(), [](const auto &stage) {
       return stage->changes_body();
     });
   }
@@ -504,8 +503,8 @@ namespace geocone::GEOCONE_DIM
   int
   LoadingProgramme::stage_that_adds(const std::string &material) const
   {
-    for (unsigned int i = 0; i < stages.size(); ++i)
-      if (const auto &added = stages[i]->added_materials;
+    for (unsigned int i = 0; i < list.size(); ++i)
+      if (const auto &added = list[i]->added_materials;
           std::find(added.begin(), added.end(), material) != added.end())
         return i;
     return -1;
@@ -514,7 +513,7 @@ namespace geocone::GEOCONE_DIM
   bool
   LoadingProgramme::makes(const std::string &material) const
   {
-    for (const auto &stage : stages)
+    for (const auto &stage : list)
       for (const auto &[from, to] : stage->changed_materials)
         if (to == material)
           return true;
@@ -525,9 +524,7 @@ namespace geocone::GEOCONE_DIM
   LoadingProgramme::prepare(const std::vector<std::string> &materials,
                             const std::vector<std::string> &tractions)
   {
-    if (stages.empty())
-      throw InputError(
-        "Loading/Stages", "", "at least one name", "set Stages = push");
+    require_one("push");
     const auto check_name = [&](const std::string &parameter,
                                 const std::string &material) {
       if (std::find(materials.begin(), materials.end(), material) ==
@@ -538,7 +535,7 @@ namespace geocone::GEOCONE_DIM
                          "check the spelling");
     };
     std::vector<std::string> added;
-    for (const auto &stage : stages)
+    for (const auto &stage : list)
       {
         stage->prepare();
         for (const std::string &load : stage->raised_loads)

@@ -444,24 +444,13 @@ namespace geocone::GEOCONE_DIM
   }
 
   Obstacles::Obstacles(const ParameterFile &file)
-    : dealii::ParameterAcceptor("/Obstacles")
-    , names(file.named_sections("Obstacles", "Names", ""))
+    : NamedList(file,
+                "Obstacles",
+                "Names of rigid bodies that the soil touches, rubs on and may "
+                "leave, comma-separated; each has a subsection of that name. "
+                "Implicit FEM and MPM.")
   {
-    add_parameter(
-      "Names",
-      names,
-      "Names of rigid bodies that the soil touches, rubs on and may "
-      "leave, comma-separated; each has a subsection of that name. "
-      "Implicit FEM and MPM.");
-    for (const std::string &obstacle : names)
-      list.push_back(std::make_unique<Obstacle>(obstacle));
-  }
-
-  void
-  Obstacles::prepare()
-  {
-    for (const auto &obstacle : list)
-      obstacle->prepare();
+    make();
   }
 
   std::vector<Neighbours>
@@ -494,15 +483,5 @@ namespace geocone::GEOCONE_DIM
                           -distance,
                           list[b]->name.c_str());
     return "";
-  }
-
-  void
-  Obstacles::refuse(const std::string &what, const std::string &remedy) const
-  {
-    if (!names.empty())
-      throw InputError("Obstacles/Names",
-                       dealii::Patterns::Tools::to_string(names),
-                       "none with " + what,
-                       remedy);
   }
 } // namespace geocone::GEOCONE_DIM

@@ -80,7 +80,7 @@ namespace geocone::GEOCONE_DIM
       double begin = 0.;
       try
         {
-          for (const auto &stage : scene.loading.stages)
+          for (const auto &stage : scene.loading.list)
             {
               const double t = begin + 1e-6 * stage->duration;
               begin += stage->duration;
@@ -107,7 +107,7 @@ namespace geocone::GEOCONE_DIM
   Scene::Scene(const ParameterFile &file)
     : geometry(file)
     , materials(file)
-    , regions(file)
+    , regions(materials.names())
     , water(file)
     , dirichlet(
         file,
@@ -150,22 +150,17 @@ namespace geocone::GEOCONE_DIM
     materials.prepare();
     if (geometry.is_axisymmetric())
       materials.set_axisymmetric();
-    std::vector<std::string> names;
-    std::vector<int>         stage_that_adds;
-    std::vector<bool>        is_made;
-    for (unsigned int i = 0; i < materials.size(); ++i)
+    std::vector<int>  stage_that_adds;
+    std::vector<bool> is_made;
+    for (const std::string &name : materials.names())
       {
-        names.push_back(materials.name(i));
-        stage_that_adds.push_back(loading.stage_that_adds(names.back()));
-        is_made.push_back(loading.makes(names.back()));
+        stage_that_adds.push_back(loading.stage_that_adds(name));
+        is_made.push_back(loading.makes(name));
       }
-    std::vector<std::string> loads;
-    for (const auto &traction : tractions.list)
-      loads.push_back(traction->name);
-    loading.prepare(names, loads);
+    loading.prepare(materials.names(), tractions.names());
     regions.prepare(geometry, is_made);
     gravity.prepare();
-    for (const auto &stage : loading.stages)
+    for (const auto &stage : loading.list)
       if (stage->raises("weight") && !gravity.acts())
         throw InputError("Loading/" + stage->name + "/Raised loads",
                          "weight",
@@ -179,7 +174,7 @@ namespace geocone::GEOCONE_DIM
     tractions.prepare();
     absorbing.prepare();
     obstacles.prepare();
-    contacts.prepare(names);
+    contacts.prepare(materials.names());
     std::vector<std::string> observable = supports();
     std::sort(observable.begin(), observable.end());
     const auto twice = std::adjacent_find(observable.begin(), observable.end());

@@ -92,7 +92,7 @@ namespace geocone::GEOCONE_DIM
   {
     later.clear();
     double begin = 0.;
-    for (const auto &stage : loading.stages)
+    for (const auto &stage : loading.list)
       {
         const double end = begin + stage->duration;
         if (!stage->water_table.empty())

@@ -85,7 +85,7 @@ namespace mpm_invariants_01
 
     const Invariants start = sum(points, space);
     double           t = 0., momentum = 0.;
-    for (const double h : scene.loading.stages[0]->step_sizes())
+    for (const double h : scene.loading.list[0]->step_sizes())
       {
         if (!mpm.advance(kinematics, points, newton, freezer, timer, t, h, 1.)
                .converged)

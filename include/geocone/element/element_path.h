@@ -5,7 +5,7 @@
 #define geocone_element_element_path_h
 
 #include <geocone/base/choice.h>
-#include <geocone/base/parameter_file.h>
+#include <geocone/base/named_list.h>
 #include <geocone/element/element_point.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -114,18 +114,13 @@ namespace geocone::GEOCONE_DIM
   };
 
   /** The stages of "Path/Names", one after the other. */
-  class ElementPath : public dealii::ParameterAcceptor
+  class ElementPath : public NamedList<ElementStage>
   {
   public:
     explicit ElementPath(const ParameterFile &file);
 
     void
     prepare(const ElementPoint &point, const std::vector<std::string> &columns);
-
-    std::vector<std::unique_ptr<ElementStage>> stages;
-
-  private:
-    std::vector<std::string> names;
   };
 } // namespace geocone::GEOCONE_DIM
 

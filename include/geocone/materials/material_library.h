@@ -4,7 +4,7 @@
 #ifndef geocone_materials_material_library_h
 #define geocone_materials_material_library_h
 
-#include <geocone/base/parameter_file.h>
+#include <geocone/base/named_list.h>
 #include <geocone/materials/law_traits.h>
 #include <geocone/materials/material.h>
 
@@ -40,7 +40,7 @@ namespace geocone::GEOCONE_DIM
    * known by its place in the list. A point belongs to the last material whose
    * region contains it, or else to the first one.
    */
-  class Materials : public dealii::ParameterAcceptor
+  class Materials : public NamedList<ConstitutiveLaw>
   {
   public:
     explicit Materials(const ParameterFile &file);
@@ -98,7 +98,7 @@ namespace geocone::GEOCONE_DIM
     const std::string &
     name(const unsigned int i) const
     {
-      return names[i];
+      return names()[i];
     }
 
     /** Gives tau (s) to those that leave it to the scene. */
@@ -127,11 +127,11 @@ namespace geocone::GEOCONE_DIM
     LawTraits
     gather() const;
 
-    LawTraits                                     found;
-    std::vector<std::string>                      names;
-    std::vector<std::string>                      types;
-    std::vector<std::unique_ptr<ConstitutiveLaw>> list;
-    std::vector<const Material *>                 in_closed_form; ///< or null
+    using NamedList::list; // others take law() and operator[]
+
+    LawTraits                     found;
+    std::vector<std::string>      types;
+    std::vector<const Material *> in_closed_form; ///< or null
   };
 } // namespace geocone::GEOCONE_DIM
 

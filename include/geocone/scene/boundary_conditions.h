@@ -4,7 +4,7 @@
 #ifndef geocone_scene_boundary_conditions_h
 #define geocone_scene_boundary_conditions_h
 
-#include <geocone/base/parameter_file.h>
+#include <geocone/base/named_list.h>
 #include <geocone/functions/expression.h>
 #include <geocone/scene/imposition.h>
 
@@ -28,14 +28,14 @@ namespace geocone::GEOCONE_DIM
   {
   public:
     /**
-     * @param list section of the list, e.g. "Boundary conditions"
      * @param name name of this condition
+     * @param list section of the list, e.g. "Boundary conditions"
      * @param quantity "Velocity", "Traction" or "Incoming velocity"
      * @param unit for the documentation
      * @param folder what names of records are relative to
      */
-    BoundaryCondition(const std::string &list,
-                      const std::string &name,
+    BoundaryCondition(const std::string &name,
+                      const std::string &list,
                       const std::string &quantity,
                       const std::string &unit,
                       const std::string &unset,
@@ -175,7 +175,7 @@ namespace geocone::GEOCONE_DIM
    * velocities ("Boundary conditions", m/s), tractions ("Tractions", Pa) or velocities
    * of waves that come in ("Absorbing boundaries", m/s).
    */
-  class BoundaryConditions : public dealii::ParameterAcceptor
+  class BoundaryConditions : public NamedList<BoundaryCondition>
   {
   public:
     BoundaryConditions(const ParameterFile &file,
@@ -184,18 +184,6 @@ namespace geocone::GEOCONE_DIM
                        const std::string   &unit,
                        const std::string   &unset,
                        const std::string   &documentation);
-
-    void
-    prepare();
-
-    std::vector<std::unique_ptr<BoundaryCondition>> list;
-
-    /** @throws InputError if there is one, for those who know none */
-    void
-    refuse(const std::string &method, const std::string &remedy) const;
-
-  private:
-    std::vector<std::string> names;
   };
 } // namespace geocone::GEOCONE_DIM
 

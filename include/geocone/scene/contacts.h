@@ -4,7 +4,7 @@
 #ifndef geocone_scene_contacts_h
 #define geocone_scene_contacts_h
 
-#include <geocone/base/parameter_file.h>
+#include <geocone/base/named_list.h>
 #include <geocone/scene/interface_law.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -48,17 +48,13 @@ namespace geocone
   };
 
   /** The contacts of a scene, named in the list "Contacts/Names". */
-  class Contacts : public dealii::ParameterAcceptor
+  class Contacts : public NamedList<BodyPair>
   {
   public:
     explicit Contacts(const ParameterFile &file);
 
     void
     prepare(const std::vector<std::string> &materials);
-
-    /** @throws InputError if there are any, with what can have none */
-    void
-    refuse(const std::string &what, const std::string &remedy) const;
 
     /** Whether two materials belong to bodies that only touch. */
     bool
@@ -84,10 +80,7 @@ namespace geocone
     void
     check_all_pairs() const;
 
-    std::vector<std::unique_ptr<BodyPair>> list;
-
   private:
-    std::vector<std::string>  names;
     std::vector<std::string>  materials;
     std::vector<unsigned int> body;       ///< by material
     unsigned int              number = 1; ///< of bodies

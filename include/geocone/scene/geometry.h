@@ -219,7 +219,8 @@ namespace geocone::GEOCONE_DIM
   class Regions
   {
   public:
-    explicit Regions(const ParameterFile &file);
+    /** @param materials their names */
+    explicit Regions(const std::vector<std::string> &materials);
 
     /** @param may_be_empty by material: those that others become, which need no
      *  region */

@@ -5,7 +5,7 @@
 #define geocone_scene_loading_h
 
 #include <geocone/base/choice.h>
-#include <geocone/base/parameter_file.h>
+#include <geocone/base/named_list.h>
 #include <geocone/functions/expression.h>
 #include <geocone/scene/geometry.h>
 
@@ -164,7 +164,7 @@ namespace geocone::GEOCONE_DIM
   };
 
   /** The stages of "Loading/Stages", one after another from t = 0. */
-  class LoadingProgramme : public dealii::ParameterAcceptor
+  class LoadingProgramme : public NamedList<Stage>
   {
   public:
     explicit LoadingProgramme(const ParameterFile &file);
@@ -216,11 +216,6 @@ namespace geocone::GEOCONE_DIM
     /** Of all stages (s). */
     double
     duration() const;
-
-    std::vector<std::unique_ptr<Stage>> stages;
-
-  private:
-    std::vector<std::string> names;
   };
 
   /** Gravity g(t), at once or ramped up linearly over a duration. */

@@ -5,7 +5,7 @@
 #define geocone_scene_obstacles_h
 
 #include <geocone/base/choice.h>
-#include <geocone/base/parameter_file.h>
+#include <geocone/base/named_list.h>
 #include <geocone/base/types.h>
 #include <geocone/functions/expression.h>
 #include <geocone/scene/interface_law.h>
@@ -257,17 +257,10 @@ namespace geocone::GEOCONE_DIM
   };
 
   /** The obstacles of a scene, named in the list "Obstacles/Names". */
-  class Obstacles : public dealii::ParameterAcceptor
+  class Obstacles : public NamedList<Obstacle>
   {
   public:
     explicit Obstacles(const ParameterFile &file);
-
-    void
-    prepare();
-
-    /** @throws InputError if there are any, with what can have none */
-    void
-    refuse(const std::string &what, const std::string &remedy) const;
 
     /** Of each obstacle the others; of one that slides little as they were at the start.
      *  @param moved since the start @param margin see Neighbours */
@@ -281,11 +274,6 @@ namespace geocone::GEOCONE_DIM
     std::string
     overlap_of_free(const std::vector<RigidMotion> &moved,
                     const double                    margin) const;
-
-    std::vector<std::unique_ptr<Obstacle>> list;
-
-  private:
-    std::vector<std::string> names;
   };
 } // namespace geocone::GEOCONE_DIM
 
