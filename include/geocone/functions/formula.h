@@ -5,6 +5,7 @@
 #define geocone_functions_formula_h
 
 #include <geocone/base/types.h>
+
 #include <string>
 
 namespace geocone::GEOCONE_DIM
@@ -16,6 +17,10 @@ namespace geocone::GEOCONE_DIM
     place,
     time
   };
+
+  /** The formulas that are allowed, for messages. */
+  std::string
+  allowed_formula(const FormulaOf variables);
 
   /**
    * Checks a formula by this grammar before muParser reads it, which takes more
