@@ -118,7 +118,7 @@ namespace geocone::GEOCONE_DIM
       box = {lower, upper};
     if (box.size() == 2)
       check_coordinates(box, "Mesh/Box");
-    const double tolerance = 1e-9 * lower.distance(upper);
+    const double tolerance = geometry.rounding();
     bool         is_around = box.size() == 2;
     for (unsigned int c = 0; c < dim && is_around; ++c)
       is_around =
@@ -233,7 +233,7 @@ namespace geocone::GEOCONE_DIM
               std::min(distance,
                        distance_to_segment(
                          x, outline[i], outline[(i + 1) % outline.size()]));
-          if (distance > 1e-9 && !contains(outline, x))
+          if (distance > geometry.rounding() && !contains(outline, x))
             throw InputError("Mesh/Grading points",
                              dealii::Patterns::Tools::to_string(x),
                              "points of the domain",

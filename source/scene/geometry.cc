@@ -12,6 +12,7 @@
 #include <deal.II/base/bounding_box.h>
 
 #include <filesystem>
+#include <limits>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -482,6 +483,15 @@ namespace geocone::GEOCONE_DIM
           box.second[c] = std::max(box.second[c], x[c]);
         }
     return box;
+  }
+
+  double
+  Geometry::rounding() const
+  {
+    const auto [lower, upper] = bounding_box();
+    return 1e-9 * lower.distance(upper) +
+           4. * std::numeric_limits<double>::epsilon() *
+             std::max(lower.norm(), upper.norm());
   }
 
   double

@@ -275,24 +275,25 @@ namespace geocone::GEOCONE_DIM
     for (const dealii::Point<dim> &x : geometry.outline)
       top = std::max(top, x[1]);
     // Level ground: the highest vertices span the whole width.
+    const double rounding = geometry.rounding();
     double left = 1e300, right = -1e300, left_top = 1e300, right_top = -1e300;
     for (const dealii::Point<dim> &x : geometry.outline)
       {
         left  = std::min(left, x[0]);
         right = std::max(right, x[0]);
-        if (x[1] > top - 1e-9)
+        if (x[1] > top - rounding)
           {
             left_top  = std::min(left_top, x[0]);
             right_top = std::max(right_top, x[0]);
           }
       }
-    if (left_top > left + 1e-9 || right_top < right - 1e-9)
+    if (left_top > left + rounding || right_top < right - rounding)
       throw InputError("Initial stress/Type",
                        type.word(),
                        "zero | given, where the ground is not level",
                        "let gravity build up the stress of a slope in a stage "
                        "of its own");
-    if (surface < top - 1e-9)
+    if (surface < top - rounding)
       throw InputError("Initial stress/Surface level",
                        surface,
                        ">= " + std::to_string(top) +

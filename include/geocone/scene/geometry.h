@@ -184,6 +184,11 @@ namespace geocone::GEOCONE_DIM
     std::pair<dealii::Point<dim>, dealii::Point<dim>>
     bounding_box() const;
 
+    /** Lengths that count as zero (m): 1e-9 of the body's size, and at least what its
+     *  coordinates resolve; not for a file. */
+    double
+    rounding() const;
+
     /** Area or volume of the body (m^2, m^3), of a formula that of samples; not for a
      *  file. */
     double
