@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Draws doc/images/acoustic_tensor.png: det A(m) of a step of Mohr-Coulomb soil on the
 cone by the direction of the normal m, with and without memory of friction, from the
-tangent of the return map (doc/theory.md, sections 4 and 16). All directions are
+tangent of the return map (doc/theory/laws.md and friction_memory.md). All directions are
 scanned, nothing is taken from the formulas there."""
 
 import pathlib

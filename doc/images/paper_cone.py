@@ -60,7 +60,7 @@ class Law:
     """The law of the code for a dilatancy angle, at points of the plane (x_n, x_t)."""
 
     def __init__(self, program, theta):
-        # Apertures and radius are those of doc/theory.md, section 2.
+        # Apertures and radius are those of doc/theory/cone.md.
         a, b = np.sin(np.radians([PHI, theta]))
         self.call = [program, *map(repr, map(float, (
             a, b, np.sqrt(2.) * COHESION * np.cos(np.radians(PHI)), K, 2. * G)))]

@@ -20,8 +20,8 @@ release = re.search(r"project\(geocone VERSION ([\d.]+)",
 
 extensions = ["myst_parser", "sphinx.ext.mathjax"]
 root_doc = "README"
-include_patterns = ["*.md", "doc/*.md", "doc/cookbook/*.md", "doc/notebooks/*.ipynb",
-                    "packaging/*.md", "meshes/*.md"]
+include_patterns = ["*.md", "doc/*.md", "doc/cookbook/*.md", "doc/theory/*.md",
+                    "doc/notebooks/*.ipynb", "packaging/*.md", "meshes/*.md"]
 exclude_patterns = ["doc/api.md"]  # the first page of doxygen's site
 myst_enable_extensions = ["dollarmath", "amsmath"]
 myst_heading_anchors = 4
@@ -59,7 +59,7 @@ PAGES = {
                       "doc/friction_memory", "doc/small_dilatancy", "doc/stability", "doc/performance",
                       "doc/overhead", "doc/paper",
                       "doc/profiles"],
-    "How it works": ["doc/theory", "CONTRIBUTING", "CHANGELOG"]}
+    "How it works": ["doc/theory/README", "CONTRIBUTING", "CHANGELOG"]}
 
 
 def menu(title, pages):
@@ -78,8 +78,9 @@ def add_menu(_, page, source):
     """Before a page is read."""
     if page == root_doc:
         source[0] += "".join(menu(*part) for part in PAGES.items())
-    elif page == "doc/cookbook/README":
-        source[0] += menu("", (f"doc/cookbook/{name}" for name in linked_pages(source[0])))
+    elif page in ("doc/cookbook/README", "doc/theory/README"):
+        folder = page[:-len("README")]
+        source[0] += menu("", (folder + name for name in linked_pages(source[0])))
 
 
 class NotebookParser(MystParser):

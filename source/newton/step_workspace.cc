@@ -12,9 +12,9 @@ namespace geocone::GEOCONE_DIM
   namespace
   {
     /**
-     * c of c N, twice of what was measured after one linear solve (doc/theory.md,
-     * section "Newton's method"), and the largest residual relative to the forces
-     * that is taken for rounding.
+     * c of c N, twice of what was measured after one linear solve
+     * (doc/theory/newton.md), and the largest residual relative to the forces that is
+     * taken for rounding.
      */
     constexpr double floor_factor = 0.5, largest_floor = 1e-6;
   } // namespace

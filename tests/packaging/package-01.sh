@@ -33,7 +33,8 @@ assert geocone.example("footing_fem.prm").is_relative_to(tree)'
 /usr/bin/python3 - <<'PYTHON'
 import pathlib, re
 folder = pathlib.Path("tree/usr/share/doc/geocone")
-pages = [*folder.glob("cookbook/*.md"), *folder.glob("*.md"), *folder.glob("notebooks/*.ipynb")]
+pages = [*folder.glob("cookbook/*.md"), *folder.glob("theory/*.md"), *folder.glob("*.md"),
+         *folder.glob("notebooks/*.ipynb")]
 seen = 0
 for page in pages:
     if page.name in ("README.md", "CHANGELOG.md") and page.parent == folder:

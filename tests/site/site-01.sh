@@ -9,12 +9,12 @@ grep -qx "site: $folder/site/index.html" said
 /usr/bin/python3 -B "$root/tests/site/links.py" site
 # Every page of the repository is in it, also by its menu.
 cd "$root"
-for page in *.md doc/*.md doc/cookbook/*.md; do
+for page in *.md doc/*.md doc/cookbook/*.md doc/theory/*.md; do
   [ "$page" = doc/api.md ] && continue # doxygen's
   [ -f "$folder/site/${page%.md}.html" ]
   grep -q "toctree-l.*href=\"\(${page%.md}.html\|#\)\"" "$folder/site/README.html" ||
     grep -q "toctree-l.*href=\"$(basename "${page%.md}").html\"" \
-      "$folder/site/doc/cookbook/README.html" || [ "$page" = README.md ]
+      "$folder/site/$(dirname "$page")/README.html" || [ "$page" = README.md ]
 done
 cd "$folder"
 # The checks find what is wrong.
@@ -49,10 +49,15 @@ if command -v chromium > /dev/null; then
     chromium --headless --no-sandbox --disable-gpu --virtual-time-budget=60000 \
       --host-resolver-rules='MAP * ~NOTFOUND' --dump-dom "file://$folder/site/$1" 2> /dev/null
   }
-  formulas=$(grep -o 'class="math notranslate' site/doc/theory.html | wc -l)
-  shows doc/theory.html > dom
-  [ "$(grep -o '<svg' dom | wc -l)" -ge "$formulas" ] && [ "$formulas" -gt 500 ]
-  fails grep -q 'class="merror\|<merror\|Math Processing Error' dom
+  all=0
+  for page in site/doc/theory/*.html; do
+    formulas=$(grep -o 'class="math notranslate' "$page" | wc -l)
+    shows "${page#site/}" > dom
+    [ "$(grep -o '<svg' dom | wc -l)" -ge "$formulas" ]
+    fails grep -q 'class="merror\|<merror\|Math Processing Error' dom
+    all=$((all + formulas))
+  done
+  [ "$all" -gt 500 ]
   shows 'search.html?q=Prandtl' > dom
   fails grep -q '<a href="doc/cookbook/footing.html' site/search.html
   grep -q '<a href="doc/cookbook/footing.html' dom

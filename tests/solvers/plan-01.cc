@@ -1,10 +1,11 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Plans of Newton's method, without a mesh: those of typical steps, which doc/theory.md
-// must have, too; with limits and globalisations that are asked for; and with each
-// combination of properties, none of which may be without a try, end with one that only
-// prepares another, or have a try before the first that starts from an iterate.
+// Plans of Newton's method, without a mesh: those of typical steps, which
+// doc/theory/newton.md must have, too; with limits and globalisations that are asked for;
+// and with each combination of properties, none of which may be without a try, end with
+// one that only prepares another, or have a try before the first that starts from an
+// iterate.
 
 #include <geocone/newton/plan.h>
 
@@ -46,10 +47,10 @@ namespace solvers_plan_01
     const std::string text = text_of_plans();
     std::printf("%s\n", text.c_str());
 
-    std::ifstream      in(GEOCONE_SOURCE_DIR "/doc/theory.md");
+    std::ifstream      in(GEOCONE_SOURCE_DIR "/doc/theory/newton.md");
     std::ostringstream theory;
     theory << in.rdbuf();
-    std::printf("in doc/theory.md: %s\n",
+    std::printf("in doc/theory/newton.md: %s\n",
                 theory.str().find(text) != std::string::npos ? "yes" : "NO");
 
     PlanOptions options;

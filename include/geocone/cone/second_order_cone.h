@@ -95,7 +95,7 @@ namespace geocone::GEOCONE_DIM
    * z = -(plastic strain increment), mu = a - b and Psi(z) = z + mu |z_t| n,
    * the law reads  K* contains Psi(z), orthogonal to s + (k/a) n in K, where
    * K = {|x_t| <= a x_n} and K* = {a |y_t| <= y_n} (Guillet et al. 2025, eqs 22,
-   * 25-27, 85-91; signs and apertures as in doc/theory.md). For a = 0 the set
+   * 25-27, 85-91; signs and apertures as in doc/theory/cone.md). For a = 0 the set
    * is the cylinder |s_t| <= k (Tresca); only the apex divides by a.
    */
   struct FlowCone
@@ -199,7 +199,7 @@ namespace geocone::GEOCONE_DIM
   /**
    * Solution of the one-point problem
    *   s = t + D z with D = diag(K, 2G, ..., 2G),  z from the law of FlowCone
-   * for a trial value t, in closed form (doc/theory.md, section "Return map"):
+   * for a trial value t, in closed form (doc/theory/laws.md):
    * with T = |t_t|, f = T - a t_n - k, H = 2G + a b K + h, g = f/H = |z_t|,
    * q = T - 2G g = a s_n + k + h g,
    *   f <= 0            : s = t                                   (elastic)

@@ -13,8 +13,8 @@ namespace geocone::GEOCONE_DIM
 {
   /**
    * The loads F that a stage raises, in one step of FEM or MPM: while it is solved a
-   * row of the multipliers, whose multiplier is their factor (doc/theory.md, section
-   * 25), and after that loads like others.
+   * row of the multipliers, whose multiplier is their factor (doc/theory/stages.md),
+   * and after that loads like others.
    */
   class RaisedLoads
   {

@@ -67,7 +67,7 @@ namespace geocone
   /**
    * The subloading model with anisotropy, moving similarity centre, structure
    * and non-associated flow, at one point with n = 4 (plane strain) or n = 6
-   * components; compression positive. See doc/theory.md.
+   * components; compression positive. See doc/theory/subloading.md.
    */
   template <int n>
   class SubloadingModel

@@ -54,7 +54,7 @@ namespace geocone::GEOCONE_DIM
   certified_bounds(const BoundScene &bound, const double tolerance);
 
   /** Both bounds of the load of Davis's soil on a mesh, an estimate for flow that is not
-   *  associated (doc/theory.md, section 20), in the unit of the load. */
+   *  associated (doc/theory/limit_analysis.md), in the unit of the load. */
   std::array<double, 2>
   davis_estimate(const BoundedLoad &load,
                  const Scene       &scene,

@@ -13,7 +13,7 @@ namespace geocone::GEOCONE_DIM
 {
   /**
    * The time tau in which the strength of a soil follows the normal stress on which it
-   * depends (doc/theory.md, section "Friction with memory"): a history variable p obeys
+   * depends (doc/theory/friction_memory.md): a history variable p obeys
    * dp/dt = (s_n - p)/tau, and an implicit step h has
    *   p = lambda p_n + (1 - lambda) s_n,   lambda = tau/(h + tau).
    */

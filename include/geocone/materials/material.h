@@ -23,8 +23,8 @@ namespace geocone::GEOCONE_DIM
 
     /**
      * Part of the normal stress on which strength depends that a solver takes from
-     * t_n: 0 is the law itself, 1 makes friction explicit (doc/theory.md, section
-     * "Delayed friction"). Laws without friction have no use for it.
+     * t_n: 0 is the law itself, 1 makes friction explicit
+     * (doc/theory/friction_memory.md). Laws without friction have no use for it.
      */
     double friction_lag = 0.;
   };

@@ -17,7 +17,7 @@ namespace geocone::GEOCONE_DIM
    * in-plane stresses: the out-of-plane stress is assumed intermediate.
    * theta = phi is associated flow, theta = 0 flow without dilatancy.
    *
-   * Friction with memory (doc/theory.md, section of that name; Prakash and Clifton
+   * Friction with memory (doc/theory/friction_memory.md; Prakash and Clifton
    * 1993 and Cochard and Rice 2000 for sliding): the strength follows the normal
    * stress with the relaxation time tau, by the second history variable p (Pa),
    *   |s_t| <= b s_n + mu p + sqrt2 c cos(phi),   dp/dt = (s_n - p)/tau,

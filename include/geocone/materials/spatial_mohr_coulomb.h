@@ -162,7 +162,7 @@ namespace geocone::GEOCONE_DIM
      *   y_i = e_i (1 + sin(phi))/(1 + sin(theta))   where e_i > 0,
      *   y_i = e_i (1 - sin(phi))/(1 - sin(theta))   where e_i < 0,
      * of the principal values e_i of the plastic strain increment, in its own axes
-     * (doc/theory.md, section "All principal stresses"): De Saxce's change of variable
+     * (doc/theory/laws.md): De Saxce's change of variable
      * for the pyramid. @param[out] slope dy/de, or null
      */
     Normal

@@ -103,7 +103,8 @@ namespace geocone::GEOCONE_DIM
     load(const Archive &archive) override;
 
     /** The longest substep of a step h, which friction with memory limits to
-     *  tau/2: its tangent is then nearly elliptic (doc/theory.md). */
+     *  tau/2: its tangent is then nearly elliptic
+     *  (doc/theory/friction_memory.md). */
     double
     largest_substep(const double h) const;
 

@@ -82,7 +82,7 @@ def verdict(row):
                 ("reported", f"ended: {first}"))
     if must_fail:
         return "garbage", "**not refused**"
-    # Rounding in the stresses may be larger than the tolerance (theory.md, section 7).
+    # Rounding in the stresses may be larger than the tolerance (doc/theory/newton.md).
     at_floor = leaves(row["summary"]).get("newton/steps_at_rounding_floor", 0)
     if np.count_nonzero(table["residual (-)"] > TOLERANCE) > at_floor:
         return "unsolved", "**finished, but a residual is above 1e-10**"
