@@ -63,8 +63,8 @@ namespace geocone
                1);
     }
 
-    /** Starts the program that draws with the folder as its one argument, without
-     *  a shell, and waits for it. */
+    /** Starts the program that draws with the folder as its argument, without a shell,
+     *  and waits for it. */
     void
     draw(const Drawing &drawing)
     {
@@ -76,7 +76,11 @@ namespace geocone
         return fail("scripts/plot is not beside the program");
       // An absolute name cannot be taken for an option.
       std::string folder = std::filesystem::absolute(drawing.folder).string();
-      char *const arguments[] = {plot.data(), folder.data(), nullptr};
+      std::string only_model  = "--model";
+      char *const arguments[] = {plot.data(),
+                                 folder.data(),
+                                 drawing.only_model ? only_model.data() : nullptr,
+                                 nullptr};
       posix_spawn_file_actions_t actions;
       posix_spawn_file_actions_init(&actions);
       if (drawing.quiet)
@@ -127,6 +131,8 @@ namespace geocone
           call.quiet = true;
         else if (argument == "--dry-run")
           call.dry_run = true;
+        else if (argument == "--picture")
+          call.picture = true;
         else if (argument == "--check")
           checks = call.dry_run = true;
         else if (argument == "--force")
@@ -156,6 +162,9 @@ namespace geocone
       throw InputError("--check needs parameter files, after it\n"
                        "  remedy:  see " +
                        program + " --help");
+    if (call.picture && (!call.dry_run || checks))
+      throw InputError("--picture goes with --dry-run: a run draws its model "
+                       "always\n  remedy:  geocone --dry-run FILE.prm --picture");
     return call;
   }
 
@@ -167,6 +176,7 @@ namespace geocone
     options.parameter_file  = file.path();
     options.folder          = call.folder;
     options.dry_run         = call.dry_run;
+    options.picture         = call.picture;
     options.force           = call.force;
     options.may_run_scripts = call.may_run_scripts;
     return options;

@@ -27,7 +27,8 @@ namespace geocone::GEOCONE_DIM
     const char *usage =
       "geocone FILE.prm [--output FOLDER] [--set 'Section/Parameter = "
       "value']...\n"
-      "        [--dry-run] [--force] [--run-gmsh-script] [--quiet]\n"
+      "        [--dry-run [--picture]] [--force] [--run-gmsh-script] "
+      "[--quiet]\n"
       "mpirun -np RANKS geocone FILE.prm ...\n"
       "geocone --check FILE.prm... [--set 'Section/Parameter = value']...\n"
       "geocone --resume FOLDER [--force] [--run-gmsh-script] [--quiet]\n"
@@ -50,6 +51,9 @@ namespace geocone::GEOCONE_DIM
       "and "
       "ends:\n"
       "                       nothing is computed or written\n"
+      "  --picture            with --dry-run: draws the model (results/NAME-model, "
+      "or\n"
+      "                       --output), as each run does\n"
       "  --check FILE.prm...  the same for each of the files, with a line for "
       "each\n"
       "  --force              runs also what is too large for this machine's "
@@ -207,8 +211,9 @@ namespace geocone::GEOCONE_DIM
       bool        ok         = false;
       const auto  draw_later = [&]() {
         const OutputBase &output = simulation.output();
-        if (on_first_rank() && !call.dry_run && output.wants_pictures())
-          drawing = {output.folder(), call.quiet};
+        if (on_first_rank() && !output.folder().empty() &&
+            (call.picture || output.wants_pictures()))
+          drawing = {output.folder(), call.quiet, call.picture};
       };
       try
         {

@@ -25,6 +25,7 @@ namespace geocone
     std::map<std::string, std::string> own; ///< options of this program only
     bool                               quiet           = false;
     bool                               dry_run         = false;
+    bool                               picture         = false;
     bool                               force           = false;
     bool                               may_run_scripts = false;
     bool                               help            = false;
@@ -32,7 +33,7 @@ namespace geocone
   };
 
   /**
-   * Reads FILE.prm, --output, --set, --quiet, --dry-run, --check FILE..., --force,
+   * Reads FILE.prm, --output, --set, --quiet, --dry-run, --picture, --check FILE..., --force,
    * --run-gmsh-script, --defaults, --help, --version, and the options @p own of the
    * program, e.g. "--replay", which take a value.
    * @throws InputError on anything else
@@ -51,7 +52,8 @@ namespace geocone
   struct Drawing
   {
     std::string folder; ///< of the run; empty: nothing
-    bool        quiet = false;
+    bool        quiet      = false;
+    bool        only_model = false; ///< of a dry run
   };
 
   /**

@@ -108,15 +108,17 @@ def add_bar(axes, drawn, label, **options):
     axes.figure.colorbar(drawn, cax=bar, label=label, **options)
 
 
+def table_of(text):
+    """A piezometric line of a parameter file, x, y; x, y; ..., as an array (n, 2)."""
+    return np.array([tuple(map(float, point.split(","))) for point in text.split(";")
+                     if point.strip()])
+
+
 def water_tables(run, time=None):
     """The piezometric lines of a run at a time, or at its end, as arrays of x, y: that of the
     start or of the last stage that has led to another one; while a stage does, both."""
-    def points_of(text):
-        return np.array([tuple(map(float, point.split(","))) for point in text.split(";")
-                         if point.strip()])
-
     try:
-        tables = [points_of(run.parameters.get("Water/Table", ""))]
+        tables = [table_of(run.parameters.get("Water/Table", ""))]
     except Missing:
         return []
     if time is None:
@@ -128,7 +130,7 @@ def water_tables(run, time=None):
     for stage in run.parameters.get("Loading/Stages", "").split(","):
         section = f"Loading/{stage.strip()}/"
         end = begin + float(run.parameters.get(section + "Duration", 1.))
-        table = points_of(run.parameters.get(section + "Water table", ""))
+        table = table_of(run.parameters.get(section + "Water table", ""))
         if len(table) and time > begin:
             tables = [table] if time >= end * (1. - 1e-9) else [tables[-1], table]
         begin = end

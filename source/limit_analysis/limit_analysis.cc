@@ -298,6 +298,28 @@ namespace geocone::GEOCONE_DIM
               : "a factor of the " + bounded_load.word());
   }
 
+  Json
+  LimitAnalysis::model()
+  {
+    ModelMesh mesh;
+    mesh.materials = triangles->material;
+    for (const auto &cell : triangles->cells)
+      mesh.cells.push_back({triangles->vertices[cell[0]],
+                            triangles->vertices[cell[1]],
+                            triangles->vertices[cell[2]]});
+    mesh.faces_of = [&](const BoundaryCondition &condition) {
+      std::vector<ModelMesh::Face> faces;
+      for (const auto &held : triangles->held_edges(condition))
+        {
+          const auto &ends = triangles->edges[held.edge].vertices;
+          faces.push_back(
+            {triangles->vertices[ends[0]], triangles->vertices[ends[1]]});
+        }
+      return faces;
+    };
+    return model_of(scene, mesh);
+  }
+
   BoundLevel
   LimitAnalysis::bound_load()
   {

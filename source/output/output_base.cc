@@ -4,6 +4,7 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/stop_request.h>
 #include <geocone/base/unused_parameters.h>
+#include <geocone/output/model_file.h>
 #include <geocone/output/output_base.h>
 #include <geocone/output/run_status.h>
 #include <geocone/output/statistics_table.h>
@@ -113,6 +114,26 @@ namespace geocone::GEOCONE_DIM
         Watcher::watch(path);
         log.open(path + "/log.txt", resumes);
       }
+  }
+
+  void
+  OutputBase::make_folder_of_model(const RunOptions &options)
+  {
+    name                 = options.name;
+    const bool was_named = !options.folder.empty();
+    path = was_named ? options.folder : "results/" + name + "-model";
+    path = make_run_folder(
+      comm, path, was_named, was_named ? if_exists.get() : IfExists::overwrite);
+  }
+
+  void
+  OutputBase::write_model(Json description) const
+  {
+    description["name"] = name;
+    if (writes)
+      write_file(path + "/" + model_file, [&](std::ostream &out) {
+        out << description.dump() << "\n";
+      });
   }
 
   void

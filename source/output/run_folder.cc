@@ -58,7 +58,7 @@ namespace geocone
     is_name_of_runs(const std::string &name)
     {
       static const std::regex names(
-        "(parameters\\.prm|summary\\.json|log\\.txt|report\\.html|"
+        "(parameters\\.prm|summary\\.json|model\\.json|log\\.txt|report\\.html|"
         "paraview_state\\.py|(statistics|newton|path|surfaces|bounds)\\.csv|"
         "(cells|points|obstacles|bounds)(-[0-9]{4,}.*)?\\."
         "(vtu|pvtu|pvd|h5|vtkhdf|xdmf)|checkpoint-[0-9]{6,}\\.h5)(\\.part)?");

@@ -67,6 +67,16 @@ namespace geocone::GEOCONE_DIM
                   Utilities::MPI::n_mpi_processes(comm) > 1 ? "s" : "");
   }
 
+  Json
+  ExplicitSimulation::model()
+  {
+    BackgroundMesh &mesh  = stepper.background_mesh();
+    const auto      lines = mesh.uniform_lines(scene, method);
+    return model_of(scene,
+                    lines[0].empty() ? model_mesh_of(mesh, scene, true)
+                                     : model_mesh_of(lines, scene));
+  }
+
   void
   ExplicitSimulation::begin(const Place &place)
   {

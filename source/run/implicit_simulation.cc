@@ -294,6 +294,12 @@ namespace geocone::GEOCONE_DIM
                   stepper->linear_solver_name().c_str());
   }
 
+  Json
+  ImplicitSimulation::model()
+  {
+    return model_of(scene, model_mesh_of(mesh, scene, method.is_mpm()));
+  }
+
   void
   ImplicitSimulation::begin(const Place &place)
   {

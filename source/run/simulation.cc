@@ -26,6 +26,11 @@ namespace geocone::GEOCONE_DIM
       {
         for (const std::string &warning : warnings)
           log.warn(warning);
+        if (options.picture)
+          {
+            output().make_folder_of_model(options);
+            write_model();
+          }
         return true;
       }
     n_in_stage = programme();
@@ -37,8 +42,11 @@ namespace geocone::GEOCONE_DIM
     log.print(headline(options.name));
     log.print("results in " + output().folder());
     if (!options.resumes)
-      for (const std::string &warning : warnings)
-        log.warn(warning);
+      {
+        for (const std::string &warning : warnings)
+          log.warn(warning);
+        write_model();
+      }
     write_summary("running");
     try
       {
@@ -75,6 +83,14 @@ namespace geocone::GEOCONE_DIM
         throw;
       }
     return output().expectations_hold();
+  }
+
+  void
+  Simulation::write_model()
+  {
+    const Json description = model();
+    if (!description.is_null())
+      output().write_model(description);
   }
 
   void

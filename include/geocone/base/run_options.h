@@ -15,6 +15,7 @@ namespace geocone
     std::string parameter_file; ///< its absolute name
     std::string folder; ///< of the results; empty: that of the parameters
     bool        dry_run  = false; ///< check and estimate only
+    bool        picture  = false; ///< of a dry run: describe the model to those who draw
     bool        force    = false; ///< run what is too large for the machine
     bool        resumes  = false; ///< go on with the run in the folder
     bool may_run_scripts = false; ///< gmsh scripts, which can run commands

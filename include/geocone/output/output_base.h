@@ -57,6 +57,18 @@ namespace geocone::GEOCONE_DIM
       return path;
     }
 
+    /**
+     * Makes the folder of a run that is checked only: results/NAME-model, whose files
+     * of an earlier check are replaced, or the one that was named.
+     * @throws InputError as a run
+     */
+    void
+    make_folder_of_model(const RunOptions &options);
+
+    /** Writes the description of the model (model_file.h). @throws RunError */
+    void
+    write_model(Json description) const;
+
     bool
     wants_pictures() const
     {

@@ -37,6 +37,8 @@ namespace geocone::GEOCONE_DIM
     prepare_output(const RunOptions &options) override;
     std::string
     headline(const std::string &name) const override;
+    Json
+    model() override;
     void
     begin(const Place &place) override;
     Ended

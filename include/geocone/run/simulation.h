@@ -6,6 +6,7 @@
 
 #include <geocone/base/log.h>
 #include <geocone/base/run_options.h>
+#include <geocone/output/model_file.h>
 #include <geocone/output/output_base.h>
 #include <geocone/run/checkpoint.h>
 
@@ -83,6 +84,13 @@ namespace geocone::GEOCONE_DIM
     virtual std::string
     headline(const std::string &name) const = 0;
 
+    /** The model as data of a picture; null where there is none to show. */
+    virtual Json
+    model()
+    {
+      return {};
+    }
+
     /** At the start of a run that is not resumed. */
     virtual void
     record_start()
@@ -152,6 +160,10 @@ namespace geocone::GEOCONE_DIM
     dealii::Timer  total, step_loop, output_time;
 
   private:
+    /** Describes the model in the folder of the run. Collective. */
+    void
+    write_model();
+
     /** All stages, from where the run is. */
     void
     follow_programme();

@@ -124,6 +124,13 @@ namespace geocone::GEOCONE_DIM
       return imposition.get()->on;
     }
 
+    /** Whether it prescribes a traction. */
+    bool
+    is_traction() const
+    {
+      return quantity == "Traction";
+    }
+
     /** Whether it holds particles or a side of the body, and not nodes. */
     bool
     moves() const

@@ -176,6 +176,13 @@ namespace geocone::GEOCONE_DIM
     std::array<dealii::Point<dim>, 2>
     side_ends(const dealii::types::boundary_id side) const;
 
+    /** Whether the body is a part of the shape, where a formula is positive. */
+    bool
+    is_part_by_formula() const
+    {
+      return where.has_value();
+    }
+
     /** Whether x lies in the body; true for a file, whose cells are the body. */
     bool
     contains(const dealii::Point<dim> &x) const;
@@ -244,6 +251,13 @@ namespace geocone::GEOCONE_DIM
     /** The polygons, to be respected by mesh generators. */
     std::vector<Polygon>
     polygons() const;
+
+    /** The polygon of a material; empty: it has none. */
+    const Polygon &
+    polygon_of(const unsigned int material) const
+    {
+      return regions[material]->polygon;
+    }
 
     /** Whether a material is found by the number of a physical surface. */
     bool

@@ -3,6 +3,7 @@
 """Draws the results of geocone runs.
 
 For each run folder, as far as the files for them exist:
+  model.png                        model.json: soils, mesh, supports, loads, stages
   load_displacement.png, .svg      statistics.csv, the reference and the plateau
   newton.png                       newton.csv: the residuals of all steps
   energy.png                       statistics.csv: where the energy goes
@@ -61,9 +62,10 @@ def pictures_of(run, times=None):
 
 def draw_run(run, folder, times=None):
     """Draws all pictures of a run into a folder."""
+    from geocone.plots import model
     folder.mkdir(parents=True, exist_ok=True)
     try:
-        pictures = pictures_of(run, times)
+        pictures = {"model.png": model.draw_run, **pictures_of(run, times)}
         for name, draw in pictures.items():
             with contextlib.suppress(Missing, Skipped):  # e.g. nothing flows
                 draw(run, folder / name)
@@ -75,6 +77,16 @@ def draw_run(run, folder, times=None):
         raise
     except Exception as problem:  # damaged results may fail anywhere
         raise PlotError(f"what is in '{run.folder}' cannot be drawn: {problem!r}")
+
+
+def draw_models(folders, output):
+    """Draws the models of runs, or of checks, each into its folder or into one in another."""
+    from geocone.plots import model
+    for folder in folders:
+        below = output / folder.resolve().name if output else folder
+        below.mkdir(parents=True, exist_ok=True)
+        model.draw(folder, below / "model.png")
+    finish()
 
 
 def write_state(run, folder):
@@ -113,12 +125,17 @@ def main(arguments, prog="plot"):
     parser.add_argument("--paraview", action="store_true",
                         help="only write paraview_state.py, which opens the fields in "
                         "ParaView")
+    parser.add_argument("--model", action="store_true",
+                        help="only draw model.png, also of a folder of --dry-run --picture")
     call = parser.parse_args(arguments)
     # Fonts lack characters of some names; what is not finite is not drawn.
     warnings.simplefilter("ignore")
     for stream in (sys.stdout, sys.stderr):  # names of files may be no text
         stream.reconfigure(errors="backslashreplace")
     try:
+        if call.model:
+            draw_models(map(Path, call.folders), call.output)
+            return 0
         runs = [Run(folder) for folder in call.folders]
         names = [run.folder.resolve().name for run in runs]
         if call.compare:

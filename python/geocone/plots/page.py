@@ -35,6 +35,7 @@ TOPICS = {"safety": "Factor of safety", "bounds": "Bounds", "limit_load": "Load"
 # What pictures are called, in the order in which a reader wants to see them: the answer, how the
 # body moves and flows, and last what tells about the computation.
 CAPTIONS = {
+    "model.png": "The model",
     "load_displacement.png": "Load against displacement",
     "safety.png": "Displacement while the strength is reduced",
     "mechanism.png": "Where the bounds differ, and the mechanisms of both",

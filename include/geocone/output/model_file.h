@@ -1,0 +1,62 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_output_model_file_h
+#define geocone_output_model_file_h
+
+#include <geocone/mesh/background_mesh.h>
+#include <geocone/output/json.h>
+#include <geocone/scene/scene.h>
+
+#include <array>
+#include <functional>
+#include <vector>
+
+namespace geocone::GEOCONE_DIM
+{
+  /** Name of the file that describes the scene of a run to those who draw it. */
+  constexpr const char *model_file = "model.json";
+
+  /** Mesh of a scene, as far as a picture shows it. */
+  struct ModelMesh
+  {
+    /** A polygon in the plane, or a flat face in space. */
+    using Face = std::vector<dealii::Point<dim>>;
+
+    /** Cells in the plane; boundary faces of the mesh in space. */
+    std::vector<Face> cells;
+
+    /** Index of the material of each cell; empty for particles, whose body is that of
+     *  Scene::geometry. */
+    std::vector<unsigned int> materials;
+
+    /** Boundary faces on the sides of a condition. */
+    std::function<std::vector<Face>(const BoundaryCondition &)> faces_of;
+  };
+
+  /**
+   * The mesh of a run. Collective.
+   * @param of_particles whether conditions may be on the sides of the body instead of
+   * those of the mesh
+   */
+  ModelMesh
+  model_mesh_of(const BackgroundMesh &mesh,
+                const Scene          &scene,
+                const bool            of_particles);
+
+  /** A uniform grid between lines, whose nodes the conditions hold. */
+  ModelMesh
+  model_mesh_of(const std::array<std::vector<double>, dim> &lines,
+                const Scene                                &scene);
+
+  /**
+   * Describes a scene before its first step (m, m/s, Pa): the body and its materials,
+   * the mesh, supports, tractions, obstacles, observed points and what changes in each
+   * stage. Prescribed values are those of the time of the programme, out of a few, at
+   * which they are largest.
+   */
+  Json
+  model_of(const Scene &scene, const ModelMesh &mesh);
+} // namespace geocone::GEOCONE_DIM
+
+#endif

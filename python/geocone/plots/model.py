@@ -1,0 +1,586 @@
+# Copyright (C) 2026 by the geocone authors
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""model.png: the scene before its first step: soils with a legend, mesh, supports, loads,
+water, obstacles, observed points, and the stages that change the body."""
+
+import json
+import math
+
+import numpy as np
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import to_rgba
+from matplotlib.legend_handler import HandlerPatch
+from matplotlib.lines import Line2D
+from matplotlib.patches import FancyArrow, Patch, PathPatch, Polygon
+from matplotlib.path import Path as Outline
+from matplotlib.transforms import offset_copy
+
+from geocone.parameter_file import IncludeError, parameters_of
+from geocone.plots.solid import ON_DARK, View, add_directions
+from geocone.reader import Missing, ReadError
+from geocone.style import plain, save, subplots, table_of, unit_for
+
+FILE = "model.json"
+# Light enough for symbols, clear to colour-blind readers, and by lightness on paper.
+SOILS = ["#e3d3ae", "#b99f77", "#cfdccb", "#9fb3bf", "#e8c3a8", "#c9bedb", "#8f8676", "#f2ead2"]
+SUPPORT, LOAD, MOTION, WATER = "#303030", "#b02020", "#0060a0", "#3a86c8"
+MOST_STAGES = 6  # small pictures of stages
+
+
+class Model:
+    """The description of a scene.
+
+    data        what model.json says (source/output/model_file.cc)
+    parameters  {"Section/Name": text}"""
+
+    def __init__(self, folder):
+        try:
+            self.data = json.loads((folder / FILE).read_text())
+            self.parameters = parameters_of(folder / "parameters.prm")
+            self.name = self.data["name"]
+            self.low, self.high = (np.array(self.data[end], dtype=float)
+                                   for end in ("low", "high"))
+        except FileNotFoundError as problem:
+            raise Missing(f"there is no file '{problem.filename}'")
+        except (OSError, ValueError, LookupError, TypeError, IncludeError,
+                RecursionError) as problem:
+            raise ReadError(f"the model of '{folder}' cannot be read: {problem!r}")
+        self.size = float(np.max(self.high - self.low))
+
+    def materials(self):
+        """Names of the materials that are drawn, with their places in the list."""
+        return [(i, material["name"]) for i, material in enumerate(self.data["materials"])]
+
+    def absent(self):
+        """Names of the materials that a stage adds or makes of others, which are not there
+        at the start."""
+        return {name for stage in self.data["stages"]
+                for name in [*stage.get("added", ()), *stage.get("changed", {}).values()]}
+
+    def properties(self, name):
+        """A material in a line: its law and what describes its strength."""
+        value = {key: self.parameters.get(f"Materials/{name}/{key}") for key in (
+            "Type", "Density", "Cohesion", "Friction angle", "Dilatancy angle",
+            "Undrained strength")}
+
+        def number(key):
+            try:
+                return float(value[key])
+            except (TypeError, ValueError):
+                return None
+
+        parts = [value["Type"]] if value["Type"] else []
+        for key, symbol in (("Cohesion", "c"), ("Undrained strength", "$s_u$")):
+            if number(key) is not None:
+                unit, size = unit_for(number(key), "Pa")
+                parts.append(f"{symbol} = {number(key) / size:g} {unit}")
+        for key, symbol in (("Friction angle", "φ"), ("Dilatancy angle", "ψ")):
+            if number(key) is not None:
+                parts.append(f"{symbol} = {number(key):g}°")
+        if number("Density") is not None:
+            parts.append(f"ρ = {number('Density'):g} kg/m³")
+        return ", ".join(parts)
+
+
+def color_of(material):
+    """The colour of a material by its place in the list."""
+    return SOILS[material % len(SOILS)]
+
+
+def outline_of(model):
+    """The outline of the body as a clip path; None where cells or a lattice show it."""
+    outline = model.data["body"].get("outline")
+    return None if outline is None else Outline(
+        np.array([*outline, outline[0]]), closed=True)
+
+
+def draw_lattice(axes, lattice, color, **options):
+    """Fills what a formula selects."""
+    rows = np.array([[int(c) for c in row] for row in lattice["rows"]], dtype=float)
+    image = np.zeros((*rows.shape, 4))
+    image[...] = to_rgba(color)
+    image[..., 3] *= rows
+    (x0, y0), (x1, y1) = lattice["low"], lattice["high"]
+    return axes.imshow(image, extent=(x0, x1, y0, y1), origin="lower", aspect="equal",
+                       interpolation="nearest", **options)
+
+
+def draw_soils(axes, model, absent=(), changed=None, removed=()):
+    """Fills the materials.
+
+    @param absent names of those that are not there
+    @param changed {name: name} what has become another one
+    @param removed polygons that have been taken away"""
+    changed = changed or {}
+    names = [name for _, name in model.materials()]
+    cells, of_cell = model.data["cells"], model.data["material_of_cell"] or []
+
+    def shown(material):
+        name = names[material]
+        while name in changed:
+            name = changed[name]
+        return names.index(name)
+
+    if of_cell:
+        there = [i for i, m in enumerate(of_cell) if names[m] not in absent]
+        axes.add_collection(PolyCollection(
+            [cells[i] for i in there], facecolors=[color_of(shown(of_cell[i])) for i in there],
+            edgecolors="face", linewidths=0.3, zorder=1))
+    else:
+        body = model.data["body"]
+        clip = None
+        if "lattice" in body:
+            draw_lattice(axes, body["lattice"], color_of(shown(0)), zorder=1)
+        outline = outline_of(model)
+        if outline is not None:
+            clip = PathPatch(outline, transform=axes.transData)
+            if "lattice" not in body:
+                axes.add_patch(PathPatch(outline, facecolor=color_of(shown(0)), linewidth=0.,
+                                         zorder=1))
+        for i, material in enumerate(model.data["materials"]):
+            if "region" in material:
+                there = names[i] not in absent
+                patch = Polygon(material["region"], linewidth=0., zorder=1.1,
+                                facecolor=color_of(shown(i)) if there else "white")
+                axes.add_patch(patch)
+                if clip is not None:
+                    patch.set_clip_path(clip)
+    outline = outline_of(model)
+    for polygon in removed:
+        patch = Polygon(polygon, facecolor="white", edgecolor="#808080", hatch="//",
+                        linewidth=0.8, linestyle="--", zorder=1.4)
+        axes.add_patch(patch)
+        if outline is not None:
+            patch.set_clip_path(PathPatch(outline, transform=axes.transData))
+
+
+def draw_outlines(axes, model):
+    """The outlines of the body and of its regions."""
+    outline = outline_of(model)
+    for material in model.data["materials"]:
+        if "region" in material:
+            patch = Polygon(material["region"], fill=False, edgecolor="#606060", linewidth=0.7,
+                            zorder=2)
+            axes.add_patch(patch)
+            if outline is not None:
+                patch.set_clip_path(PathPatch(outline, transform=axes.transData))
+    if outline is not None and "lattice" not in model.data["body"]:
+        axes.add_patch(PathPatch(outline, fill=False, edgecolor="#404040", linewidth=1.,
+                                 zorder=2))
+
+
+def draw_mesh(axes, model):
+    """The cells, faintly; not of fine meshes, whose lines would hide the soil."""
+    cells = model.data["cells"]
+    width = 0.4 if len(cells) < 2000 else 0.2
+    if 0 < len(cells) < 12000:
+        axes.add_collection(PolyCollection(cells, facecolors="none", edgecolors="#00000040",
+                                           linewidths=width, zorder=1.6))
+
+
+def segments_of(faces):
+    """The straight segments that faces of the boundary make together (n, 2, 2)."""
+    faces = np.array(faces, dtype=float).reshape(-1, 2, 2)
+    tolerance = 1e-6 * max(np.ptp(faces.reshape(-1, 2), axis=0).max(), 1e-300)
+    lines = {}
+    for a, b in faces:
+        along = (b - a) / max(np.linalg.norm(b - a), 1e-300)
+        if (along[0], along[1]) < (-1e-9, 0.) or abs(along[0]) <= 1e-9 and along[1] < 0.:
+            a, b, along = b, a, -along
+        offset = along[0] * a[1] - along[1] * a[0]
+        key = (*np.round(along, 6), round(offset / (100. * tolerance)))
+        lines.setdefault(key, []).append((a @ along, b @ along, a, b))
+    segments = []
+    for parts in lines.values():
+        parts.sort(key=lambda part: part[0])
+        end, start, last = parts[0][1:]
+        for begin, finish, a, b in parts[1:]:
+            if begin > end + tolerance:
+                segments.append((start, last))
+                start, last, end = a, b, finish
+            elif finish > end:
+                last, end = b, finish
+        segments.append((start, last))
+    return np.array(segments)
+
+
+def spaced(faces, distance):
+    """Places along faces in the plane, about a distance apart on each straight part.
+
+    @return indices of the nearest faces, places (n, 2), unit directions along them (n, 2)"""
+    places, directions = [], []
+    for a, b in segments_of(faces):
+        length = np.linalg.norm(b - a)
+        n = max(1, min(60, round(length / distance)))
+        places.extend(a + (k + 0.5) / n * (b - a) for k in range(n))
+        directions.extend([(b - a) / max(length, 1e-300)] * n)
+    places = np.array(places)
+    middles = np.array(faces, dtype=float).mean(axis=1)
+    index = np.array([np.argmin(np.sum((middles - x)**2, axis=1)) for x in places])
+    return index, places, np.array(directions)
+
+
+def outward_of(model, places, directions):
+    """Unit normals at places of the boundary, away from the body, or from its middle where
+    the mesh of particles goes beyond it."""
+    normals = np.stack([directions[:, 1], -directions[:, 0]], axis=1)
+    away = np.sum(normals * (places - (model.low + model.high) / 2.), axis=1)
+    outline = outline_of(model)
+    if outline is not None:
+        probe = 1e-4 * model.size * normals
+        before, behind = (outline.contains_points(places - probe),
+                          outline.contains_points(places + probe))
+        away = np.where(before == behind, away, np.where(behind, -1., 1.))
+    return normals * np.where(away < 0., -1., 1.)[:, None]
+
+
+def value_text(values, unit):
+    """The range of the magnitudes of vectors, with a unit."""
+    sizes = np.linalg.norm(values, axis=1)
+    prefix, size = unit_for(float(sizes.max()), unit)
+    low, high = sizes.min() / size, sizes.max() / size
+    return (f"{high:.4g} {prefix}" if high - low <= 1e-6 * high else
+            f"{low:.3g} to {high:.4g} {prefix}")
+
+
+def draw_supports(axes, model):
+    """What holds the body: pins where no component may move, rollers where one may, arrows
+    where it is moved. @return entries of the legend"""
+    entries = {}
+    step = model.size / 40.
+    for condition in model.data["supports"]:
+        if not condition["faces"]:
+            continue
+        values = np.array(condition["values"], dtype=float)
+        index, places, along = spaced(condition["faces"], step)
+        outward = outward_of(model, places, along)
+        moved = np.linalg.norm(values[index], axis=1) > 0.
+        if np.any(moved):
+            draw_arrows(axes, places[moved], values[index][moved], outward[moved], MOTION,
+                        0.09 * model.size)
+            text = f"{plain(condition['name'])}: {value_text(values, 'm/s')}"
+            entries[text] = arrow_entry(MOTION)
+        held = ~moved
+        if not np.any(held):
+            continue
+        x, n, t = places[held], outward[held], along[held]
+        axes.add_collection(LineCollection(segments_of(condition["faces"]), colors=SUPPORT,
+                                           linewidths=1.4, zorder=4))
+        if all(condition["prescribed"]) or condition["normal"] and any(condition["prescribed"]):
+            ticks = np.stack([x, x + 0.45 * step * (n - 0.8 * t)], axis=1)
+            axes.add_collection(LineCollection(ticks, colors=SUPPORT, linewidths=0.8, zorder=4))
+            entries["fixed"] = Line2D([], [], color=SUPPORT, marker="|", markersize=9)
+        else:
+            x = x + 0.25 * step * n
+            axes.plot(*x.T, "o", color=SUPPORT, markerfacecolor="white", markersize=3.6,
+                      markeredgewidth=0.8, zorder=4, linestyle="none")
+            entries["roller"] = Line2D([], [], color=SUPPORT, marker="o", markersize=4.,
+                                       markerfacecolor="white")
+    return entries
+
+
+def arrow_entry(color):
+    """What stands for arrows in a legend."""
+    return FancyArrow(0., 0., 1., 0., color=color, width=0.05, length_includes_head=True)
+
+
+class ArrowHandler(HandlerPatch):
+    """Draws the arrow of a legend."""
+
+    def create_artists(self, legend, handle, x, y, width, height, size, transform):
+        arrow = FancyArrow(x, y + height / 2., width, 0., width=0.12 * height,
+                           head_width=0.8 * height, length_includes_head=True,
+                           color=handle.get_facecolor(), transform=transform)
+        return [arrow]
+
+
+def add_legend(axes, entries, below):
+    """Adds the legend under the axes. @param below so many points"""
+    axes.legend(entries.values(), entries.keys(), loc="upper center", frameon=False,
+                bbox_to_anchor=(0.5, 0.), fontsize=8.5, ncols=1 if len(entries) < 5 else 2,
+                bbox_transform=offset_copy(axes.transAxes, axes.figure, y=-below,
+                                           units="points"),
+                handler_map={FancyArrow: ArrowHandler()})
+
+
+def draw_arrows(axes, places, vectors, outward, color, length):
+    """Arrows whose tips are at the places if they point into the body, else their tails."""
+    sizes = np.linalg.norm(vectors, axis=1)
+    arrows = length * vectors / max(sizes.max(), 1e-300)
+    into = np.sum(vectors * outward, axis=1) < 0.
+    tails = np.where(into[:, None], places - arrows, places)
+    axes.quiver(*tails.T, *arrows.T, color=color, angles="xy", scale_units="xy", scale=1.,
+                width=0.0028, headwidth=4.5, headlength=5., zorder=5)
+
+
+def draw_tractions(axes, model):
+    """Tractions as arrows. @return entries of the legend"""
+    entries = {}
+    for condition in model.data["tractions"]:
+        values = np.array(condition["values"], dtype=float).reshape(-1, 2)
+        sizes = np.linalg.norm(values, axis=1)
+        if not len(values) or not sizes.max() > 0.:
+            continue
+        index, places, along = spaced(condition["faces"], model.size / 45.)
+        draw_arrows(axes, places, values[index], outward_of(model, places, along), LOAD,
+                    0.1 * model.size)
+        entries[f"{plain(condition['name'])}: {value_text(values, 'Pa')}"] = arrow_entry(LOAD)
+    return entries
+
+
+def draw_table(axes, table, text=None):
+    """A piezometric line with its triangle."""
+    if len(table) == 0:
+        return
+    x, y = np.array(table, dtype=float).T
+    low, high = axes.get_xlim()
+    axes.plot([min(low, x[0]), *x, max(high, x[-1])], [y[0], *y, y[-1]], color=WATER,
+              linewidth=1.5, linestyle=(0, (6, 2)), zorder=4.5)
+    place = low + 0.96 * (high - low)
+    axes.plot(place, np.interp(place, x, y), "v", color=WATER, markersize=7,
+              markerfacecolor="white", zorder=4.6)
+    if text:
+        axes.annotate(text, (place, np.interp(place, x, y)), xytext=(0, 7),
+                      textcoords="offset points", ha="right", color=WATER, fontsize=8)
+
+
+def draw_obstacles(axes, model):
+    """Obstacles where they begin, with their names."""
+    for obstacle in model.data["obstacles"]:
+        triangles = np.array(obstacle["triangles"], dtype=float)
+        if not len(triangles):
+            continue
+        axes.add_collection(PolyCollection(triangles, facecolors="#8c8c8c", edgecolors="face",
+                                           linewidths=0.5, zorder=3), autolim=False)
+        inside = np.clip(triangles.reshape(-1, 2), *np.array(
+            [axes.get_xlim(), axes.get_ylim()]).T).mean(axis=0)
+        axes.text(*inside, plain(obstacle["name"]), fontsize=8, ha="center", va="center",
+                  color="white", zorder=6, clip_on=True)
+
+
+def draw_side_names(axes, model):
+    """Names of the sides beside their middles, as conditions call them."""
+    sides = {name: np.array(ends) for name, ends in model.data["body"].get("sides", {}).items()}
+    for name, (a, b) in sides.items():
+        along = (b - a) / np.linalg.norm(b - a)
+        middle = a + 0.5 * (b - a)
+        normal = outward_of(model, middle[None], along[None])[0]
+        axes.annotate(plain(name), middle, xytext=11. * -normal, textcoords="offset points",
+                      ha="center", va="center", fontsize=7, color="#303030", zorder=6,
+                      bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "#909090",
+                            "lw": 0.5, "alpha": 0.85})
+
+
+def view_of(model):
+    """Corners of what is shown: the body, tractions' arrows and the mesh of particles."""
+    corners = np.array([model.low, model.high])
+    held = [point for condition in model.data["supports"] for face in condition["faces"]
+            for point in face]
+    if held and not model.data["material_of_cell"]:
+        corners = np.concatenate([corners, np.array(held)])
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    loads = any(np.any(condition["values"]) for kind in ("tractions", "supports")
+                for condition in model.data[kind])
+    margin = 0.06 * model.size
+    table = water_of(model)
+    if len(table):
+        high = np.maximum(high, [high[0], table[:, 1].max()])
+    return low - margin, high + [margin, 2.2 * margin if loads else margin]
+
+
+def water_of(model):
+    """The piezometric line of the start (n, 2)."""
+    return table_of(model.parameters.get("Water/Table", ""))
+
+
+def legend_of(model):
+    """Entries of the soils."""
+    absent = model.absent()
+    entries = {}
+    for i, name in model.materials():
+        text = f"{plain(name)}" + (" (later)" if name in absent else "")
+        properties = model.properties(name)
+        entries[f"{text}: {properties}" if properties else text] = Patch(
+            facecolor=color_of(i), edgecolor="#606060", linewidth=0.6)
+    return entries
+
+
+def notable_stages(model):
+    """The stages whose beginning or end looks otherwise than what was before."""
+    return [stage for stage in model.data["stages"] if any(
+        key in stage for key in ("removed", "removed_lattice", "added", "changed",
+                                 "water_table"))]
+
+
+def words_of(stage):
+    """What a stage does, in a few words."""
+    words = []
+    if "removed" in stage or "removed_lattice" in stage:
+        words.append("excavation")
+    if "added" in stage:
+        words.append("adds " + ", ".join(stage["added"]))
+    for before, after in stage.get("changed", {}).items():
+        words.append(f"{before} becomes {after}")
+    if "water_table" in stage:
+        words.append("water level")
+    if "strength_factor" in stage:
+        words.append(f"strength / {stage['strength_factor']:g}")
+    return plain(stage["name"]) + (": " + plain("; ".join(words)) if words else "")
+
+
+def frame(axes, view):
+    """Sets the view of axes."""
+    axes.set(xlim=(view[0][0], view[1][0]), ylim=(view[0][1], view[1][1]), aspect="equal")
+    axes.grid(False)
+
+
+def draw_stages(axes_of, model, stages, view):
+    """A small picture of the body in each of some stages."""
+    absent, changed, removed, table = model.absent(), {}, [], water_of(model)
+    pictures = []
+    for stage in model.data["stages"]:
+        absent = absent - set(stage.get("added", ())) - set(stage.get("changed", {}).values())
+        changed = {**changed, **stage.get("changed", {})}
+        removed = removed + ([stage["removed"]] if "removed" in stage else [])
+        table = np.array(stage.get("water_table", table), dtype=float)
+        if stage in stages:
+            pictures.append((stage, absent, changed, removed, table))
+    for axes, (stage, absent, changed, removed, table) in zip(axes_of, pictures):
+        frame(axes, view)
+        draw_soils(axes, model, absent, changed, removed)
+        if "removed_lattice" in stage:
+            draw_lattice(axes, stage["removed_lattice"], "#ffffff", zorder=1.4)
+        draw_outlines(axes, model)
+        draw_table(axes, table)
+        axes.set_title(words_of(stage), fontsize=8)
+        axes.set(xticks=[], yticks=[])
+
+
+def draw_plane(model, path):
+    """The picture of a scene in the plane."""
+    view = view_of(model)
+    width, height = view[1] - view[0]
+    stages = notable_stages(model)[:MOST_STAGES]
+    w = min(9., max(3.5, 7. * width / height))
+    h = w * height / width
+    strip = 0. if not stages else (w / max(3, len(stages))) * height / width + 0.5
+    figure, axes_of = subplots(
+        2 if stages else 1, 1, squeeze=False, figsize=(w, h + strip + 0.8),
+        gridspec_kw={"height_ratios": [h, strip]} if stages else None)
+    main = axes_of[0, 0]
+    frame(main, view)
+    draw_soils(main, model, model.absent())
+    draw_mesh(main, model)
+    draw_outlines(main, model)
+    draw_obstacles(main, model)
+    entries = {**legend_of(model), **draw_supports(main, model), **draw_tractions(main, model)}
+    draw_side_names(main, model)
+    table = water_of(model)
+    draw_table(main, table)
+    if len(table):
+        entries["water table"] = Line2D([], [], color=WATER, linestyle="--")
+    points = np.array(model.data["observed_points"], dtype=float).reshape(-1, 2)
+    if len(points):
+        main.plot(*points.T, "P", color="black", markersize=6, markeredgecolor="white",
+                  zorder=6, linestyle="none")
+        entries["observed points"] = Line2D([], [], color="black", marker="P", linestyle="none")
+    main.set(xlabel="x (m)", ylabel="y (m)", title=f"{plain(model.name)}: model")
+    add_legend(main, entries, below=36.)
+    if stages:
+        lower = axes_of[1, 0]
+        lower.axis("off")
+        n = max(3, len(stages))
+        insets = [lower.inset_axes([i / n, 0., 0.96 / n, 0.9]) for i in range(len(stages))]
+        draw_stages(insets, model, stages, view)
+    save(figure, None, path, cropped=True)
+
+
+def box_faces(low, high):
+    """The faces (6, 4, 3) of a box and their outward normals (6, 3)."""
+    faces, normals = [], []
+    for d in range(3):
+        a, b = (d + 1) % 3, (d + 2) % 3
+        for end, sign in ((low, -1.), (high, 1.)):
+            corners = np.tile(end, (4, 1)).astype(float)
+            for corner, (u, v) in zip(corners, ((0, 0), (1, 0), (1, 1), (0, 1))):
+                corner[a], corner[b] = (low, high)[u][a], (low, high)[v][b]
+            faces.append(corners)
+            normals.append(sign * np.eye(3)[d])
+    return np.array(faces), np.array(normals)
+
+
+def is_seen(model, view, face):
+    """Whether a face of the boundary is on the side of the body that a view shows."""
+    normal = np.cross(face[1] - face[0], face[2] - face[0])
+    outward = normal @ (face.mean(axis=0) - (model.low + model.high) / 2.) > 0.
+    return (normal @ view.towards > 0.) == outward
+
+
+def draw_space(model, path):
+    """The picture of a scene in three dimensions, from above and a corner."""
+    view = View(1., 1.)
+    corners = np.array([[x, y, z] for x in (model.low[0], model.high[0])
+                        for y in (model.low[1], model.high[1])
+                        for z in (model.low[2], model.high[2])])
+    seen = view.seen(corners)
+    box = np.array([seen.min(axis=0), seen.max(axis=0)])
+    box = np.array([box[0] - 0.12 * model.size, box[1] + 0.15 * model.size])
+    w = min(9., max(4., 7. * np.ptp(box[:, 0]) / np.ptp(box[:, 1])))
+    figure, axes = subplots(figsize=(w, w * np.ptp(box[:, 1]) / np.ptp(box[:, 0]) + 1.))
+    frame(axes, box)
+    entries = legend_of(model)
+    absent = model.absent()
+    for i, material in enumerate(model.data["materials"]):
+        ends = (model.low, model.high) if i == 0 else (
+            np.array(material["region"], dtype=float) if "region" in material else None)
+        if ends is None or material["name"] in absent:
+            continue
+        low, high = np.maximum(ends[0], model.low), np.minimum(ends[1], model.high)
+        for face, normal in zip(*box_faces(low, high)):
+            if normal @ view.towards > 0.:
+                axes.add_patch(Polygon(view.seen(face), facecolor=color_of(i), zorder=1 + 0.01 * i,
+                                       edgecolor="#505050", linewidth=0.8, alpha=0.85))
+    for obstacle in model.data["obstacles"]:
+        triangles = np.array(obstacle["triangles"], dtype=float).reshape(-1, 3, 3)
+        order = np.argsort(triangles.mean(axis=1) @ view.towards)
+        axes.add_collection(PolyCollection(view.seen(triangles.reshape(-1, 3)).reshape(
+            -1, 3, 2)[order], facecolors="#8c8c8cb0", edgecolors="#606060", linewidths=0.3,
+            zorder=3), autolim=False)
+    for kind, color, unit in (("supports", MOTION, "m/s"), ("tractions", LOAD, "Pa")):
+        for condition in model.data[kind]:
+            faces = [np.array(face, dtype=float) for face in condition["faces"]]
+            if not faces:
+                continue
+            values = np.array(condition["values"], dtype=float)
+            moved = np.linalg.norm(values, axis=1) > 0.
+            shown = color if np.any(moved) else SUPPORT
+            axes.add_collection(PolyCollection(
+                [view.seen(face) for face in faces if is_seen(model, view, face)],
+                facecolors=shown + "30", edgecolors="none", zorder=2))
+            text = plain(condition["name"])
+            if np.any(moved):
+                places = np.array([face.mean(axis=0) for face in faces])[moved]
+                every = max(1, len(places) // 40)
+                draw_arrows(axes, view.seen(places[::every]), view.seen(values[moved][::every]),
+                            -view.seen(values[moved][::every]), color, 0.1 * model.size)
+                entries[f"{text}: {value_text(values, unit)}"] = arrow_entry(color)
+            else:
+                held = [c for c, given in zip("xyz", condition["prescribed"]) if given]
+                entries[f"{text}: fixed in " + (", ".join(held) or "the normal direction")] = (
+                    Patch(facecolor=SUPPORT + "30", edgecolor=SUPPORT))
+    add_directions(axes, view, box)
+    axes.set_title(f"{plain(model.name)}: model, seen from {view.name()}")
+    add_legend(axes, entries, below=2.)
+    save(figure, None, path, cropped=True)
+
+
+def draw(folder, path):
+    """Draws the model in the folder of a run or of a check.
+    @throw Missing where there is none, ReadError if it is damaged"""
+    model = Model(folder)
+    (draw_plane if model.data["dimension"] == 2 else draw_space)(model, path)
+
+
+def draw_run(run, path):
+    """Draws the model of a run."""
+    draw(run.folder, path)

@@ -1,0 +1,483 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <geocone/output/model_file.h>
+#include <geocone/surfaces/panel.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+namespace geocone::GEOCONE_DIM
+{
+  using dealii::Point;
+  using dealii::Tensor;
+  using Face = ModelMesh::Face;
+
+  namespace
+  {
+    /** Larger meshes are not legible in a picture. */
+    constexpr std::size_t most_cells_drawn = 30000;
+
+    /** Parts of a face in the plane, of which a condition may hold some. */
+    constexpr unsigned int parts_of_face = 8;
+
+    template <int size>
+    Json
+    json(const Tensor<1, size> &x)
+    {
+      Json all = Json::array();
+      for (unsigned int c = 0; c < size; ++c)
+        all.push_back(x[c]);
+      return all;
+    }
+
+    template <typename Places>
+    Json
+    json_of_places(const Places &places)
+    {
+      Json all = Json::array();
+      for (const auto &x : places)
+        all.push_back(json(x));
+      return all;
+    }
+
+    Point<dim>
+    centre_of(const Face &face)
+    {
+      Point<dim> centre;
+      for (const Point<dim> &x : face)
+        centre += x / double(face.size());
+      return centre;
+    }
+
+    /** The parts of a face that a condition holds. */
+    std::vector<Face>
+    held_parts(const Face &face, const BoundaryCondition &condition)
+    {
+      std::vector<Face> held;
+      if (dim == 3)
+        {
+          if (condition.holds_at(centre_of(face)))
+            held.push_back(face);
+          return held;
+        }
+      const Tensor<1, dim> part      = (face[1] - face[0]) / parts_of_face;
+      bool                 continues = false;
+      for (unsigned int i = 0; i < parts_of_face; ++i)
+        {
+          const Point<dim> a = face[0] + double(i) * part, b = a + part;
+          const bool       holds = condition.holds_at(centre_of({a, b}));
+          if (holds && continues)
+            held.back()[1] = b;
+          else if (holds)
+            held.push_back({a, b});
+          continues = holds;
+        }
+      return held;
+    }
+
+    /** Normals of boundary faces out of the body. */
+    class OutwardNormals
+    {
+    public:
+      OutwardNormals(const Scene &scene, const ModelMesh &mesh)
+        : geometry(scene.geometry)
+      {
+        if (dim == 2 && !mesh.materials.empty())
+          for (const Face &cell : mesh.cells)
+            for (std::size_t i = 0; i < cell.size(); ++i)
+              inside[key({cell[i], cell[(i + 1) % cell.size()]})] =
+                centre_of(cell);
+      }
+
+      Tensor<1, dim>
+      operator()(const Face &face) const
+      {
+        const Tensor<1, dim> along = face[1] - face[0];
+        Tensor<1, dim>       n;
+        if constexpr (dim == 2)
+          {
+            n[0] = along[1];
+            n[1] = -along[0];
+          }
+        else
+          n = dealii::cross_product_3d(along, face[2] - face[0]);
+        n /= n.norm();
+        const Point<dim> centre = centre_of(face);
+        const auto       cell   = inside.find(key(face));
+        const bool       is_outward =
+          cell != inside.end()
+                  ? n * (centre - cell->second) > 0.
+                  : geometry.shape == Geometry::Shape::file ||
+                !geometry.contains(centre + 1e-6 * along.norm() * n);
+        return is_outward ? n : -n;
+      }
+
+    private:
+      using Key = std::array<std::array<double, dim>, 2>;
+
+      static Key
+      key(const Face &face)
+      {
+        Key ends;
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            ends[0][c] = face[0][c];
+            ends[1][c] = face[1][c];
+          }
+        std::sort(ends.begin(), ends.end());
+        return ends;
+      }
+
+      const Geometry           &geometry;
+      std::map<Key, Point<dim>> inside; ///< centre of the cell of each edge
+    };
+
+    /** Times at which prescribed values are looked at: the ends of the stages and of
+     *  tenths of them. */
+    std::vector<double>
+    times_of(const LoadingProgramme &loading)
+    {
+      std::vector<double> times = {0.};
+      for (const auto &stage : loading.list)
+        {
+          const double begin = times.back();
+          for (unsigned int i = 1; i <= 10; ++i)
+            times.push_back(begin + i / 10. * stage->duration);
+        }
+      return times;
+    }
+
+    /** The vector of a condition at a place: the largest of those times. Components that
+     *  it does not prescribe are 0. */
+    Tensor<1, dim>
+    largest_value(const BoundaryCondition   &condition,
+                  const Face                &face,
+                  const OutwardNormals      &normals,
+                  const std::vector<double> &times)
+    {
+      const Point<dim> x = centre_of(face);
+      Tensor<1, dim>   largest;
+      for (const double t : times)
+        {
+          Tensor<1, dim> value;
+          if (condition.normal || condition.tangential)
+            value = condition.vector_on_side(x, normals(face), t);
+          for (unsigned int c = 0; c < dim; ++c)
+            if (condition.components[c])
+              value[c] += condition.value(c, x, t);
+          if (value.norm() > largest.norm())
+            largest = value;
+        }
+      return largest;
+    }
+
+    /** Conditions with their faces and, of each, the largest value. */
+    Json
+    conditions_of(const BoundaryConditions  &conditions,
+                  const ModelMesh           &mesh,
+                  const OutwardNormals      &normals,
+                  const std::vector<double> &times)
+    {
+      Json all = Json::array();
+      for (const auto &condition : conditions.list)
+        {
+          Json faces = Json::array(), values = Json::array();
+          for (const Face &face : mesh.faces_of(*condition))
+            for (const Face &part : held_parts(face, *condition))
+              {
+                faces.push_back(json_of_places(part));
+                values.push_back(
+                  json(largest_value(*condition, part, normals, times)));
+              }
+          Json prescribed = Json::array();
+          for (const auto &component : condition->components)
+            prescribed.push_back(component.has_value());
+          all.push_back({{"name", condition->name},
+                         {"prescribed", prescribed},
+                         {"normal", condition->normal.has_value()},
+                         {"faces", faces},
+                         {"values", values}});
+        }
+      return all;
+    }
+
+    /** Which points of a lattice over the body a function selects, by rows from below:
+     *  for what a formula describes. */
+    template <typename Selected>
+    Json
+    lattice_of(const Geometry &geometry, const Selected &selected)
+    {
+      constexpr unsigned int most = 240;
+      const auto [low, high]      = geometry.bounding_box();
+      const double width = high[0] - low[0], height = high[1] - low[1];
+      const double step = std::max(width, height) / most;
+      const auto   nx   = static_cast<unsigned int>(std::ceil(width / step));
+      const auto   ny   = static_cast<unsigned int>(std::ceil(height / step));
+      Json         rows = Json::array();
+      for (unsigned int j = 0; j < ny; ++j)
+        {
+          std::string row;
+          for (unsigned int i = 0; i < nx; ++i)
+            {
+              Point<dim> x = low;
+              x[0] += (i + .5) * width / nx;
+              x[1] += (j + .5) * height / ny;
+              row += selected(x) ? '1' : '0';
+            }
+          rows.push_back(row);
+        }
+      return {{"low", json(low)}, {"high", json(high)}, {"rows", rows}};
+    }
+
+    Json
+    body_of(const Geometry &geometry)
+    {
+      Json body = {{"shape", geometry.shape.word()}};
+      if (!geometry.outline.empty())
+        {
+          body["outline"] = json_of_places(geometry.outline);
+          Json sides      = Json::object();
+          if (dim == 2)
+            for (const auto &[name, id] : geometry.sides)
+              sides[name] = json_of_places(geometry.side_ends(id));
+          body["sides"] = sides;
+        }
+      // What an outline does not describe: discs, and the part where a formula holds.
+      if (dim == 2 && geometry.shape != Geometry::Shape::file &&
+          (geometry.outline.empty() || geometry.is_part_by_formula()))
+        body["lattice"] = lattice_of(
+          geometry, [&](const Point<dim> &x) { return geometry.contains(x); });
+      return body;
+    }
+
+    Json
+    stages_of(const Scene &scene)
+    {
+      Json all = Json::array();
+      for (const auto &stage : scene.loading.list)
+        {
+          Json one = {{"name", stage->name}, {"duration_s", stage->duration}};
+          if (!stage->removed_polygon.empty())
+            one["removed"] = json_of_places(stage->removed_polygon);
+          else if (dim == 2 && stage->removes() &&
+                   scene.geometry.shape != Geometry::Shape::file)
+            one["removed_lattice"] =
+              lattice_of(scene.geometry, [&](const Point<dim> &x) {
+                return scene.geometry.contains(x) && stage->removes(x);
+              });
+          if (!stage->added_materials.empty())
+            one["added"] = stage->added_materials;
+          if (!stage->changed_materials.empty())
+            one["changed"] = stage->changed_materials;
+          if (!stage->water_table.empty())
+            one["water_table"] = json_of_places(stage->water_table);
+          if (stage->strength_factor > 0.)
+            one["strength_factor"] = stage->strength_factor;
+          if (stage->raises_loads())
+            one["raised_loads"] = stage->raised_loads;
+          all.push_back(one);
+        }
+      return all;
+    }
+
+    Json
+    obstacles_of(const Scene      &scene,
+                 const Point<dim> &centre,
+                 const double      size)
+    {
+      Json all = Json::array();
+      for (const auto &obstacle : scene.obstacles.list)
+        {
+          Json triangles = Json::array();
+          for (const auto &triangle : obstacle->triangles({}, centre, size))
+            triangles.push_back(json_of_places(triangle));
+          all.push_back({{"name", obstacle->name}, {"triangles", triangles}});
+        }
+      return all;
+    }
+
+    /** Corners of the box of the body and of the mesh. */
+    std::array<Point<dim>, 2>
+    extent_of(const Scene &scene, const ModelMesh &mesh)
+    {
+      std::vector<Point<dim>> corners;
+      if (scene.geometry.shape != Geometry::Shape::file)
+        {
+          const auto [low, high] = scene.geometry.bounding_box();
+          corners                = {low, high};
+        }
+      else
+        for (const Face &cell : mesh.cells)
+          corners.insert(corners.end(), cell.begin(), cell.end());
+      std::array<Point<dim>, 2> box = {{corners.at(0), corners[0]}};
+      for (const Point<dim> &x : corners)
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            box[0][c] = std::min(box[0][c], x[c]);
+            box[1][c] = std::max(box[1][c], x[c]);
+          }
+      return box;
+    }
+    /** Whether a condition of particles is on the sides of the body, not of the mesh. */
+    bool
+    is_on_body(const BoundaryCondition &condition)
+    {
+      return condition.moves() || condition.is_traction();
+    }
+
+    /** The faces of the body that a condition of particles holds. */
+    std::vector<Face>
+    faces_of_body(const BoundaryCondition &condition, const Geometry &geometry)
+    {
+      std::vector<Face> faces;
+      for (const Panel &panel : panels_of_body(condition, geometry))
+        {
+          Face face = panel.corners();
+          if (dim == 3)
+            std::swap(face[2], face[3]); // around the face
+          faces.push_back(face);
+        }
+      return faces;
+    }
+
+    /** The faces of a box on the sides of a condition. */
+    std::vector<Face>
+    faces_of_box(const Point<dim>        &lower,
+                 const Point<dim>        &upper,
+                 const BoundaryCondition &condition)
+    {
+      std::vector<Face> faces;
+      for (unsigned int d = 0; d < dim; ++d)
+        for (const bool is_upper : {false, true})
+          {
+            if (!condition.is_on_side(side_of_box[d][is_upper]))
+              continue;
+            Point<dim> corner = lower;
+            corner[d]         = (is_upper ? upper : lower)[d];
+            Face face         = {corner};
+            // Along one edge, and in space back along the opposite one.
+            const unsigned int a = (d + 1) % dim;
+            corner[a]            = upper[a];
+            face.push_back(corner);
+            if (dim == 3)
+              {
+                const unsigned int b = (d + 2) % dim;
+                corner[b]            = upper[b];
+                face.push_back(corner);
+                corner[a] = lower[a];
+                face.push_back(corner);
+              }
+            faces.push_back(face);
+          }
+      return faces;
+    }
+  } // namespace
+
+  ModelMesh
+  model_mesh_of(const BackgroundMesh &mesh,
+                const Scene          &scene,
+                const bool            of_particles)
+  {
+    ModelMesh   model;
+    const auto &triangulation = mesh.triangulation();
+    if (dim == 2 &&
+        (triangulation.n_global_active_cells() <= most_cells_drawn ||
+         scene.geometry.shape == Geometry::Shape::file))
+      {
+        std::vector<std::pair<unsigned int, Face>> own;
+        for (const auto &cell : mesh.own_cells())
+          {
+            Face corners = {cell->vertex(0), cell->vertex(1)};
+            // Quadrilaterals are numbered by rows.
+            if (cell->n_vertices() == 4)
+              corners.push_back(cell->vertex(3));
+            corners.push_back(cell->vertex(2));
+            own.emplace_back(cell->material_id(), corners);
+          }
+        for (const auto &of_rank : dealii::Utilities::MPI::all_gather(
+               triangulation.get_communicator(), own))
+          for (const auto &[material, corners] : of_rank)
+            {
+              model.cells.push_back(corners);
+              if (!of_particles)
+                model.materials.push_back(material);
+            }
+      }
+    model.faces_of = [&, of_particles](const BoundaryCondition &condition) {
+      return of_particles && is_on_body(condition)
+               ? faces_of_body(condition, scene.geometry)
+               : mesh.faces_of(condition);
+    };
+    return model;
+  }
+
+  ModelMesh
+  model_mesh_of(const std::array<std::vector<double>, dim> &lines,
+                const Scene                                &scene)
+  {
+    ModelMesh  model;
+    Point<dim> lower, upper;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        lower[d] = lines[d].front();
+        upper[d] = lines[d].back();
+      }
+    const auto &x = lines[0], &y = lines[1];
+    if (dim == 2 && x.size() * y.size() <= most_cells_drawn)
+      for (std::size_t j = 1; j < y.size(); ++j)
+        for (std::size_t i = 1; i < x.size(); ++i)
+          {
+            Point<dim> low, high;
+            low[0]  = x[i - 1];
+            low[1]  = y[j - 1];
+            high[0] = x[i];
+            high[1] = y[j];
+            model.cells.push_back(outline_of_box(low, high));
+          }
+    model.faces_of =
+      [lower, upper, &scene](const BoundaryCondition &condition) {
+        return is_on_body(condition) ? faces_of_body(condition, scene.geometry)
+                                     : faces_of_box(lower, upper, condition);
+      };
+    return model;
+  }
+
+  Json
+  model_of(const Scene &scene, const ModelMesh &mesh)
+  {
+    const OutwardNormals      normals(scene, mesh);
+    const std::vector<double> times = times_of(scene.loading);
+    const auto [low, high]          = extent_of(scene, mesh);
+    Json materials                  = Json::array();
+    for (unsigned int i = 0; i < scene.materials.size(); ++i)
+      {
+        Json material = {{"name", scene.materials.name(i)}};
+        if (const Polygon region = scene.regions.polygon_of(i); !region.empty())
+          material["region"] = json_of_places(region);
+        materials.push_back(material);
+      }
+    Json cells = Json::array();
+    for (const Face &cell : mesh.cells)
+      cells.push_back(json_of_places(cell));
+    return {{"dimension", dim},
+            {"low", json(low)},
+            {"high", json(high)},
+            {"body", body_of(scene.geometry)},
+            {"materials", materials},
+            {"cells", cells},
+            {"material_of_cell", mesh.materials},
+            {"supports", conditions_of(scene.dirichlet, mesh, normals, times)},
+            {"tractions", conditions_of(scene.tractions, mesh, normals, times)},
+            {"absorbing_boundaries",
+             conditions_of(scene.absorbing, mesh, normals, times)},
+            {"obstacles",
+             obstacles_of(scene, low + (high - low) / 2., (high - low).norm())},
+            {"observed_points", json_of_places(scene.observation.points)},
+            {"gravity_m_per_s2", json(scene.gravity.at(times.back()))},
+            {"stages", stages_of(scene)}};
+  }
+} // namespace geocone::GEOCONE_DIM
