@@ -290,7 +290,7 @@ def files_case(rng, tools, folder, kind):
     write_whole_file(folder / name, kind)
     if scene is None:
         what = fuzz_files.damage(rng, folder / name)
-        return Call("geocone", ["--replay", name, "--output", "results", "--quiet"], what)
+        return Call("geocone-lab", [name, "--output", "results", "--quiet"], what)
     write_scene(folder, scene, {"Particles/File": name} if name == "points.h5" else None)
     write_whole_file(folder / name, kind)
     what = fuzz_files.damage(rng, folder / name)

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/stop_request.h>
+#include <geocone/base/version.h>
 #include <geocone/command_line.h>
 #include <geocone/output/run_status.h>
 
@@ -104,7 +105,7 @@ namespace geocone
   parse_command_line(const int                       argc,
                      char                          **argv,
                      const std::string              &program,
-                     const std::vector<std::string> &own)
+                     const std::vector<std::string> &lacking)
   {
     CommandLine call;
     const auto  value = [&](int &i) {
@@ -114,11 +115,17 @@ namespace geocone
                          " --help");
       return std::string(argv[++i]);
     };
+    const auto unknown = [&](const std::string &argument) {
+      return InputError("unknown option '" + printable(argument) +
+                        "'\n  remedy:  see " + program + " --help");
+    };
     bool checks = false;
     for (int i = 1; i < argc; ++i)
       {
         const std::string argument = argv[i];
-        if (argument == "--output")
+        if (std::count(lacking.begin(), lacking.end(), argument) > 0)
+          throw unknown(argument);
+        else if (argument == "--output")
           {
             call.folder = value(i);
             if (call.folder.empty())
@@ -145,11 +152,14 @@ namespace geocone
           call.version = true;
         else if (argument == "--defaults")
           call.defaults_file = value(i);
-        else if (std::count(own.begin(), own.end(), argument) > 0)
-          call.own[argument] = value(i);
+        else if (argument == "--resume")
+          call.resumed = value(i);
+        else if (argument == "--replay")
+          throw InputError("the option --replay is now a program\n"
+                           "  remedy:  geocone-lab FILE, with the same "
+                           "--output and --set");
         else if (!argument.empty() && argument[0] == '-')
-          throw InputError("unknown option '" + printable(argument) +
-                           "'\n  remedy:  see " + program + " --help");
+          throw unknown(argument);
         else if (checks)
           call.files_to_check.push_back(argument);
         else if (call.file.empty())
@@ -166,6 +176,23 @@ namespace geocone
       throw InputError("--picture goes with --dry-run: a run draws its model "
                        "always\n  remedy:  geocone --dry-run FILE.prm --picture");
     return call;
+  }
+
+  void
+  print_version(const std::string &program)
+  {
+    std::cout << program << " " << version << " (deal.II "
+              << DEAL_II_PACKAGE_VERSION << ", "
+#ifdef __clang__
+              << "clang " << __clang_version__
+#else
+              << "g++ " << __VERSION__
+#endif
+#ifdef DEBUG
+              << ", with assertions)" << std::endl;
+#else
+              << ", optimised)" << std::endl;
+#endif
   }
 
   RunOptions

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
-#include <geocone/base/hdf5_file.h>
 #include <geocone/command_line.h>
 #include <geocone/linear/one_thread.h>
 #include <geocone/output/run_folder.h>
@@ -23,51 +22,23 @@ namespace
 {
   using namespace geocone;
 
-  /** Dimension of a scene by its parameter file or result. Errors in these are reported
-   *  by the program of plane scenes. */
-  template <typename Source>
+  /** Dimension of a scene by its parameter file, or by that of the run that goes on.
+   *  Errors in these are reported by the program of plane scenes. */
   unsigned int
-  dimension_by(const Source &source)
+  dimension_of(const std::string &file, const CommandLine &call)
   {
     try
       {
-        return source() == "3" ? 3 : 2;
+        const ParameterFile parameters =
+          call.resumed   ? parameters_of_run(*call.resumed)
+          : file.empty() ? ParameterFile::from_text("", "call", call.overrides)
+                         : ParameterFile(file, call.overrides);
+        return parameters.peek("Geometry/Dimension", "2") == "3" ? 3 : 2;
       }
     catch (const std::exception &)
       {
         return 2;
       }
-  }
-
-  unsigned int
-  dimension_of(const std::string &file, const CommandLine &call)
-  {
-    return dimension_by([&]() {
-      const ParameterFile parameters =
-        file.empty() ? ParameterFile::from_text("", "call", call.overrides)
-                     : ParameterFile(file, call.overrides);
-      return parameters.peek("Geometry/Dimension", "2");
-    });
-  }
-
-  /** Dimension of the scene that the program is called with. */
-  unsigned int
-  dimension_of(const CommandLine &call)
-  {
-    if (const auto resumed = call.own.find("--resume");
-        resumed != call.own.end())
-      return dimension_by([&]() {
-        return parameters_of_run(resumed->second)
-          .peek("Geometry/Dimension", "2");
-      });
-    if (const auto frozen = call.own.find("--replay"); frozen != call.own.end())
-      return dimension_by([&]() {
-        const Hdf5File file(frozen->second, Hdf5File::Access::read);
-        return file.has("dimension")
-                 ? std::to_string(file.read_integers("dimension").at(0))
-                 : std::string("2");
-      });
-    return dimension_of(call.file, call);
   }
 
   /** Checks each of the files, and prints which are right. @return the exit code */
@@ -104,13 +75,12 @@ main(int argc, char **argv)
   CommandLine call; // whose errors are those of the program of plane scenes
   try
     {
-      call =
-        parse_command_line(argc, argv, "geocone", {"--replay", "--resume"});
+      call = parse_command_line(argc, argv, "geocone");
     }
   catch (const std::exception &)
     {}
   if (!call.files_to_check.empty())
     return run_program(argv, [&](Drawing &) { return check_files(call); });
-  return dimension_of(call) == 3 ? dim3::run_geocone(argc, argv)
-                                 : dim2::run_geocone(argc, argv);
+  return dimension_of(call.file, call) == 3 ? dim3::run_geocone(argc, argv)
+                                            : dim2::run_geocone(argc, argv);
 }

@@ -4,14 +4,12 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/types.h>
 #include <geocone/base/unused_parameters.h>
-#include <geocone/base/version.h>
 #include <geocone/command_line.h>
 #include <geocone/materials/material_library.h>
 #include <geocone/methods.h>
 #include <geocone/newton/plan.h>
 #include <geocone/output/run_folder.h>
 #include <geocone/program.h>
-#include <geocone/replay.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -32,16 +30,9 @@ namespace geocone::GEOCONE_DIM
       "mpirun -np RANKS geocone FILE.prm ...\n"
       "geocone --check FILE.prm... [--set 'Section/Parameter = value']...\n"
       "geocone --resume FOLDER [--force] [--run-gmsh-script] [--quiet]\n"
-      "geocone --replay FILE.h5|FILE.dat [--output FOLDER] [--set ...]...\n"
       "\n"
       "  --output FOLDER      folder of the results (default: results/NAME)\n"
       "  --set 'S/P = value'  overrides a parameter of the file; repeatable\n"
-      "  --replay FILE        solves a frozen problem again ('Output/Freeze "
-      "steps', or\n"
-      "                       a problem file of Siconos); --set takes options "
-      "of the\n"
-      "                       solver, e.g. 'Newton/Globalisation = line "
-      "search'\n"
       "  --resume FOLDER      goes on with a run that was stopped or killed, "
       "from "
       "its last\n"
@@ -130,23 +121,6 @@ namespace geocone::GEOCONE_DIM
     }
 
     void
-    print_version()
-    {
-      std::cout << "geocone " << version << " (deal.II "
-                << DEAL_II_PACKAGE_VERSION << ", "
-#ifdef __clang__
-                << "clang " << __clang_version__
-#else
-                << "g++ " << __VERSION__
-#endif
-#ifdef DEBUG
-                << ", with assertions)" << std::endl;
-#else
-                << ", optimised)" << std::endl;
-#endif
-    }
-
-    void
     print_help(const std::vector<std::string> &overrides)
     {
       // Of lists that are empty by default a name, to show what one of it has.
@@ -172,40 +146,26 @@ namespace geocone::GEOCONE_DIM
         std::_Exit(0); // or else libraries complain of the closed pipe
     }
 
-    /** @throws InputError if --replay is given with what it does not take */
-    void
-    check_replay(const CommandLine &call)
-    {
-      if (!call.file.empty())
-        throw InputError("--replay takes no parameter file, but '" + call.file +
-                         "' was given\n  remedy:  use --set for "
-                         "options of the solver");
-      if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
-        throw InputError("--replay works on one rank\n"
-                         "  remedy:  call it without mpirun");
-    }
-
     /** Runs a scene, or goes on with it. @return whether its expectations hold */
     bool
     run_scene(const CommandLine &call, Drawing &drawing)
     {
-      const bool                    resumes   = call.own.count("--resume") > 0;
       const ParameterFile::OfOthers of_others = parameters_of_laws();
-      const ParameterFile           file      = resumes
-                                                  ? parameters_of_run(call.own.at("--resume"))
+      const ParameterFile           file      = call.resumed
+                                                  ? parameters_of_run(*call.resumed)
                                                   : ParameterFile(call.file, call.overrides);
       Log                           log(MPI_COMM_WORLD, call.quiet);
       Methods                       methods(file, log);
       const std::vector<ParameterFile::Setting> settings =
         file.parse(of_others);
       RunOptions options = run_options(call, file);
-      if (resumes)
+      if (call.resumed)
         {
           options.resumes = true;
-          options.folder  = call.own.at("--resume");
+          options.folder  = *call.resumed;
         }
       if (const std::string unused = unused_parameters(settings);
-          !unused.empty() && !resumes)
+          !unused.empty() && !call.resumed)
         log.warn(unused);
       Simulation &simulation = methods.chosen();
       bool        ok         = false;
@@ -238,27 +198,18 @@ namespace geocone::GEOCONE_DIM
     run(const int argc, char **argv, Drawing &drawing)
     {
       const bool        first = on_first_rank();
-      const CommandLine call =
-        parse_command_line(argc, argv, "geocone", {"--replay", "--resume"});
+      const CommandLine call  = parse_command_line(argc, argv, "geocone");
       if (call.version || call.help || !call.defaults_file.empty())
         {
           if (first && call.version)
-            print_version();
+            print_version("geocone");
           else if (first && call.help)
             print_help(call.overrides);
           else if (first)
             write_defaults(call);
           return 0;
         }
-      if (const auto frozen = call.own.find("--replay");
-          frozen != call.own.end())
-        {
-          check_replay(call);
-          Log log(MPI_COMM_WORLD, call.quiet);
-          return replay(frozen->second, call.overrides, call.folder, log) ? 0
-                                                                          : 1;
-        }
-      if (call.own.count("--resume") > 0)
+      if (call.resumed)
         check_resume(call);
       else if (call.file.empty())
         {

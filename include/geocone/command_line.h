@@ -8,7 +8,7 @@
 #include <geocone/base/run_options.h>
 
 #include <functional>
-#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,32 +17,36 @@ namespace geocone
   /** What the programs are called with. */
   struct CommandLine
   {
-    std::string                        file; ///< with --check the first one
-    std::vector<std::string>           files_to_check;
-    std::string                        folder;
-    std::vector<std::string>           overrides;
-    std::string                        defaults_file;
-    std::map<std::string, std::string> own; ///< options of this program only
-    bool                               quiet           = false;
-    bool                               dry_run         = false;
-    bool                               picture         = false;
-    bool                               force           = false;
-    bool                               may_run_scripts = false;
-    bool                               help            = false;
-    bool                               version         = false;
+    std::string                file;
+    std::vector<std::string>   files_to_check;
+    std::string                folder;
+    std::vector<std::string>   overrides;
+    std::string                defaults_file;
+    std::optional<std::string> resumed; ///< folder of the run
+    bool                       quiet           = false;
+    bool                       dry_run         = false;
+    bool                       picture         = false;
+    bool                       force           = false;
+    bool                       may_run_scripts = false;
+    bool                       help            = false;
+    bool                       version         = false;
   };
 
   /**
-   * Reads FILE.prm, --output, --set, --quiet, --dry-run, --picture, --check FILE..., --force,
-   * --run-gmsh-script, --defaults, --help, --version, and the options @p own of the
-   * program, e.g. "--replay", which take a value.
+   * Reads FILE, --output, --set, --quiet, --dry-run, --picture, --check FILE...,
+   * --force, --run-gmsh-script, --resume, --defaults, --help and --version.
+   * @param lacking those of these options that the program does not have
    * @throws InputError on anything else
    */
   CommandLine
   parse_command_line(const int                       argc,
                      char                          **argv,
                      const std::string              &program,
-                     const std::vector<std::string> &own = {});
+                     const std::vector<std::string> &lacking = {});
+
+  /** Prints the versions of the program, the compiler and deal.II. */
+  void
+  print_version(const std::string &program);
 
   /** The run of a parameter file that was called for. */
   RunOptions

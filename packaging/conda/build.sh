@@ -19,7 +19,7 @@ cmake --install build-dealii
 cmake -S geocone -B build-geocone -G Ninja -DCMAKE_BUILD_TYPE=Release \
   -DCMAKE_INSTALL_PREFIX="$PREFIX" -DCMAKE_PREFIX_PATH="$library;$PREFIX" \
   -DCMAKE_INSTALL_RPATH="$library/lib;$PREFIX/lib" -DPYTHON3_EXECUTABLE="$PYTHON"
-cmake --build build-geocone --target geocone element_test --parallel "${CPU_COUNT:-2}"
+cmake --build build-geocone --target geocone geocone-lab element_test --parallel "${CPU_COUNT:-2}"
 cmake --install build-geocone
 
 # Only the library itself is needed from here on.

@@ -2,10 +2,10 @@
 # and of FCLib's format. Both must be the same problem, and Newton's method must solve it in
 # a few iterations, to the forces that are in equilibrium with the weight. What is no such
 # problem is refused by what is wrong.
-program=$1 root=$2 folder=$3
+lab=$(dirname "$1")/geocone-lab root=$2 folder=$3
 rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
 for format in dat hdf5; do
-  "$program" --replay "$root/tests/frozen/arch_30.$format" --output "$format" >"$format.log"
+  "$lab" "$root/tests/frozen/arch_30.$format" --output "$format" >"$format.log"
 done
 cat >check.py <<'PYTHON'
 import csv
@@ -60,7 +60,7 @@ PYTHON
 head -c 20000 "$root/tests/frozen/arch_30.dat" >cut.dat
 sed '$d' "$root/tests/frozen/arch_30.dat" | sed '$s/8/-8/' >negative.dat
 refused() {
-  if "$program" --replay "$1" 2>err >log; then
+  if "$lab" "$1" 2>err >log; then
     echo "solved: $1"
     exit 1
   fi

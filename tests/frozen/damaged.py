@@ -94,7 +94,7 @@ def main():
         with h5py.File(path, "r+") as file:
             damage(file)
         result = subprocess.run(
-            [program, "--replay", path, "--output", folder / name, "--quiet"],
+            [program, path, "--output", folder / name, "--quiet"],
             capture_output=True, text=True, timeout=60)
         if (result.returncode != 1 or not result.stderr.startswith("error: ") or
                 message not in result.stderr or (folder / name).exists()):

@@ -63,7 +63,7 @@ def with_memory(file):
 
 def solve(program, file, folder, *settings):
     """Summary and stresses of a replay; (None, message) if it ended otherwise."""
-    command = [program, "--replay", file, "--output", folder, "--quiet"]
+    command = [program, file, "--output", folder, "--quiet"]
     for text in ("Output/If folder exists = overwrite",
                  "Time stepping/Friction = exact", *settings):
         command += ["--set", text]

@@ -1,7 +1,7 @@
 # Steps of round bodies, with pressures of cells among them, and of three dimensions, frozen and
 # solved again: in as many iterations, to the same stresses. A file of one dimension is not
 # taken for one of another.
-program=$1 root=$2 folder=$3
+program=$1 lab=$(dirname "$1")/geocone-lab root=$2 folder=$3
 . "$root/tests/fails.sh"
 rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
 freeze() { # NAME FILE STEP DURATION OPTIONS...
@@ -9,7 +9,7 @@ freeze() { # NAME FILE STEP DURATION OPTIONS...
     --set "Loading/push/Duration = $4" --set 'Output/Report for tests = none' \
     --set 'Output/Expectations =' --set 'Output/Fields = true' \
     --set 'Output/Fields format = hdf5' --set 'Output/Pictures = false' "${@:5}"
-  "$program" --replay "$1/frozen-$3.h5" --output "again_$1" >"$1.log"
+  "$lab" "$1/frozen-$3.h5" --output "again_$1" >"$1.log"
 }
 freeze round tests/fem/circular_footing-02.prm 3 0.0035
 freeze pressures tests/mpm/circular_footing-02.prm 3 0.35
@@ -44,5 +44,5 @@ with h5py.File("flat.h5", "a") as file:
     del file["dimension"]
 PYTHON
 /usr/bin/python3 check.py
-fails "$program" --replay flat.h5 2>err >log
+fails "$lab" flat.h5 2>err >log
 grep -q "inconsistent" err && grep -q "remedy" err

@@ -7,7 +7,7 @@
 
 #include <geocone/base/version.h>
 #include <geocone/lab/cone_files.h>
-#include <geocone/lab/frozen_problem.h>
+#include <geocone/problem/frozen_problem.h>
 #include "../damage.h"
 #include "../test.h"
 

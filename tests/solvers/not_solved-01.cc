@@ -6,7 +6,7 @@
 // residual hides none of them: a velocity that is wrong by a millionth is no
 // solution, though the step that it belongs to ends at the floor.
 
-#include <geocone/lab/stress_methods.h>
+#include <geocone/reduced/stress_methods.h>
 #include <geocone/run/implicit_simulation.h>
 
 #include "../simulate.h"

@@ -9,8 +9,8 @@
 // guess. For b = 0 there can be several: all must be found, and each must be the
 // answer to a guess next to it.
 
-#include <geocone/lab/one_cone.h>
-#include <geocone/lab/reduced_problem.h>
+#include <geocone/reduced/one_cone.h>
+#include <geocone/reduced/reduced_problem.h>
 
 #include "../cone/cone_tests.h"
 #include "../test.h"

@@ -7,8 +7,8 @@
 // associated flow there is no other (eq 63). The multipliers are checked against
 // their equations, not against a solver. A long chain has a sparse Jacobian.
 
-#include <geocone/lab/gauss_seidel.h>
-#include <geocone/lab/reduced_newton.h>
+#include <geocone/reduced/gauss_seidel.h>
+#include <geocone/reduced/reduced_newton.h>
 
 #include "../test.h"
 #include "reduced_problems.h"

@@ -6,7 +6,7 @@
 #ifndef geocone_tests_solvers_reduced_problems_h
 #define geocone_tests_solvers_reduced_problems_h
 
-#include <geocone/lab/reduced_problem.h>
+#include <geocone/reduced/reduced_problem.h>
 
 #include "../cone/cone_tests.h"
 

@@ -9,8 +9,8 @@
 #include <geocone/base/exceptions.h>
 #include <geocone/base/version.h>
 #include <geocone/lab/cone_files.h>
-#include <geocone/lab/gauss_seidel.h>
-#include <geocone/lab/reduced_newton.h>
+#include <geocone/reduced/gauss_seidel.h>
+#include <geocone/reduced/reduced_newton.h>
 
 #include "../cone/cone_tests.h"
 #include "../test.h"

@@ -4,7 +4,7 @@
 #ifndef geocone_lab_cone_files_h
 #define geocone_lab_cone_files_h
 
-#include <geocone/lab/reduced_problem.h>
+#include <geocone/reduced/reduced_problem.h>
 
 #include <string>
 

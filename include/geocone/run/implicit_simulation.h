@@ -6,9 +6,9 @@
 
 #include <geocone/implicit/implicit_fem.h>
 #include <geocone/implicit/implicit_mpm.h>
-#include <geocone/lab/stress_methods.h>
 #include <geocone/output/exact_solution.h>
 #include <geocone/output/run_output.h>
+#include <geocone/reduced/stress_methods.h>
 #include <geocone/run/scene_simulation.h>
 
 #include <functional>

@@ -6,8 +6,8 @@
 
 #include <geocone/base/archive.h>
 #include <geocone/contact/obstacle_contact.h>
-#include <geocone/lab/freezer.h>
 #include <geocone/newton/nonsmooth_newton.h>
+#include <geocone/problem/freezer.h>
 #include <geocone/time_stepping/step_record.h>
 
 #include <deal.II/base/timer.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
-#include <geocone/lab/reduced_problem.h>
+#include <geocone/reduced/reduced_problem.h>
 
 #include <algorithm>
 #include <limits>

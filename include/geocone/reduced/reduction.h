@@ -1,11 +1,11 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef geocone_lab_reduction_h
-#define geocone_lab_reduction_h
+#ifndef geocone_reduced_reduction_h
+#define geocone_reduced_reduction_h
 
-#include <geocone/lab/reduced_problem.h>
 #include <geocone/problem/incremental_problem.h>
+#include <geocone/reduced/reduced_problem.h>
 
 namespace geocone::GEOCONE_DIM
 {

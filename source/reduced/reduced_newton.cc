@@ -1,9 +1,9 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/lab/gauss_seidel.h>
-#include <geocone/lab/reduced_newton.h>
 #include <geocone/newton/line_search.h>
+#include <geocone/reduced/gauss_seidel.h>
+#include <geocone/reduced/reduced_newton.h>
 
 #include <Eigen/SparseLU>
 

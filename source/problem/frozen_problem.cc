@@ -6,7 +6,7 @@
 #include <geocone/base/hdf5_file.h>
 #include <geocone/base/largest_quantity.h>
 #include <geocone/base/log.h>
-#include <geocone/lab/frozen_problem.h>
+#include <geocone/problem/frozen_problem.h>
 #include <geocone/space/spline_basis.h>
 
 #include <algorithm>
@@ -503,113 +503,5 @@ namespace geocone::GEOCONE_DIM
     frozen.H = Eigen::Map<const Eigen::MatrixXd>(
       flat.H.data(), flat.q.size(), frozen.constrained_dofs.size());
     return frozen;
-  }
-
-  namespace
-  {
-    /** The points; where they were frozen without a memory that their law has
-     *  now, each remembers the stress that the step begins with. */
-    MaterialPoints
-    remembering(const MaterialPoints &frozen, const Materials &materials)
-    {
-      MaterialPoints points = frozen;
-      if (frozen.n_history() >
-          1) // the memory of such a law would not be the last
-        return points;
-      points.history.width = 2;
-      points.history.assign(2 * points.material.size(), 0.);
-      bool remembered = false;
-      for (unsigned int i = 0; i < points.material.size(); ++i)
-        if (points.material[i] < materials.size())
-          {
-            const Material &law = materials[points.material[i]];
-            if (law.friction_memory() > 0. && law.n_history() == 2)
-              {
-                const Mandel &s = points.stress[i];
-                law.initialise(
-                  stress_of(extended(s, 0.)), 0., &points.history[2 * i]);
-                if (frozen.n_history() == 1)
-                  points.history[2 * i] = frozen.history[i];
-                remembered = true;
-              }
-          }
-      return remembered ? points : frozen;
-    }
-  } // namespace
-
-  ThawedProblem::ThawedProblem(const FrozenProblem &frozen,
-                               const Materials     &materials)
-    : points(remembering(frozen.points, materials))
-  {
-    const unsigned int n = frozen.kind.size();
-    unknowns.free_row    = frozen.kind;
-    for (int &row : unknowns.free_row)
-      {
-        unknowns.with_mass.push_back(row != Unknowns::massless_row);
-        if (row == 0)
-          {
-            row = unknowns.n_rows++;
-            unknowns.global_row.push_back(row);
-          }
-      }
-    unknowns.n_owned_rows = unknowns.n_rows;
-    if (unknowns.n_rows == 0)
-      throw RunError("the frozen problem has no unknown");
-    unknowns.multipliers =
-      Multipliers(std::vector<unsigned int>(frozen.constrained_dofs.begin(),
-                                            frozen.constrained_dofs.end()),
-                  frozen.H,
-                  frozen.q);
-
-    IndexSet all(n);
-    all.add_range(0, n);
-    const auto layout =
-      std::make_shared<const Utilities::MPI::Partitioner>(all, MPI_COMM_SELF);
-    const auto vector = [&](const std::vector<double> &values) {
-      Vector v(layout);
-      std::copy(values.begin(), values.end(), v.begin());
-      return v;
-    };
-    mass    = vector(frozen.mass);
-    force   = vector(frozen.force);
-    v_start = vector(frozen.start);
-    for (const unsigned int m : points.material)
-      {
-        if (m >= materials.size())
-          throw RunError("the frozen problem has points of a material that its "
-                         "materials lack: the file is damaged\n  remedy:  "
-                         "freeze the step again ('Output/Freeze steps')");
-        if (materials[m].has_history() &&
-            materials[m].n_history() > points.n_history())
-          throw RunError("the frozen problem lacks the history of its points, "
-                         "of which the material '" +
-                         materials.name(m) +
-                         "' has one\n  remedy:  freeze the step again "
-                         "('Output/Freeze steps')");
-      }
-    std::vector<GhostStencil> ghosts;
-    for (std::size_t i = 0; 3 * i < frozen.ghost_nodes.size(); ++i)
-      {
-        GhostStencil stencil;
-        for (unsigned int j = 0; j < 3; ++j)
-          {
-            stencil.node[j]        = frozen.ghost_nodes[3 * i + j];
-            stencil.coefficient[j] = frozen.ghost_values[4 * i + j];
-          }
-        stencil.stiffness = frozen.ghost_values[4 * i + 3];
-        ghosts.push_back(stencil);
-      }
-    incremental_problem = std::make_unique<IncrementalProblem>(
-      points,
-      materials,
-      unknowns,
-      layout,
-      frozen.mass.empty() ? nullptr : &mass,
-      frozen.consistent_part,
-      std::move(ghosts));
-    incremental_problem->begin_step(frozen.h,
-                                    frozen.force.empty() ? nullptr : &force,
-                                    vector(frozen.velocity_L),
-                                    vector(frozen.prescribed));
   }
 } // namespace geocone::GEOCONE_DIM

@@ -5,7 +5,7 @@
 #include <geocone/base/log.h>
 #include <geocone/base/parameter_file.h>
 #include <geocone/base/unused_parameters.h>
-#include <geocone/lab/freezer.h>
+#include <geocone/problem/freezer.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -33,7 +33,7 @@ namespace geocone::GEOCONE_DIM
                   steps,
                   "Numbers of steps, from 1, whose incremental problems are "
                   "written to frozen-STEP.h5, to be solved again with other "
-                  "options by geocone --replay. The first substep counts.",
+                  "options by geocone-lab. The first substep counts.",
                   prm,
                   dealii::Patterns::List(dealii::Patterns::Integer(1)));
     add_parameter("Freeze failures",

@@ -3,8 +3,10 @@
 
 #include <geocone/base/parameter_file.h>
 #include <geocone/lab/cone_files.h>
-#include <geocone/lab/stress_methods.h>
-#include <geocone/replay_parts.h>
+#include <geocone/lab/replay.h>
+#include <geocone/reduced/gauss_seidel.h>
+#include <geocone/reduced/reduced_newton.h>
+#include <geocone/reduced/stress_methods.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -18,6 +20,35 @@ namespace geocone::GEOCONE_DIM
     is_text(const std::string &file_name)
     {
       return std::filesystem::path(file_name).extension() == ".dat";
+    }
+
+    /**
+     * Solves a reduced problem that is given as such: by Gauss-Seidel if that is
+     * the formulation that @p newton is asked for, by Newton's method with the natural
+     * map or, for all other formulations, with the return map.
+     * @param[in,out] s stresses in cone axes (Pa)
+     */
+    ReducedReport
+    solve_reduced(const NonsmoothNewton &newton,
+                  const ReducedProblem  &problem,
+                  Eigen::VectorXd       &s)
+    {
+      const StepLimits limits = newton.limits();
+      if (newton.formulation_name() == gauss_seidel)
+        {
+          GaussSeidel solver;
+          solver.tolerance = limits.relative_tolerance;
+          if (limits.max_iterations > 0)
+            solver.max_sweeps = limits.max_iterations;
+          return solver.solve(problem, s);
+        }
+      ReducedNewton solver;
+      solver.tolerance = limits.relative_tolerance;
+      if (limits.max_iterations > 0)
+        solver.max_iterations = limits.max_iterations;
+      if (newton.formulation_name() == "natural map")
+        solver.map = ReducedNewton::Map::natural_map;
+      return solver.solve(problem, s);
     }
   } // namespace
 

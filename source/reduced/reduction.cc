@@ -3,7 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
-#include <geocone/lab/reduction.h>
+#include <geocone/reduced/reduction.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -1,10 +1,10 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef geocone_lab_freezer_h
-#define geocone_lab_freezer_h
+#ifndef geocone_problem_freezer_h
+#define geocone_problem_freezer_h
 
-#include <geocone/lab/frozen_problem.h>
+#include <geocone/problem/frozen_problem.h>
 #include <geocone/scene/scene.h>
 
 #include <deal.II/base/parameter_acceptor.h>

@@ -1,11 +1,11 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef geocone_lab_reduced_newton_h
-#define geocone_lab_reduced_newton_h
+#ifndef geocone_reduced_reduced_newton_h
+#define geocone_reduced_reduced_newton_h
 
-#include <geocone/lab/reduced_problem.h>
-#include <geocone/lab/reduced_report.h>
+#include <geocone/reduced/reduced_problem.h>
+#include <geocone/reduced/reduced_report.h>
 
 namespace geocone::GEOCONE_DIM
 {

@@ -1,12 +1,11 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef geocone_lab_frozen_problem_h
-#define geocone_lab_frozen_problem_h
+#ifndef geocone_problem_frozen_problem_h
+#define geocone_problem_frozen_problem_h
 
 #include <geocone/problem/incremental_problem.h>
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -56,33 +55,6 @@ namespace geocone::GEOCONE_DIM
     /** Reads one. @throws RunError naming the file and what is wrong in it */
     static FrozenProblem
     read(const std::string &file_name);
-  };
-
-  /** A frozen problem that can be solved, on one rank. */
-  class ThawedProblem
-  {
-  public:
-    /** @param materials as read from the section that was frozen */
-    ThawedProblem(const FrozenProblem &frozen, const Materials &materials);
-
-    IncrementalProblem &
-    problem()
-    {
-      return *incremental_problem;
-    }
-
-    /** Where the solver began. */
-    const Vector &
-    start() const
-    {
-      return v_start;
-    }
-
-  private:
-    const MaterialPoints                points;
-    Unknowns                            unknowns;
-    Vector                              mass, force, v_start;
-    std::unique_ptr<IncrementalProblem> incremental_problem;
   };
 } // namespace geocone::GEOCONE_DIM
 

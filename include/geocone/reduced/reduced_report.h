@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef geocone_lab_reduced_report_h
-#define geocone_lab_reduced_report_h
+#ifndef geocone_reduced_reduced_report_h
+#define geocone_reduced_reduced_report_h
 
 #include <vector>
 

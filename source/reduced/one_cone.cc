@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/lab/one_cone.h>
-#include <geocone/lab/reduced_problem.h>
+#include <geocone/reduced/one_cone.h>
+#include <geocone/reduced/reduced_problem.h>
 
 #include <Eigen/Dense>
 

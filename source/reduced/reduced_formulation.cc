@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/log.h>
-#include <geocone/lab/gauss_seidel.h>
-#include <geocone/lab/reduced_formulation.h>
-#include <geocone/lab/reduced_newton.h>
-#include <geocone/lab/reduction.h>
+#include <geocone/reduced/gauss_seidel.h>
+#include <geocone/reduced/reduced_formulation.h>
+#include <geocone/reduced/reduced_newton.h>
+#include <geocone/reduced/reduction.h>
 
 namespace geocone::GEOCONE_DIM
 {

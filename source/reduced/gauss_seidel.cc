@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/stop_request.h>
-#include <geocone/lab/gauss_seidel.h>
-#include <geocone/lab/one_cone.h>
+#include <geocone/reduced/gauss_seidel.h>
+#include <geocone/reduced/one_cone.h>
 
 #include <cmath>
 #include <ctime>

@@ -1,11 +1,10 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <geocone/lab/gauss_seidel.h>
-#include <geocone/lab/reduced_formulation.h>
-#include <geocone/lab/reduced_newton.h>
-#include <geocone/lab/reduction.h>
-#include <geocone/lab/stress_methods.h>
+#include <geocone/reduced/gauss_seidel.h>
+#include <geocone/reduced/reduced_formulation.h>
+#include <geocone/reduced/reduction.h>
+#include <geocone/reduced/stress_methods.h>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -53,8 +52,6 @@ namespace geocone::GEOCONE_DIM
       };
       return {name, check, solve};
     }
-
-    constexpr const char *gauss_seidel = "Gauss-Seidel";
   } // namespace
 
   StressMethods
@@ -83,28 +80,5 @@ namespace geocone::GEOCONE_DIM
       " Gauss-Seidel: sweeps over the stresses, under the conditions of the "
       "formulation of that name.";
     return result;
-  }
-
-  ReducedReport
-  solve_reduced(const NonsmoothNewton &newton,
-                const ReducedProblem  &problem,
-                Eigen::VectorXd       &s)
-  {
-    const StepLimits limits = newton.limits();
-    if (newton.formulation_name() == gauss_seidel)
-      {
-        GaussSeidel solver;
-        solver.tolerance = limits.relative_tolerance;
-        if (limits.max_iterations > 0)
-          solver.max_sweeps = limits.max_iterations;
-        return solver.solve(problem, s);
-      }
-    ReducedNewton solver;
-    solver.tolerance = limits.relative_tolerance;
-    if (limits.max_iterations > 0)
-      solver.max_iterations = limits.max_iterations;
-    if (newton.formulation_name() == "natural map")
-      solver.map = ReducedNewton::Map::natural_map;
-    return solver.solve(problem, s);
   }
 } // namespace geocone::GEOCONE_DIM

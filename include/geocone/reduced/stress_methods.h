@@ -1,0 +1,20 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_reduced_stress_methods_h
+#define geocone_reduced_stress_methods_h
+
+#include <geocone/newton/nonsmooth_newton.h>
+
+namespace geocone::GEOCONE_DIM
+{
+  /** The name of a formulation, and of a first iterate. */
+  constexpr const char *gauss_seidel = "Gauss-Seidel";
+
+  /** Reduced formulations, by Newton's method and by Gauss-Seidel, and first iterates
+   *  of sweeps. */
+  StressMethods
+  stress_methods();
+} // namespace geocone::GEOCONE_DIM
+
+#endif
