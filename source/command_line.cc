@@ -5,7 +5,6 @@
 #include <geocone/base/stop_request.h>
 #include <geocone/base/version.h>
 #include <geocone/command_line.h>
-#include <geocone/output/run_status.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -273,7 +272,6 @@ namespace geocone
       }
     // PETSc and Kokkos, which deal.II may start, would take our options for theirs.
     int     n_arguments_for_libraries = 1;
-    Watcher watcher;
     Drawing drawing;
     int     status = 1;
     leave_displays_alone();

@@ -5,6 +5,7 @@
 #include <geocone/command_line.h>
 #include <geocone/linear/one_thread.h>
 #include <geocone/output/run_folder.h>
+#include <geocone/output/watcher.h>
 #include <geocone/program.h>
 
 #include <iostream>
@@ -72,7 +73,8 @@ int
 main(int argc, char **argv)
 {
   use_one_thread();
-  CommandLine call; // whose errors are those of the program of plane scenes
+  const Watcher watcher;
+  CommandLine   call; // whose errors are those of the program of plane scenes
   try
     {
       call = parse_command_line(argc, argv, "geocone");

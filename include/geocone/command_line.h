@@ -61,9 +61,9 @@ namespace geocone
   };
 
   /**
-   * The frame of a program: starts and ends MPI, watches for signals and over how
-   * the run ends (run_status.h), prints what @p run throws, and draws at the end,
-   * after that of MPI, which does not like its processes to be copied.
+   * The frame of a program: starts and ends MPI, watches for signals, prints what
+   * @p run throws, and draws at the end, after that of MPI, which does not like its
+   * processes to be copied.
    * @param argv its first entry is the program; libraries see no other
    * @param run gives the exit code
    * @return the exit code of the program: what @p run gives; 1 after an error;

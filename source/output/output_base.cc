@@ -8,6 +8,7 @@
 #include <geocone/output/output_base.h>
 #include <geocone/output/run_status.h>
 #include <geocone/output/statistics_table.h>
+#include <geocone/output/watcher.h>
 
 #include <deal.II/base/mpi.h>
 

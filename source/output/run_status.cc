@@ -7,7 +7,6 @@
 #include <geocone/output/run_status.h>
 
 #include <cerrno>
-#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
@@ -17,19 +16,14 @@
 #include <sstream>
 
 #include <fcntl.h>
-#include <poll.h>
 #include <sys/file.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 namespace geocone
 {
   namespace
   {
-    /** The program's end of the pipe to its watcher. */
-    int to_watcher = -1;
-
     /** When a process of this machine began, in ticks since the machine did; numbers of
      *  processes come again. Empty where that is not known. */
     std::string
@@ -92,98 +86,7 @@ namespace geocone
                       static_cast<ssize_t>(padded.size());
       return ::close(file) == 0 && ok;
     }
-
-    // Seconds between the signs of life of a run, and without one when its lock counts
-    // as left over.
-    constexpr int    between_signs   = 10;
-    constexpr double longest_silence = 120.;
-
-    /** What the watching process does until the program has gone. */
-    [[noreturn]] void
-    stay_and_watch(const int from_program, const pid_t program)
-    {
-      // Signals to the program's group are not meant for it.
-      setsid();
-      for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT})
-        std::signal(signal, SIG_IGN);
-      const int nothing = ::open("/dev/null", O_RDWR);
-      for (const int standard : {0, 1, 2})
-        dup2(nothing, standard);
-      std::string folder, part;
-      char        buffer[4096];
-      for (;;)
-        {
-          pollfd said = {from_program, POLLIN, 0};
-          if (::poll(&said, 1, 1000 * between_signs) == 0)
-            {
-              if (!folder.empty()) // the time of the file is that of its disk
-                utimensat(AT_FDCWD,
-                          (folder + "/" + lock_file).c_str(),
-                          nullptr,
-                          AT_SYMLINK_NOFOLLOW);
-              continue;
-            }
-          const ssize_t n = ::read(from_program, buffer, sizeof(buffer));
-          if (n < 0 && errno == EINTR)
-            continue;
-          if (n <= 0)
-            break;
-          part.append(buffer, n);
-          for (std::size_t end; (end = part.find('\0')) != std::string::npos;)
-            {
-              folder = part.substr(0, end);
-              part.erase(0, end + 1);
-            }
-        }
-      if (!folder.empty())
-        end_status(folder,
-                   "killed: the process " + std::to_string(program) + " on " +
-                     host_name() + " ended without a word, by " + time_now() +
-                     " (killed by a signal, out of memory, or a crash)",
-                   program);
-      _exit(0);
-    }
   } // namespace
-
-  Watcher::Watcher()
-  {
-    int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0)
-      return;
-    const pid_t program = getpid();
-    watcher             = fork();
-    if (watcher == 0)
-      {
-        ::close(ends[1]);
-        stay_and_watch(ends[0], program);
-      }
-    ::close(ends[0]);
-    if (watcher > 0)
-      to_watcher = ends[1];
-    else
-      ::close(ends[1]);
-  }
-
-  Watcher::~Watcher()
-  {
-    if (watcher <= 0)
-      return;
-    ::close(to_watcher);
-    to_watcher = -1;
-    waitpid(watcher, nullptr, 0);
-  }
-
-  void
-  Watcher::watch(const std::string &folder)
-  {
-    if (to_watcher < 0)
-      return;
-    std::error_code   error;
-    const std::string path =
-      std::filesystem::absolute(folder, error).string() + '\0';
-    if (::write(to_watcher, path.data(), path.size()) < 0)
-      to_watcher = -1; // it is gone: the sign of life is what is left
-  }
 
   Json
   read_summary(const std::string &file_name)
@@ -319,6 +222,9 @@ namespace geocone
       return "the run of process " + word("pid") + " on " + word("host") +
              " goes on in it";
     }
+
+    /** Seconds without a sign of life after which a lock counts as left over. */
+    constexpr double longest_silence = 120.;
 
     enum class TakenOver
     {

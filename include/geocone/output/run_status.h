@@ -17,34 +17,6 @@
 
 namespace geocone
 {
-  /**
-   * A process of its own that outlives the program and then looks at the summary
-   * of its run: one that still says "running" is changed to "killed", for its
-   * process was ended by force (kill -9, lack of memory, a crash, an abort) and
-   * could not say so itself. If the watcher is killed, too, the topic "run" of
-   * the summary (run_topic()) still tells which process it was and when it was
-   * seen last. As long as the program lives it renews the sign of life of the
-   * folder's lock.
-   *
-   * To be made before MPI starts, which does not like its processes to be copied.
-   */
-  class Watcher
-  {
-  public:
-    Watcher();
-    ~Watcher();
-    Watcher(const Watcher &) = delete;
-    Watcher &
-    operator=(const Watcher &) = delete;
-
-    /** The folder of the run of this process; a later call replaces it. */
-    static void
-    watch(const std::string &folder);
-
-  private:
-    pid_t watcher = -1;
-  };
-
   /** The summary in a file; empty if there is none that can be read. */
   Json
   read_summary(const std::string &file_name);
