@@ -9,7 +9,7 @@
 #include <geocone/conditions/vector_at.h>
 #include <geocone/shapes/part_in_box.h>
 #include <geocone/surfaces/face_points.h>
-#include <geocone/surfaces/panel.h>
+#include <geocone/surfaces/sides_of_body.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -59,8 +59,8 @@ namespace geocone::GEOCONE_DIM
             }
         };
         if (list[c]->moves())
-          for (const Panel &panel : panels_of_body(*list[c], scene.geometry))
-            for (const Point<dim> &corner : panel.corners())
+          for (const SidePart &panel : panels_of_body(*list[c], scene.geometry))
+            for (const Point<dim> &corner : panel.corners)
               extend(corner);
         else
           {

@@ -39,20 +39,20 @@ namespace geocone::GEOCONE_DIM
     };
 
     Seen
-    seen_from(const Panel &panel, const Point<dim> &x)
+    seen_from(const SidePart &panel, const Point<dim> &x)
     {
-      const Tensor<1, dim> to = x - panel.corner, area = panel.area();
+      const Tensor<1, dim> to = x - panel.corners[0], area = area_of(panel);
       Seen                 seen;
       seen.beyond = area * to / area.norm();
       seen.length = 1e300;
       // In the plane of a parallelogram, by the reciprocals of its edges.
       for (unsigned int k = 0; k + 1 < dim; ++k)
         {
-          const Tensor<1, dim> &edge = panel.edges[k];
-          Tensor<1, dim>        dual = edge;
+          const Tensor<1, dim> edge = panel.edge(k);
+          Tensor<1, dim>       dual = edge;
           if (dim == 3)
             {
-              const Tensor<1, dim> &other = panel.edges[dim - 2 - k];
+              const Tensor<1, dim> other = panel.edge(dim - 2 - k);
               dual -= (edge * other) / other.norm_square() * other;
             }
           seen.along[k] = (to * dual) / (edge * dual);
@@ -63,9 +63,9 @@ namespace geocone::GEOCONE_DIM
 
     /** Whether a condition gives the velocity across a panel. */
     bool
-    holds_normal(const BoundaryCondition &condition, const Panel &panel)
+    holds_normal(const BoundaryCondition &condition, const SidePart &panel)
     {
-      const Tensor<1, dim> area = panel.area();
+      const Tensor<1, dim> area = area_of(panel);
       for (unsigned int d = 0; d < dim; ++d)
         if (!condition.components[d] && std::abs(area[d]) > 1e-6 * area.norm())
           return false;
@@ -84,7 +84,7 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int c = 0; c < list.size(); ++c)
       if (list[c]->moves())
         {
-          std::vector<Panel> panels = // checks the names, too
+          std::vector<SidePart> panels = // checks the names, too
             panels_of_body(*list[c], scene.geometry);
           if (list[c]->holds() != Imposition::On::side)
             continue;
@@ -94,10 +94,10 @@ namespace geocone::GEOCONE_DIM
     const auto &tractions = scene.tractions.list;
     for (unsigned int c = 0; c < tractions.size(); ++c)
       {
-        const std::vector<Panel> panels =
+        const std::vector<SidePart> panels =
           panels_of_body(*tractions[c], scene.geometry);
         double size = 0.;
-        for (const Panel &panel : panels)
+        for (const SidePart &panel : panels)
           for (unsigned int k = 0; k + 1 < dim; ++k)
             size = std::max(size, cell_size_along(mesh, panel, k));
         loads.push_back({c, MovingSurface(panels, size)});
@@ -106,24 +106,27 @@ namespace geocone::GEOCONE_DIM
 
   void
   MovingConditions::shorten(const BoundaryCondition &condition,
-                            std::vector<Panel>      &panels) const
+                            std::vector<SidePart>   &panels) const
   {
     if (condition.shortening == 0.)
       return;
-    for (Panel &panel : panels)
-      for (unsigned int k = 0; k + 1 < dim; ++k)
-        {
-          Tensor<1, dim> &along = panel.edges[k];
-          const double    part  = condition.shortening / 2. *
-                              cell_size_along(mesh, panel, k) / along.norm();
-          if (2. * part >= 1.)
-            throw InputError(condition.parameter("Segment shortening"),
-                             condition.shortening,
-                             "less than the side has cells",
-                             "take smaller cells or a smaller number");
-          panel.corner += part * along;
-          along *= 1. - 2. * part;
-        }
+    for (SidePart &panel : panels)
+      {
+        UnitPart rest;
+        for (unsigned int k = 0; k + 1 < dim; ++k)
+          {
+            rest.lower[k] = condition.shortening / 2. *
+                            cell_size_along(mesh, panel, k) /
+                            panel.edge(k).norm();
+            rest.upper[k] = 1. - rest.lower[k];
+            if (rest.lower[k] >= rest.upper[k])
+              throw InputError(condition.parameter("Segment shortening"),
+                               condition.shortening,
+                               "less than the side has cells",
+                               "take smaller cells or a smaller number");
+          }
+        panel = part_of(panel, rest);
+      }
   }
 
   std::vector<double>
@@ -187,8 +190,8 @@ namespace geocone::GEOCONE_DIM
         const BoundaryCondition &load = *scene.tractions.list[condition];
         const bool               acts =
           stage == nullptr || stage->raises(load.name) == raised;
-        const std::vector<Facet>  facets = surface.facets();
-        const std::vector<double> parts =
+        const std::vector<SidePart> facets = surface.facets();
+        const std::vector<double>   parts =
           for_each_point(mesh,
                          space,
                          facets,
@@ -203,12 +206,8 @@ namespace geocone::GEOCONE_DIM
                                           force);
                          });
         std::vector<Point<dim>> middles;
-        for (const Facet &facet : facets)
-          {
-            Point<dim> &middle = middles.emplace_back();
-            for (const Point<dim> &corner : facet)
-              middle += corner / dim;
-          }
+        for (const SidePart &facet : facets)
+          middles.push_back(facet.middle());
         check_in_mesh(load, middles, parts);
       }
     if (!loads.empty())
@@ -244,19 +243,15 @@ namespace geocone::GEOCONE_DIM
         std::vector<double>     part_in_mesh;
         std::vector<Point<dim>> middles;
         unsigned int            number = 0;
-        for (const Panel &panel : side.panels)
-          for (const Panel &segment : panel.parts(n))
+        for (const SidePart &panel : side.panels)
+          for (const SidePart &segment : parts_of(panel, n))
             {
               part_in_mesh.push_back(0.);
               // Of a round body the mean is that over the area; on the axis there is
               // none.
-              Point<dim - 1> middle;
-              for (unsigned int k = 0; k + 1 < dim; ++k)
-                middle[k] = 0.5;
-              middles.push_back(segment.at(middle));
+              middles.push_back(segment.middle());
               const double mean_measure = mesh.measure(middles.back());
-              for (const BoundaryPoint &point :
-                   points_on_panel(mesh, space, segment))
+              for (const BoundaryPoint &point : points_on(mesh, space, segment))
                 {
                   part_in_mesh.back() += point.weight;
                   const double relative =
@@ -423,15 +418,15 @@ namespace geocone::GEOCONE_DIM
     for (HeldSide &side : supports)
       {
         side.before = side.panels;
-        for (Panel &panel : side.panels)
+        for (SidePart &panel : side.panels)
           {
-            auto ends = panel.ends();
+            auto ends = ends_of(panel);
             for (Point<dim> &x : ends)
               for (unsigned int d = 0; d < dim; ++d)
                 if (const auto &q =
                       scene.dirichlet.list[side.condition]->components[d])
                   x[d] += h * q->value(x, t);
-            panel.span(ends);
+            panel = spanned_by(ends);
           }
       }
     for (LoadedSide &side : loads)
@@ -450,8 +445,8 @@ namespace geocone::GEOCONE_DIM
           mark.local_element(dim * space.local_node(point.nodes[i])) += 1.;
     };
     for (const HeldSide &side : supports)
-      for (const Panel &panel : side.panels)
-        for (const BoundaryPoint &point : points_on_panel(mesh, space, panel))
+      for (const SidePart &panel : side.panels)
+        for (const BoundaryPoint &point : points_on(mesh, space, panel))
           mark_nodes(point);
     for (const LoadedSide &side : loads)
       for_each_point(mesh,
@@ -476,8 +471,8 @@ namespace geocone::GEOCONE_DIM
     for (const HeldSide &side : supports)
       for (unsigned int l = 0; l < side.panels.size(); ++l)
         {
-          const Panel &panel = side.panels[l];
-          const Seen   now   = seen_from(panel, after);
+          const SidePart &panel = side.panels[l];
+          const Seen      now   = seen_from(panel, after);
           if (!now.is_close_behind() ||
               !holds_normal(*scene.dirichlet.list[side.condition], panel))
             continue;
@@ -490,12 +485,12 @@ namespace geocone::GEOCONE_DIM
             if (was.along[k] <= 0. || was.along[k] >= 1.)
               {
                 const double end = was.along[k] <= 0. ? 0. : 1.;
-                here += (end - now.along[k]) * panel.edges[k];
+                here += (end - now.along[k]) * panel.edge(k);
                 from_beside = true;
               }
           if (!from_beside)
             {
-              const Tensor<1, dim> area = panel.area();
+              const Tensor<1, dim> area = area_of(panel);
               here -= now.beyond / area.norm() * area;
             }
           if (!place || here.distance(after) < place->distance(after))
@@ -514,7 +509,7 @@ namespace geocone::GEOCONE_DIM
       {
         bool behind = false;
         for (const HeldSide &side : supports)
-          for (const Panel &panel : side.panels)
+          for (const SidePart &panel : side.panels)
             {
               const Seen seen = seen_from(panel, points.position[p]);
               behind =
@@ -534,16 +529,16 @@ namespace geocone::GEOCONE_DIM
   {
     std::vector<SoilLimit> limits;
     for (const HeldSide &side : supports)
-      for (const Panel &panel : side.panels)
+      for (const SidePart &panel : side.panels)
         {
-          const Tensor<1, dim> area = panel.area();
+          const Tensor<1, dim> area = area_of(panel);
           for (unsigned int d = 0; d < dim; ++d)
             if (std::abs(area[d]) > (1. - 1e-9) * area.norm() &&
                 holds_normal(*scene.dirichlet.list[side.condition], panel))
               limits.push_back({d,
-                                panel.corner[d],
+                                panel.corners[0][d],
                                 area[d] > 0.,
-                                BoundingBox<dim>(panel.corners())});
+                                BoundingBox<dim>(panel.corners)});
         }
     return limits;
   }
@@ -552,12 +547,12 @@ namespace geocone::GEOCONE_DIM
   MovingConditions::state(StateRow &row)
   {
     for (HeldSide &side : supports)
-      for (Panel &panel : side.panels)
+      for (SidePart &panel : side.panels)
         {
-          auto ends = panel.ends();
+          auto ends = ends_of(panel);
           for (Point<dim> &x : ends)
             row(x);
-          panel.span(ends);
+          panel = spanned_by(ends);
         }
     for (LoadedSide &side : loads)
       side.surface.state(row);
@@ -569,8 +564,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<Point<dim>> corners;
     for (const HeldSide &side : supports)
       if (scene.dirichlet.list[side.condition].get() == &condition)
-        for (const Panel &panel : side.panels)
-          for (const Point<dim> &x : panel.corners())
+        for (const SidePart &panel : side.panels)
+          for (const Point<dim> &x : panel.corners)
             corners.push_back(x);
     return BoundingBox<dim>(corners).get_boundary_points();
   }

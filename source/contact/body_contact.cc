@@ -50,16 +50,6 @@ namespace geocone::GEOCONE_DIM
       else
         return QDuffy(simplicial ? p + 1 : 2 * p + 1, 1.);
     }
-
-    /** Of a piece, a point of the rule. */
-    Point<dim - 1>
-    at(const FlatSimplex &piece, const Point<dim - 1> &s)
-    {
-      Point<dim - 1> x = piece[0];
-      for (unsigned int k = 0; k + 1 < dim; ++k)
-        x += s[k] * (piece[k + 1] - piece[0]);
-      return x;
-    }
   } // namespace
 
   BodyContact::BodyContact(const Scene          &scene,
@@ -103,7 +93,7 @@ namespace geocone::GEOCONE_DIM
               std::vector<Point<dim>> places, unit;
               for (const unsigned int v : vertices)
                 places.push_back(cell->vertex(v));
-              const FacePlane plane{FaceOutline<dim>(places)};
+              const FacePlane plane{SidePart{places}};
               if (plane.ahead(cell->center()) > 0.)
                 {
                   std::reverse(vertices.begin(), vertices.end());
@@ -111,7 +101,7 @@ namespace geocone::GEOCONE_DIM
                 }
               for (const unsigned int v : vertices)
                 unit.push_back(reference.template vertex<dim>(v));
-              Face face{cell, FaceOutline<dim>(unit), FaceOutline<dim>(places)};
+              Face face{cell, {unit}, {places}};
               face.size = plane.size;
 
               space.cell_nodes(cell, nodes);
@@ -152,10 +142,9 @@ namespace geocone::GEOCONE_DIM
     std::vector<PlacedFace> result;
     for (const Face &face : faces)
       {
-        std::vector<Point<dim>> corners;
+        SidePart outline;
         for (const unsigned int node : face.corners)
-          corners.push_back(place(node));
-        const FaceOutline<dim> outline(corners);
+          outline.corners.push_back(place(node));
         result.push_back({&face, outline, FacePlane(outline)});
       }
     return result;
@@ -178,14 +167,14 @@ namespace geocone::GEOCONE_DIM
                             const std::vector<PlacedFace> &others,
                             const double                   reach) const
   {
-    const FacePlane  &plane = face.plane;
-    const FlatOutline own   = plane.project(face.outline);
+    const FacePlane &plane = face.plane;
+    const FlatPart   own   = plane.project(face.outline);
 
     struct Candidate
     {
-      const PlacedFace        *other;
-      FlatOutline              flat;
-      std::vector<FlatSimplex> shared;
+      const PlacedFace     *other;
+      FlatPart              flat;
+      std::vector<FlatPart> shared;
 
       /** Straight ahead of a place in the plane. */
       Point<dim>
@@ -205,13 +194,13 @@ namespace geocone::GEOCONE_DIM
         Candidate      at{&other, plane.project(other.outline), {}};
         double         part = 0.;
         Point<dim - 1> middle;
-        for (const FlatSimplex &piece : shared_part(own, at.flat))
+        for (const FlatPart &piece : shared_part(own, at.flat))
           if (const double size = size_of(piece);
               size >= least_piece * plane.size)
             {
               at.shared.push_back(piece);
               part += size;
-              for (const Point<dim - 1> &corner : piece)
+              for (const Point<dim - 1> &corner : piece.corners)
                 middle += size / dim * corner;
             }
         if (part == 0.)
@@ -228,10 +217,10 @@ namespace geocone::GEOCONE_DIM
       rule_of_piece<dim - 1>(mesh.is_simplicial(), space.degree());
     std::vector<PointAhead> points;
     for (const Candidate &candidate : candidates)
-      for (const FlatSimplex &piece : candidate.shared)
+      for (const FlatPart &piece : candidate.shared)
         for (unsigned int q = 0; q < rule.size(); ++q)
           {
-            const Point<dim - 1> x       = at(piece, rule.point(q)),
+            const Point<dim - 1> x       = piece.at(rule.point(q)),
                                  other_s = unit_place(candidate.flat, x);
             const double gap =
               std::abs(plane.ahead(candidate.other->outline.at(other_s)));
@@ -258,10 +247,10 @@ namespace geocone::GEOCONE_DIM
                          const std::vector<PointAhead> &points,
                          std::map<unsigned int, Sums>  &sums) const
   {
-    const Face             &face     = *placed_face.face;
-    const FacePlane        &plane    = placed_face.plane;
-    const FaceOutline<dim> &at_start = face.at_start;
-    const auto              weight   = [&](const PointAhead &point) {
+    const Face      &face     = *placed_face.face;
+    const FacePlane &plane    = placed_face.plane;
+    const SidePart  &at_start = face.at_start;
+    const auto       weight   = [&](const PointAhead &point) {
       return point.part * face.size * mesh.measure(at_start.at(point.s));
     };
     const unsigned int           m    = face.nodes.size();

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/output/model_file.h>
-#include <geocone/surfaces/panel.h>
+#include <geocone/surfaces/sides_of_body.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -334,13 +334,8 @@ namespace geocone::GEOCONE_DIM
     faces_of_body(const BoundaryCondition &condition, const Geometry &geometry)
     {
       std::vector<Face> faces;
-      for (const Panel &panel : panels_of_body(condition, geometry))
-        {
-          Face face = panel.corners();
-          if (dim == 3)
-            std::swap(face[2], face[3]); // around the face
-          faces.push_back(face);
-        }
+      for (const SidePart &part : panels_of_body(condition, geometry))
+        faces.push_back(part.corners);
       return faces;
     }
 

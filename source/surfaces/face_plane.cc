@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/clipped.h>
-#include <geocone/shapes/edge_normal.h>
 #include <geocone/surfaces/face_plane.h>
 
 #include <algorithm>
@@ -27,7 +26,7 @@ namespace geocone::GEOCONE_DIM
     /** Calls f(a, b, sign) for the edges of an outline, sign * turn(a, b, x) >= 0 in it. */
     template <typename Function>
     void
-    for_edges(const FlatOutline &outline, const Function &f)
+    for_edges(const FlatPart &outline, const Function &f)
     {
       const auto  &corners = outline.corners;
       const double sign =
@@ -41,7 +40,7 @@ namespace geocone::GEOCONE_DIM
 
     template <int m>
     Point<m>
-    unbounded_unit_place(const FaceOutline<m> &outline, const Point<m> &x)
+    unbounded_unit_place(const Outline<m> &outline, const Point<m> &x)
     {
       const auto &corners = outline.corners;
       Point<m>    s;
@@ -55,8 +54,7 @@ namespace geocone::GEOCONE_DIM
             const auto lack = x - outline.at(s);
             if (lack.norm() <= 1e-14 * corners[0].distance(corners[2]))
               break;
-            Tensor<1, m> along[m] = {corners[1] - corners[0],
-                                     corners.back() - corners[0]};
+            Tensor<1, m> along[m] = {outline.edge(0), outline.edge(1)};
             if (corners.size() == 4)
               {
                 const auto twist = (corners[2] - corners[1]) - along[1];
@@ -72,40 +70,38 @@ namespace geocone::GEOCONE_DIM
     }
 
     template <int m>
-    std::vector<std::array<Point<m>, m + 1>>
-    pieces_of_both(const FaceOutline<m> &a, const FaceOutline<m> &b)
+    std::vector<Outline<m>>
+    pieces_of_both(const Outline<m> &a, const Outline<m> &b)
     {
-      std::vector<std::array<Point<m>, m + 1>> pieces;
       if constexpr (m == 1)
         {
-          const auto ends = [](const FaceOutline<m> &outline) {
+          const auto ends = [](const Outline<m> &outline) {
             return std::minmax(outline.corners[0][0], outline.corners[1][0]);
           };
           const double begin = std::max(ends(a).first, ends(b).first),
                        end   = std::min(ends(a).second, ends(b).second);
           if (end > begin)
-            pieces.push_back({{Point<m>(begin), Point<m>(end)}});
+            return {{{Point<m>(begin), Point<m>(end)}}};
+          return {};
         }
       else
         {
-          std::vector<Point<m>> rest = a.corners;
+          Outline<m> rest = a;
           for_edges(
             b,
             [&](const Point<m> &from, const Point<m> &to, const double sign) {
               Tensor<1, m> into;
-              into[0] = sign * (from[1] - to[1]);
-              into[1] = sign * (to[0] - from[0]);
-              rest    = clipped(rest, from, into);
+              into[0]      = sign * (from[1] - to[1]);
+              into[1]      = sign * (to[0] - from[0]);
+              rest.corners = clipped(rest.corners, from, into);
             });
-          for (std::size_t i = 2; i < rest.size(); ++i)
-            pieces.push_back({{rest[0], rest[i - 1], rest[i]}});
+          return rest.simplices();
         }
-      return pieces;
     }
   } // namespace
 
   Flat
-  unit_place(const FlatOutline &outline, const Flat &x)
+  unit_place(const FlatPart &outline, const Flat &x)
   {
     Flat s = unbounded_unit_place(outline, x);
     for (unsigned int k = 0; k + 1 < dim; ++k)
@@ -114,7 +110,7 @@ namespace geocone::GEOCONE_DIM
   }
 
   bool
-  is_in(const FlatOutline &outline, const Flat &x)
+  is_in(const FlatPart &outline, const Flat &x)
   {
     if (dim == 2)
       return (x[0] - outline.corners[0][0]) * (x[0] - outline.corners[1][0]) <=
@@ -127,21 +123,22 @@ namespace geocone::GEOCONE_DIM
   }
 
   double
-  size_of(const FlatSimplex &simplex)
+  size_of(const FlatPart &simplex)
   {
+    const auto &x = simplex.corners;
     if constexpr (dim == 2)
-      return std::abs(simplex[1][0] - simplex[0][0]);
+      return std::abs(x[1][0] - x[0][0]);
     else
-      return std::abs(turn(simplex[0], simplex[1], simplex[2])) / 2.;
+      return std::abs(turn(x[0], x[1], x[2])) / 2.;
   }
 
-  std::vector<FlatSimplex>
-  shared_part(const FlatOutline &a, const FlatOutline &b)
+  std::vector<FlatPart>
+  shared_part(const FlatPart &a, const FlatPart &b)
   {
     return pieces_of_both(a, b);
   }
 
-  FacePlane::FacePlane(const FaceOutline<dim> &face)
+  FacePlane::FacePlane(const SidePart &face)
     : diameter(0.)
     , origin(face.corners[0])
   {
@@ -149,13 +146,8 @@ namespace geocone::GEOCONE_DIM
     for (const Point<dim> &a : corners)
       for (const Point<dim> &b : corners)
         diameter = std::max(diameter, a.distance(b));
-    if constexpr (dim == 2)
-      normal = edge_normal(corners[0], corners[1]);
-    else // of the diagonals, or of a triangle the edges
-      normal =
-        cross_product_3d(corners[2] - corners[0], corners.back() - corners[1]) /
-        2.;
-    size = normal.norm();
+    normal = area_of(face);
+    size   = normal.norm();
     normal /= size;
     axes[0] = (corners[1] - corners[0]) / corners[0].distance(corners[1]);
     if constexpr (dim == 3)
@@ -166,16 +158,16 @@ namespace geocone::GEOCONE_DIM
       }
   }
 
-  FlatOutline
-  FacePlane::project(const FaceOutline<dim> &face) const
+  FlatPart
+  FacePlane::project(const SidePart &face) const
   {
-    std::vector<Flat> corners;
+    FlatPart flat;
     for (const Point<dim> &x : face.corners)
       {
-        Flat &corner = corners.emplace_back();
+        Flat &corner = flat.corners.emplace_back();
         for (unsigned int k = 0; k + 1 < dim; ++k)
           corner[k] = (x - origin) * axes[k];
       }
-    return FlatOutline(corners);
+    return flat;
   }
 } // namespace geocone::GEOCONE_DIM

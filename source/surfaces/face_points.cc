@@ -82,16 +82,7 @@ namespace geocone::GEOCONE_DIM
     };
   } // namespace
 
-  FacePart
-  FacePart::whole()
-  {
-    FacePart all;
-    for (unsigned int k = 0; k + 1 < dim; ++k)
-      all.upper[k] = 1.;
-    return all;
-  }
-
-  std::optional<FacePart>
+  std::optional<UnitPart>
   part_of_face(const BoundaryCondition    &condition,
                const BackgroundMesh       &mesh,
                const BackgroundMesh::Cell &cell,
@@ -101,7 +92,7 @@ namespace geocone::GEOCONE_DIM
       return std::nullopt;
     const auto box = condition.wide_box();
     if (!box)
-      return FacePart::whole();
+      return UnitPart::whole();
     // Less of a face than this is a matter of rounding.
     constexpr double least = 1e-6;
     const UnitFace   unit_face(mesh.is_simplicial(), face);
@@ -114,7 +105,7 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int k = 0; k + 1 < dim; ++k)
       edges.push_back(place(Point<dim - 1>::unit_vector(k)) - start);
 
-    FacePart part       = FacePart::whole();
+    UnitPart part       = UnitPart::whole();
     bool     is_oblique = false;
     for (unsigned int d = 0; d < dim; ++d)
       {
@@ -144,7 +135,7 @@ namespace geocone::GEOCONE_DIM
       }
     if (dim == 3 && (is_oblique || mesh.is_simplicial()) &&
         (part.lower.norm() > 0. ||
-         part.upper.distance(FacePart::whole().upper) > 0.))
+         part.upper.distance(UnitPart::whole().upper) > 0.))
       throw InputError(condition.parameter("Box"),
                        condition.part(),
                        "a box that does not cut the face at (" +
@@ -162,7 +153,7 @@ namespace geocone::GEOCONE_DIM
                  const Space                &space,
                  const BackgroundMesh::Cell &cell,
                  const unsigned int          face,
-                 const FacePart             &part)
+                 const UnitPart             &part)
   {
     double share = 1.; // of the face
     for (unsigned int k = 0; k + 1 < dim; ++k)

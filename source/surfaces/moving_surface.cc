@@ -11,16 +11,16 @@ namespace geocone::GEOCONE_DIM
 {
   using namespace dealii;
 
-  MovingSurface::MovingSurface(const std::vector<Panel> &panels,
-                               const double              longest)
+  MovingSurface::MovingSurface(const std::vector<SidePart> &panels,
+                               const double                 longest)
   {
-    for (const Panel &panel : panels)
+    for (const SidePart &panel : panels)
       {
         std::array<unsigned int, 2> n = {
           {1, 0}}; // of parts; a line has one row
         for (unsigned int k = 0; k + 1 < dim; ++k)
           n[k] = std::max(static_cast<unsigned int>(
-                            std::ceil(panel.edges[k].norm() / longest - 1e-9)),
+                            std::ceil(panel.edge(k).norm() / longest - 1e-9)),
                           1U);
         const unsigned int first = places.size(), row = n[0] + 1;
         for (unsigned int j = 0; j <= n[1]; ++j)
@@ -32,7 +32,7 @@ namespace geocone::GEOCONE_DIM
                 s[dim - 2] = double(j) / n[1];
               places.push_back(panel.at(s));
             }
-        const double area = panel.area().norm();
+        const double area = area_of(panel).norm();
         const auto   add  = [&](const std::array<unsigned int, 3> &corners) {
           Part &part = parts.emplace_back();
           std::copy_n(corners.begin(), dim, part.corners.begin());
@@ -49,16 +49,13 @@ namespace geocone::GEOCONE_DIM
       }
   }
 
-  std::vector<Facet>
+  std::vector<SidePart>
   MovingSurface::facets() const
   {
-    std::vector<Facet> all;
-    for (const Part &part : parts)
-      {
-        Facet &facet = all.emplace_back();
-        for (unsigned int k = 0; k < dim; ++k)
-          facet[k] = places[part.corners[k]];
-      }
+    std::vector<SidePart> all(parts.size());
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      for (const unsigned int corner : parts[i].corners)
+        all[i].corners.push_back(places[corner]);
     return all;
   }
 
@@ -70,18 +67,13 @@ namespace geocone::GEOCONE_DIM
   {
     // A place in the body by each corner, towards the middles of its facets.
     std::vector<Tensor<1, dim>> inward(places.size());
-    for (const Part &part : parts)
+    const std::vector<SidePart> present = facets();
+    for (std::size_t i = 0; i < parts.size(); ++i)
       {
-        Facet      facet;
-        Point<dim> middle;
-        for (unsigned int k = 0; k < dim; ++k)
-          {
-            facet[k] = places[part.corners[k]];
-            middle += facet[k] / dim;
-          }
-        const Tensor<1, dim> area = area_of(facet);
+        const Point<dim>     middle = present[i].middle();
+        const Tensor<1, dim> area   = area_of(present[i]);
         const double size = std::pow(area.norm(), 1. / (dim - 1)); // its length
-        for (const unsigned int corner : part.corners)
+        for (const unsigned int corner : parts[i].corners)
           inward[corner] +=
             1e-6 * (middle - places[corner]) - 1e-9 * size / area.norm() * area;
       }

@@ -8,6 +8,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/surfaces/moving_surface.h>
+#include <geocone/surfaces/sides_of_body.h>
 
 #include "../discretisation/setup.h"
 #include "../test.h"
@@ -49,7 +50,7 @@ namespace mechanics_moving_boundary_01
         const double      from,
         const double      to)
   {
-    const auto points  = points_on_facet(setup.mesh, setup.space, {{a, b}});
+    const auto points  = points_on(setup.mesh, setup.space, {{a, b}});
     double     sums[7] = {}, N = 0., linear = 0., on_line = 0.;
     for (const BoundaryPoint &p : points)
       {
@@ -90,8 +91,7 @@ namespace mechanics_moving_boundary_01
   energy(const Setup &setup, const Point<dim> &a, const Point<dim> &b)
   {
     double sum = 0.;
-    for (const BoundaryPoint &p :
-         points_on_facet(setup.mesh, setup.space, {{a, b}}))
+    for (const BoundaryPoint &p : points_on(setup.mesh, setup.space, {{a, b}}))
       {
         double u = 0.;
         for (unsigned int i = 0; i < p.nodes.size(); ++i)
@@ -159,13 +159,13 @@ namespace mechanics_moving_boundary_01
         const MovingSurface surface(
           panels_of_body(*setup.scene.dirichlet.list[2], setup.scene.geometry),
           longest);
-        const std::vector<Facet> lines  = surface.facets();
-        double                   length = 0., covered = 0.;
-        bool                     left = true, chain = true;
+        const std::vector<SidePart> lines  = surface.facets();
+        double                      length = 0., covered = 0.;
+        bool                        left = true, chain = true;
         for (std::size_t i = 0; i < lines.size(); ++i)
           {
-            const auto [a, b] = lines[i];
-            const double size = surface.size_at_start(i);
+            const Point<dim> &a = lines[i].corners[0], &b = lines[i].corners[1];
+            const double      size = surface.size_at_start(i);
             length += size;
             chain &= std::abs(size - a.distance(b)) < 1e-12 &&
                      size <= longest * (1. + 1e-8);
@@ -173,8 +173,7 @@ namespace mechanics_moving_boundary_01
             left &= setup.scene.geometry.contains(
               a + 0.5 * along +
               1e-3 * dealii::Tensor<1, dim>({-along[1], along[0]}));
-            for (const auto &p :
-                 points_on_facet(setup.mesh, setup.space, lines[i]))
+            for (const auto &p : points_on(setup.mesh, setup.space, lines[i]))
               covered += p.weight * size;
           }
         covered = mpi::sum(covered, comm);
@@ -184,7 +183,8 @@ namespace mechanics_moving_boundary_01
                         lines.size(),
                         length,
                         covered);
-            const Point<dim> first = lines.front()[0], last = lines.back()[1];
+            const Point<dim> first = lines.front().corners[0],
+                             last  = lines.back().corners[1];
             std::printf("  from %.4f %.4f to %.4f %.4f\n",
                         first[0],
                         first[1],

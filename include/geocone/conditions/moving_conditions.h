@@ -8,6 +8,7 @@
 #include <geocone/conditions/constraints.h>
 #include <geocone/points/consistent_integration.h>
 #include <geocone/surfaces/moving_surface.h>
+#include <geocone/surfaces/sides_of_body.h>
 
 #include <optional>
 
@@ -110,9 +111,9 @@ namespace geocone::GEOCONE_DIM
     /** A support on a side of the body, and the side. */
     struct HeldSide
     {
-      unsigned int       condition;
-      std::vector<Panel> panels;
-      std::vector<Panel> before = {}; ///< the last move()
+      unsigned int          condition;
+      std::vector<SidePart> panels;
+      std::vector<SidePart> before = {}; ///< the last move()
     };
 
     /** A load on sides of the body, and the sides. */
@@ -130,7 +131,7 @@ namespace geocone::GEOCONE_DIM
     /** Makes the parts shorter that a condition holds, as 'Segment shortening' asks. */
     void
     shorten(const BoundaryCondition &condition,
-            std::vector<Panel>      &panels) const;
+            std::vector<SidePart>   &panels) const;
 
     /** @name The rows of supports, as they are at time t */
     /** @{ */

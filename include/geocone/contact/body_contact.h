@@ -64,8 +64,8 @@ namespace geocone::GEOCONE_DIM
     struct Face
     {
       BackgroundMesh::Cell      cell;
-      FaceOutline<dim>          unit;     ///< in unit coordinates of the cell
-      FaceOutline<dim>          at_start; ///< both in the order of FacePlane
+      SidePart                  unit;     ///< in unit coordinates of the cell
+      SidePart                  at_start; ///< both in the order of FacePlane
       std::vector<unsigned int> corners = {}; ///< nodes, in this order
       std::vector<unsigned int> nodes   = {}; ///< on the face
       std::vector<unsigned int> of_cell = {}; ///< their numbers in the cell
@@ -83,9 +83,9 @@ namespace geocone::GEOCONE_DIM
     /** A face as it is. */
     struct PlacedFace
     {
-      const Face      *face;
-      FaceOutline<dim> outline;
-      FacePlane        plane;
+      const Face *face;
+      SidePart    outline;
+      FacePlane   plane;
     };
     static std::vector<PlacedFace>
     placed(const std::vector<Face> &faces, const Place &place);

@@ -6,6 +6,7 @@
 
 #include <geocone/scene/boundary_conditions.h>
 #include <geocone/space/space.h>
+#include <geocone/surfaces/side_part.h>
 
 #include <optional>
 #include <string>
@@ -23,27 +24,18 @@ namespace geocone::GEOCONE_DIM
     std::vector<double>       values; ///< N at the point, per node
   };
 
-  /** A part of a face, in its unit coordinates: all of it, or between two corners. */
-  struct FacePart
-  {
-    dealii::Point<dim - 1> lower, upper;
-
-    static FacePart
-    whole();
-  };
-
   /** Gauss points of a face, or of a part of it, exact for degree 2p + 3. */
   std::vector<FacePoint>
   points_on_face(const BackgroundMesh       &mesh,
                  const Space                &space,
                  const BackgroundMesh::Cell &cell,
                  const unsigned int          face,
-                 const FacePart             &part = FacePart::whole());
+                 const UnitPart             &part = UnitPart::whole());
 
   /** What of a face the Box of a condition holds; nothing, or its part, which ends in
    *  the face. Where a formula selects, faces are whole.
    *  @throws InputError for a part of a face in space that is not along the axes */
-  std::optional<FacePart>
+  std::optional<UnitPart>
   part_of_face(const BoundaryCondition    &condition,
                const BackgroundMesh       &mesh,
                const BackgroundMesh::Cell &cell,

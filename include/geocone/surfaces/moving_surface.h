@@ -5,7 +5,7 @@
 #define geocone_surfaces_moving_surface_h
 
 #include <geocone/base/state_row.h>
-#include <geocone/surfaces/panel.h>
+#include <geocone/surfaces/side_points.h>
 
 #include <array>
 #include <vector>
@@ -13,8 +13,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Sides of a body, or their parts in a box, that move with it: facets whose corners are
-   * carried by the velocity of the nodes.
+   * Sides of a body, or their parts in a box, that move with it: facets, which are lines
+   * or triangles, whose corners are carried by the velocity of the nodes.
    */
   class MovingSurface
   {
@@ -24,10 +24,10 @@ namespace geocone::GEOCONE_DIM
      * @param longest part of an edge of a panel that is one of a facet, in space of a
      * parallelogram that is halved into two (m)
      */
-    MovingSurface(const std::vector<Panel> &panels, const double longest);
+    MovingSurface(const std::vector<SidePart> &panels, const double longest);
 
     /** The facets as they are. */
-    std::vector<Facet>
+    std::vector<SidePart>
     facets() const;
 
     /** Of a facet at the start (m, or m^2). */

@@ -1,39 +1,31 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef geocone_surfaces_facet_h
-#define geocone_surfaces_facet_h
+#ifndef geocone_surfaces_side_points_h
+#define geocone_surfaces_side_points_h
 
 #include <geocone/space/space.h>
+#include <geocone/surfaces/side_part.h>
 
-#include <array>
 #include <functional>
 #include <utility>
 #include <vector>
 
 namespace geocone::GEOCONE_DIM
 {
-  /** The corners of a flat piece of the body's border: in the plane a line with the body
-   *  on the left, in space a triangle, counterclockwise as seen from outside. */
-  using Facet = std::array<dealii::Point<dim>, dim>;
-
-  /** Its outward normal times its length (m), or its area (m^2). */
-  dealii::Tensor<1, dim>
-  area_of(const Facet &facet);
-
   /** A place where shape functions are evaluated: a cell of this rank, N there. */
   struct BoundaryPoint
   {
-    dealii::Point<dim>                           position;
-    double                                       weight; ///< part of the facet
+    dealii::Point<dim> position;
+    double             weight; ///< part of the line or triangle
     std::vector<dealii::types::global_dof_index> nodes;
     std::vector<double>                          values; ///< N, per node
   };
 
   /**
-   * Calls f(number, point) for points for sums that are integrals over each facet, of
-   * what of it is in cells of this rank: Gauss points on each cell's part, in the plane
-   * exact for the shape functions. Their weights sum up, over all ranks, to the part of
+   * Calls f(number, point) for points for sums that are integrals over each facet, a line
+   * or a triangle, of what of it is in cells of this rank: Gauss points on each cell's
+   * part, in the plane exact for the shape functions. Their weights sum up, over all ranks, to the part of
    * the facet that is in the mesh. A facet along the border of cells belongs to those on
    * the side of the body, and one along the border of the mesh to the mesh if that is
    * there.
@@ -43,14 +35,14 @@ namespace geocone::GEOCONE_DIM
   for_each_point(
     const BackgroundMesh                                                &mesh,
     const Space                                                         &space,
-    const std::vector<Facet>                                            &facets,
+    const std::vector<SidePart>                                         &facets,
     const std::function<void(const std::size_t, const BoundaryPoint &)> &f);
 
-  /** The same points of one facet. */
+  /** The same points of a line, a triangle or a parallelogram. */
   std::vector<BoundaryPoint>
-  points_on_facet(const BackgroundMesh &mesh,
-                  const Space          &space,
-                  const Facet          &facet);
+  points_on(const BackgroundMesh &mesh,
+            const Space          &space,
+            const SidePart       &part);
 
   /** The longest part of a line from a to b in one cell (m). Collective. */
   double

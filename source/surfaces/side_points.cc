@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/clipped.h>
-#include <geocone/shapes/edge_normal.h>
-#include <geocone/surfaces/facet.h>
+#include <geocone/surfaces/side_points.h>
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/mpi.h>
@@ -28,12 +27,12 @@ namespace geocone::GEOCONE_DIM
       const Point<dim>   middle = cell->center();
       for (const unsigned int f : cell->face_indices())
         {
-          Facet corners;
+          SidePart part;
           for (unsigned int k = 0; k < dim; ++k)
-            corners[k] = cell->face(f)->vertex(k);
-          const Tensor<1, dim> into = area_of(corners);
-          planes.push_back(
-            {corners[0], (middle - corners[0]) * into < 0. ? -into : into});
+            part.corners.push_back(cell->face(f)->vertex(k));
+          const Point<dim>    &on   = part.corners[0];
+          const Tensor<1, dim> into = area_of(part);
+          planes.push_back({on, (middle - on) * into < 0. ? -into : into});
         }
       return planes;
     }
@@ -51,35 +50,22 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** What of a facet is between planes, in facets. */
-    std::vector<Facet>
-    pieces_between(const std::vector<Plane> &planes, const Facet &facet)
+    std::vector<SidePart>
+    pieces_between(const std::vector<Plane> &planes, const SidePart &facet)
     {
-      std::vector<Facet> pieces;
+      SidePart rest = facet;
       if (dim == 2)
         {
-          const Point<dim> &a = facet[0], &b = facet[1];
+          const Point<dim> &a = facet.corners[0], &b = facet.corners[1];
           const auto [from, to] = part_between(planes, a, b);
-          if (to > from)
-            {
-              Facet piece;
-              piece[0] = a + from * (b - a);
-              piece[1] = a + to * (b - a);
-              pieces.push_back(piece);
-            }
-          return pieces;
+          if (!(to > from))
+            return {};
+          rest.corners = {a + from * (b - a), a + to * (b - a)};
         }
-      std::vector<Point<dim>> rest(facet.begin(), facet.end());
-      for (const auto &[on, into] : planes)
-        rest = clipped(rest, on, into);
-      for (std::size_t i = 2; i < rest.size(); ++i)
-        {
-          Facet piece;
-          piece[0]       = rest[0];
-          piece[1]       = rest[i - 1];
-          piece[dim - 1] = rest[i];
-          pieces.push_back(piece);
-        }
-      return pieces;
+      else
+        for (const auto &[on, into] : planes)
+          rest.corners = clipped(rest.corners, on, into);
+      return rest.simplices();
     }
 
     /** On a facet of the size 1. */
@@ -98,15 +84,6 @@ namespace geocone::GEOCONE_DIM
         }
     }
   } // namespace
-
-  Tensor<1, dim>
-  area_of(const Facet &facet)
-  {
-    if constexpr (dim == 2)
-      return edge_normal(facet[0], facet[1]);
-    else
-      return cross_product_3d(facet[1] - facet[0], facet[2] - facet[0]) / 2.;
-  }
 
   std::pair<double, double>
   part_of_line(const std::vector<std::pair<double, double>> &conditions)
@@ -141,7 +118,7 @@ namespace geocone::GEOCONE_DIM
   for_each_point(
     const BackgroundMesh                                                &mesh,
     const Space                                                         &space,
-    const std::vector<Facet>                                            &facets,
+    const std::vector<SidePart>                                         &facets,
     const std::function<void(const std::size_t, const BoundaryPoint &)> &f)
   {
     const Quadrature<dim - 1> rule = rule_of_facets();
@@ -149,14 +126,14 @@ namespace geocone::GEOCONE_DIM
     // Boxes tell what may be in which cell. A shift decides for the body where a facet
     // is on a border of cells.
     std::vector<BoundingBox<dim>> boxes;
-    std::vector<Facet>            shifted = facets;
-    for (Facet &facet : shifted)
+    std::vector<SidePart>         shifted = facets;
+    for (SidePart &facet : shifted)
       {
         const Tensor<1, dim> area = area_of(facet);
         const double size = std::pow(area.norm(), 1. / (dim - 1)); // its length
-        for (Point<dim> &corner : facet)
+        for (Point<dim> &corner : facet.corners)
           corner -= 1e-9 * size / area.norm() * area;
-        boxes.emplace_back(std::vector<Point<dim>>(facet.begin(), facet.end()));
+        boxes.emplace_back(facet.corners);
       }
     BoundaryPoint point;
     for (const auto &cell : mesh.own_cells())
@@ -177,7 +154,7 @@ namespace geocone::GEOCONE_DIM
                 space.cell_nodes(cell, point.nodes);
               }
             const double whole = area_of(shifted[t]).norm();
-            for (const Facet &piece : pieces_between(planes, shifted[t]))
+            for (const SidePart &piece : pieces_between(planes, shifted[t]))
               {
                 const double share = area_of(piece).norm() / whole;
                 if (!(share > 1e-12))
@@ -185,10 +162,7 @@ namespace geocone::GEOCONE_DIM
                 parts[t] += share;
                 for (unsigned int q = 0; q < rule.size(); ++q)
                   {
-                    point.position = piece[0];
-                    for (unsigned int k = 0; k + 1 < dim; ++k)
-                      point.position +=
-                        rule.point(q)[k] * (piece[k + 1] - piece[0]);
+                    point.position  = piece.at(rule.point(q));
                     point.weight    = rule.weight(q) * share;
                     const auto unit = mesh.unit_point(cell, point.position);
                     if (!unit)
@@ -204,14 +178,16 @@ namespace geocone::GEOCONE_DIM
   }
 
   std::vector<BoundaryPoint>
-  points_on_facet(const BackgroundMesh &mesh,
-                  const Space          &space,
-                  const Facet          &facet)
+  points_on(const BackgroundMesh &mesh,
+            const Space          &space,
+            const SidePart       &part)
   {
-    std::vector<BoundaryPoint> points;
+    const std::vector<SidePart> facets = part.simplices();
+    std::vector<BoundaryPoint>  points;
     for_each_point(
-      mesh, space, {facet}, [&](const std::size_t, const BoundaryPoint &point) {
+      mesh, space, facets, [&](const std::size_t, const BoundaryPoint &point) {
         points.push_back(point);
+        points.back().weight /= facets.size();
       });
     return points;
   }

@@ -2,10 +2,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/base/exceptions.h>
-#include <geocone/shapes/edge_normal.h>
-#include <geocone/surfaces/panel.h>
-
-#include <deal.II/base/geometry_info.h>
+#include <geocone/surfaces/sides_of_body.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +26,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     /** Of a body in the plane, lines. */
-    std::vector<Panel>
+    std::vector<SidePart>
     panels_of_outline(const BoundaryCondition &condition,
                       const Geometry          &geometry)
     {
@@ -50,7 +47,7 @@ namespace geocone::GEOCONE_DIM
           area += v[0] * w[1] - w[0] * v[1];
         }
       condition.check_sides(geometry.sides, "sides of the body");
-      std::vector<Panel> panels;
+      std::vector<SidePart> panels;
       for (const auto &[name, id] : geometry.sides)
         if (condition.is_on_side(name))
           {
@@ -70,14 +67,14 @@ namespace geocone::GEOCONE_DIM
             const auto [from, to]      = part_of_line(in_box);
             const Tensor<1, dim> along = b - a;
             if (to > from)
-              panels.push_back({a + from * along, {{(to - from) * along}}});
+              panels.push_back({{a + from * along, a + to * along}});
           }
       refuse_no_part(condition, panels.size());
       return panels;
     }
 
     /** Of a body that is a box in space, rectangles. */
-    std::vector<Panel>
+    std::vector<SidePart>
     panels_of_box(const BoundaryCondition &condition, const Geometry &geometry)
     {
       geometry.refuse_where("conditions on sides of particles",
@@ -91,8 +88,8 @@ namespace geocone::GEOCONE_DIM
                          "that of an obstacle");
       condition.check_sides(geometry.sides, "sides of the body");
       const auto [lower, upper] = geometry.bounding_box();
-      const auto         box    = condition.box_corners();
-      std::vector<Panel> panels;
+      const auto            box = condition.box_corners();
+      std::vector<SidePart> panels;
       for (unsigned int d = 0; d < dim; ++d)
         for (const bool is_upper : {false, true})
           {
@@ -122,131 +119,35 @@ namespace geocone::GEOCONE_DIM
               {(d + 1) % dim, (d + 2) % dim}};
             if (!is_upper)
               std::swap(across[0], across[1]);
-            Panel panel;
-            panel.corner = low;
+            std::array<Point<dim>, dim> ends;
+            ends.fill(low);
             for (unsigned int k = 0; k + 1 < dim; ++k)
-              panel.edges[k][across[k]] = high[across[k]] - low[across[k]];
-            panels.push_back(panel);
+              ends[k + 1][across[k]] = high[across[k]];
+            panels.push_back(spanned_by(ends));
           }
       refuse_no_part(condition, panels.size());
       return panels;
     }
   } // namespace
 
-  Point<dim>
-  Panel::at(const Point<dim - 1> &s) const
-  {
-    Point<dim> x = corner;
-    for (unsigned int k = 0; k + 1 < dim; ++k)
-      x += s[k] * edges[k];
-    return x;
-  }
-
-  Tensor<1, dim>
-  Panel::area() const
-  {
-    if (dim == 2)
-      return edge_normal(corner, Point<dim>(corner + edges[0]));
-    return cross_product_3d(edges[0], edges[dim - 2]);
-  }
-
-  std::vector<Point<dim>>
-  Panel::corners() const
-  {
-    std::vector<Point<dim>> all;
-    for (const unsigned int i : GeometryInfo<dim - 1>::vertex_indices())
-      all.push_back(at(GeometryInfo<dim - 1>::unit_cell_vertex(i)));
-    return all;
-  }
-
-  std::array<Point<dim>, dim>
-  Panel::ends() const
-  {
-    std::array<Point<dim>, dim> ends;
-    ends[0] = corner;
-    for (unsigned int k = 0; k + 1 < dim; ++k)
-      ends[k + 1] = corner + edges[k];
-    return ends;
-  }
-
-  void
-  Panel::span(const std::array<Point<dim>, dim> &ends)
-  {
-    corner = ends[0];
-    for (unsigned int k = 0; k + 1 < dim; ++k)
-      edges[k] = ends[k + 1] - corner;
-  }
-
-  std::vector<Facet>
-  Panel::facets() const
-  {
-    const std::vector<Point<dim>> x = corners();
-    // The first of these corners each, two in the plane.
-    std::vector<std::array<unsigned int, 3>> of_facets = {{{0, 1, 3}}};
-    if (dim == 3)
-      of_facets.push_back({{0, 3, 2}});
-    std::vector<Facet> all;
-    for (const auto &corner : of_facets)
-      {
-        Facet &facet = all.emplace_back();
-        for (unsigned int k = 0; k < dim; ++k)
-          facet[k] = x[corner[k]];
-      }
-    return all;
-  }
-
-  std::vector<Panel>
-  Panel::parts(const std::array<unsigned int, dim - 1> &n) const
-  {
-    std::vector<Panel> all = {*this};
-    for (unsigned int k = 0; k + 1 < dim; ++k)
-      {
-        std::vector<Panel> divided;
-        for (const Panel &panel : all)
-          for (unsigned int i = 0; i < n[k]; ++i)
-            {
-              Panel &part = divided.emplace_back(panel);
-              part.edges[k] /= n[k];
-              part.corner += double(i) * part.edges[k];
-            }
-        all = divided;
-      }
-    return all;
-  }
-
-  std::vector<Panel>
+  std::vector<SidePart>
   panels_of_body(const BoundaryCondition &condition, const Geometry &geometry)
   {
     return dim == 3 ? panels_of_box(condition, geometry)
                     : panels_of_outline(condition, geometry);
   }
 
-  std::vector<BoundaryPoint>
-  points_on_panel(const BackgroundMesh &mesh,
-                  const Space          &space,
-                  const Panel          &panel)
-  {
-    const std::vector<Facet>   facets = panel.facets();
-    std::vector<BoundaryPoint> points;
-    for_each_point(
-      mesh, space, facets, [&](const std::size_t, const BoundaryPoint &point) {
-        points.push_back(point);
-        points.back().weight /= facets.size();
-      });
-    return points;
-  }
-
   double
   cell_size_along(const BackgroundMesh &mesh,
-                  const Panel          &panel,
+                  const SidePart       &panel,
                   const unsigned int    edge)
   {
     // Not on a border of cells, but in the body.
-    const Tensor<1, dim> &along = panel.edges[edge], area = panel.area();
-    Point<dim> a = panel.corner - 1e-9 * along.norm() / area.norm() * area;
+    const Tensor<1, dim> along = panel.edge(edge), area = area_of(panel);
+    Point<dim> a = panel.corners[0] - 1e-9 * along.norm() / area.norm() * area;
     for (unsigned int k = 0; k + 1 < dim; ++k)
       if (k != edge)
-        a += panel.edges[k] / 2.;
+        a += panel.edge(k) / 2.;
     return longest_part_in_cell(mesh, a, a + along);
   }
 } // namespace geocone::GEOCONE_DIM

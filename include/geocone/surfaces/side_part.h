@@ -1,0 +1,107 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_surfaces_side_part_h
+#define geocone_surfaces_side_part_h
+
+#include <geocone/base/types.h>
+
+#include <deal.II/base/point.h>
+
+#include <array>
+#include <vector>
+
+namespace geocone::GEOCONE_DIM
+{
+  /** Unit coordinates of a part of a line or quadrilateral: of all of it, or between two
+   *  corners. */
+  struct UnitPart
+  {
+    dealii::Point<dim - 1> lower, upper;
+
+    static UnitPart
+    whole();
+  };
+
+  /**
+   * A part of a side, given by its corners in order around it: a line, a triangle, or a
+   * quadrilateral, on which x is linear in each unit coordinate.
+   * @tparam n dim, or dim - 1 for the projection to a plane
+   */
+  template <int n>
+  struct Outline
+  {
+    dealii::Point<n>
+    at(const dealii::Point<dim - 1> &s) const
+    {
+      dealii::Tensor<1, n> x = s[0] * edge(0);
+      if constexpr (dim == 3)
+        {
+          x += s[1] * edge(1);
+          if (corners.size() == 4)
+            x += s[0] * s[1] * ((corners[2] - corners[1]) - edge(1));
+        }
+      return corners[0] + x;
+    }
+
+    /** From the first corner along a unit coordinate. */
+    dealii::Tensor<1, n>
+    edge(const unsigned int k) const
+    {
+      return (k == 0 ? corners[1] : corners.back()) - corners[0];
+    }
+
+    /** The mean of the corners. */
+    dealii::Point<n>
+    middle() const
+    {
+      dealii::Point<n> sum;
+      for (const dealii::Point<n> &corner : corners)
+        sum += corner / double(corners.size());
+      return sum;
+    }
+
+    /** Itself, or in space the triangles that meet at the first corner of a convex
+     *  polygon. */
+    std::vector<Outline>
+    simplices() const
+    {
+      if (dim == 2)
+        return {*this};
+      std::vector<Outline> all;
+      for (std::size_t i = 2; i < corners.size(); ++i)
+        all.push_back({{corners[0], corners[i - 1], corners[i]}});
+      return all;
+    }
+
+    std::vector<dealii::Point<n>> corners;
+  };
+
+  /** A part of a side of the body: in the plane the body is on the left of the line, in
+   *  space the corners are counterclockwise as seen from outside. */
+  using SidePart = Outline<dim>;
+
+  /** The outward normal times the length (m), or the area (m^2). */
+  dealii::Tensor<1, dim>
+  area_of(const SidePart &part);
+
+  /** @name A line, or in space a parallelogram, by its first corner and the ends of the
+   *  edges from there */
+  /** @{ */
+  SidePart
+  spanned_by(const std::array<dealii::Point<dim>, dim> &ends);
+
+  std::array<dealii::Point<dim>, dim>
+  ends_of(const SidePart &part);
+  /** @} */
+
+  /** What of a line or quadrilateral is between unit coordinates. */
+  SidePart
+  part_of(const SidePart &whole, const UnitPart &part);
+
+  /** So many equal parts along each edge. */
+  std::vector<SidePart>
+  parts_of(const SidePart &whole, const std::array<unsigned int, dim - 1> &n);
+} // namespace geocone::GEOCONE_DIM
+
+#endif

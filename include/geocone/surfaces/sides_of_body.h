@@ -1,0 +1,29 @@
+// Copyright (C) 2026 by the geocone authors
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef geocone_surfaces_sides_of_body_h
+#define geocone_surfaces_sides_of_body_h
+
+#include <geocone/scene/scene.h>
+#include <geocone/surfaces/side_points.h>
+
+#include <vector>
+
+namespace geocone::GEOCONE_DIM
+{
+  /**
+   * The parts of the condition's sides of the body inside its box: in the plane lines, in
+   * space rectangles.
+   * @throws InputError if the body has no such side or it misses the box
+   */
+  std::vector<SidePart>
+  panels_of_body(const BoundaryCondition &condition, const Geometry &geometry);
+
+  /** The longest part of the middle line along an edge in one cell (m). Collective. */
+  double
+  cell_size_along(const BackgroundMesh &mesh,
+                  const SidePart       &panel,
+                  const unsigned int    edge);
+} // namespace geocone::GEOCONE_DIM
+
+#endif
