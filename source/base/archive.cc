@@ -18,7 +18,7 @@ namespace geocone
 
   namespace
   {
-    const std::string format_name = "geocone checkpoint 2";
+    const std::string format_name = "geocone checkpoint 3";
 
     /** The checksum, goes on with an array. */
     unsigned long
