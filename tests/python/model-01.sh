@@ -1,31 +1,41 @@
 # The model of a scene is drawn without a run, into a folder of its own, and again into the
-# same one; its description has materials, supports, loads and what stages change.
+# same one. Its description has materials, supports, loads and what stages change; values and
+# places are those of the parameter files.
 program=$1 root=$2 folder=$3
+. "$root/tests/fails.sh"
 rm -rf "$folder" && mkdir -p "$folder" && cd "$folder"
 for _ in 1 2; do
   "$program" "$root/prm/stages/embankment.prm" --dry-run --picture --quiet
 done
+[ "$(ls results)" = embankment-model ]
 "$program" "$root/prm/three/square_footing.prm" --dry-run --picture --quiet --output space
 "$program" "$root/prm/footing_mpm.prm" --dry-run --picture --quiet --output particles
-/usr/bin/python3 -B - <<'END'
+/usr/bin/python3 -B - <<'PYTHON'
 import json
 from pathlib import Path
 
 from PIL import Image
 
-for name in ("results/embankment-model", "space", "particles"):
-    with Image.open(Path(name) / "model.png") as picture:
-        print(name, picture.width > 500 and picture.height > 300)
-model = json.loads(Path("results/embankment-model/model.json").read_text())
-print([material["name"] for material in model["materials"]])
-print([stage.get("added") for stage in model["stages"]][:2])
-for support in model["supports"]:
-    print(support["name"], support["prescribed"], max(map(max, support["values"])))
+embankment = Path("results/embankment-model")
+for folder in (embankment, Path("space"), Path("particles")):
+    with Image.open(folder / "model.png") as picture:
+        assert picture.width > 500 and picture.height > 300, folder
+
+model = json.loads((embankment / "model.json").read_text())
+assert [m["name"] for m in model["materials"]] == ["clay", "fill 1", "fill 2", "fill 3", "fill 4"]
+assert [s["added"] for s in model["stages"] if "added" in s] == [[f"fill {i}"] for i in range(1, 5)]
+assert len(model["material_of_cell"]) == len(model["cells"]) > 0
+for support in model["supports"]:  # all are fixed
+    assert support["faces"] and not any(map(any, support["values"])), support["name"]
 road, = model["tractions"]
-ends = sorted(x for face in road["faces"] for x, _ in face)
-print("road", ends[0], ends[-1], min(value[1] for value in road["values"]))
+ends = [x for face in road["faces"] for x, _ in face]
+assert abs(min(ends)) < 1e-9 and abs(max(ends) - 6.) < 0.2, ends
+assert all(abs(value[1] + 10e3) < 1e-6 for value in road["values"])
+
 particles = json.loads(Path("particles/model.json").read_text())
-print(particles["material_of_cell"], len(particles["cells"]) > 0, particles["body"]["shape"])
-END
-"$program" "$root/prm/footing_mpm.prm" --picture 2>&1 | head -2
-ls results
+assert not particles["material_of_cell"] and particles["cells"]
+footing, = (s for s in particles["supports"] if any(map(any, s["values"])))
+assert all(value == [0., -0.02] for value in footing["values"]), footing["values"]
+PYTHON
+fails "$program" "$root/prm/footing_mpm.prm" --picture
+grep -q -- '--picture goes with --dry-run' said
