@@ -50,7 +50,7 @@ mathjax2_config = {"tex2jax": {"inlineMath": [["\\(", "\\)"]],
 
 # The pages in the order of the menu, below the first one.
 PAGES = {
-    "Use": ["doc/cookbook/README", "doc/notebooks/footing",
+    "Use": ["doc/scenes", "doc/your_own_scene", "doc/cookbook/README", "doc/notebooks/footing",
             "doc/notebooks/slope_factor_of_safety", "doc/notebooks/element_tests",
             "doc/runs", "doc/trust", "doc/element_test", "doc/studies",
             "meshes/README", "packaging/README"],
