@@ -59,7 +59,7 @@ PAGES = {
                       "doc/friction_memory", "doc/small_dilatancy", "doc/stability", "doc/performance",
                       "doc/overhead", "doc/paper",
                       "doc/profiles"],
-    "How it works": ["doc/theory/README", "CONTRIBUTING", "CHANGELOG"]}
+    "How it works": ["doc/theory/README", "CONTRIBUTING", "doc/style", "CHANGELOG"]}
 
 
 def menu(title, pages):
