@@ -403,9 +403,13 @@ namespace geocone::GEOCONE_DIM
             }
       }
     model.faces_of = [&, of_particles](const BoundaryCondition &condition) {
-      return of_particles && is_on_body(condition)
-               ? faces_of_body(condition, scene.geometry)
-               : mesh.faces_of(condition);
+      if (of_particles && is_on_body(condition))
+        return faces_of_body(condition, scene.geometry);
+      std::vector<Face> faces = mesh.faces_of(condition);
+      for (Face &face : faces)
+        if (face.size() == 4)
+          std::swap(face[2], face[3]); // around the quadrilateral
+      return faces;
     };
     return model;
   }
