@@ -7,7 +7,7 @@ there is at the outlet, beside theory:
 
     hopper.py RUN [RUN ...]     # without runs: theory only
 
-Hour-glass theory is told in the parameter file. Two things are added here, without any fit.
+Hour-glass theory is documented in the parameter file. Two things are added here, without any fit.
 
 The jet. Below the outlet the sand, half as wide as w(s), falls as a jet with free sides, which
 still converges: u w = u0 w0. What slows its way inwards is a pressure across it,

@@ -7,7 +7,7 @@ blocks:
 
     wall_fails.py RUN [RUN ...]     # without runs: theory only
 
-The theory is told in the parameter file."""
+The theory is documented in the parameter file."""
 
 import pathlib
 import sys

@@ -115,7 +115,7 @@ def add_mathjax(app, problem):
 
 
 def setup(app):
-    """What Sphinx calls."""
+    """Entry point of Sphinx."""
     app.add_source_suffix(".ipynb", "ipynb")
     app.add_source_parser(NotebookParser)
     app.connect("source-read", add_menu)

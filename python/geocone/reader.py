@@ -18,7 +18,7 @@ import numpy as np
 
 from geocone.parameter_file import IncludeError, parameters_of
 
-# What meshio calls a cell, by the dimension of the scene and the number of corners.
+# meshio's name of a cell, by the dimension of the scene and the number of corners.
 CELL_TYPES = {2: {1: "vertex", 2: "line", 3: "triangle", 4: "quad"},
               3: {1: "vertex", 4: "tetra", 8: "hexahedron"}}
 
@@ -27,11 +27,11 @@ Field = namedtuple("Field", "points cells data time", defaults=[None])
 
 
 class ReadError(Exception):
-    """What a folder or a file is damaged by, in a line."""
+    """Description of the damage of a folder or a file, in a line."""
 
 
 class Missing(ReadError):
-    """What was asked for is not there: the run has not, or not yet, written it."""
+    """Missing data: the run has not, or not yet, written them."""
 
 
 def read(folder):

@@ -42,7 +42,7 @@ matplotlib.rcParams.update({
 
 
 class PlotError(Exception):
-    """What ends the drawing, told to the user."""
+    """Error that ends the drawing, reported to the user."""
 
 
 class Skipped(Exception):

@@ -36,7 +36,7 @@ except ImportError as error:
 
 
 def pictures_of(run, times=None):
-    """What draws each picture of a run, by its name: functions of the run and the path.
+    """Drawing functions of the pictures of a run, by name: functions of the run and the path.
     Modules are loaded for what is drawn only."""
     if run.method == "point":
         from geocone.plots import element

@@ -114,5 +114,5 @@ def draw_mechanism(run, path):
 
 
 def pictures(_run):
-    """What draws each picture."""
+    """Drawing functions by picture."""
     return {"bounds.png": draw_bounds, "mechanism.png": draw_mechanism}

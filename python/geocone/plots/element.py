@@ -144,7 +144,7 @@ def ratios(path):
 
 
 def pictures(run):
-    """What draws each picture of an element test, by its name."""
+    """Drawing functions of the pictures of an element test, by name."""
     path = Path(run)
 
     def saves(draw):

@@ -128,7 +128,7 @@ def draw_ratio(run, path, names, label, least, times=None):
 
 
 def pictures(run, times=None):
-    """What draws each picture of an explicit run, by its name."""
+    """Drawing functions of the pictures of an explicit run, by name."""
     found = {"energy.png": draw_explicit, "runout.png": draw_runout,
              "points.png": functools.partial(draw_points, times=times)}
     try:

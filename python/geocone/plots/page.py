@@ -24,7 +24,7 @@ MOST_FRAMES = 16
 MOST_BYTES = 4_500_000  # of a page, in pictures
 LARGE = 100_000  # bytes of a picture
 
-# What a reader asks for first, and what it is called.
+# Results shown first, and their captions.
 TOPICS = {"safety": "Factor of safety", "bounds": "Bounds", "limit_load": "Load",
           "non_associated": "Less dilatancy than friction",
           "reference": "Reference", "contact": "Contact", "failure": "Failure",
@@ -32,7 +32,7 @@ TOPICS = {"safety": "Factor of safety", "bounds": "Bounds", "limit_load": "Load"
           "newton": "Newton's method", "quality": "Quality of the solution",
           "state": "State", "start": "At the start", "final": "At the end",
           "extremes": "Least and most", "size": "Size", "cost": "Cost"}
-# What pictures are called, in the order in which a reader wants to see them: the answer, how the
+# Captions of pictures, in the order in which a reader wants to see them: the answer, how the
 # body moves and flows, and last what tells about the computation.
 CAPTIONS = {
     "model.png": "The model",
@@ -76,7 +76,7 @@ def name_of(key):
 
 
 def title_of(topic, run):
-    """What a topic of the summary is called. Bounds that made the mesh of a strength
+    """Title of a topic of the summary. Bounds that made the mesh of a strength
     reduction by steps are those of a load: they say nothing of the factor of safety."""
     if (topic == "bounds" and "safety" in run.summary and
             run.method != "strength reduction"):

@@ -28,7 +28,7 @@ class Look:
         return disks(axes, field, values)
 
     def finish(self, axes):
-        """What the axes need besides."""
+        """Further settings of the axes."""
         if np.ptp(self.box, axis=0)[0] > 5. * np.ptp(self.box, axis=0)[1]:  # flat
             axes.yaxis.set_major_locator(MaxNLocator(2))
 

@@ -210,5 +210,5 @@ class SolidLook:
                                  linewidths=0.2, offset_transform=axes.transData)
 
     def finish(self, axes):
-        """What the axes need besides."""
+        """Further settings of the axes."""
         add_directions(axes, self.view, self.box)

@@ -22,7 +22,7 @@ MARKERS = "osD^vP*Xh<"
 
 
 def value_of(row, key):
-    """What a row has for a key: an axis, or a path in the summary; or None."""
+    """Value of a row for a key: an axis, or a path in the summary; or None."""
     return row["axes"].get(key, leaves(row["summary"]).get(key))
 
 

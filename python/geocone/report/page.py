@@ -35,7 +35,7 @@ def paragraphs(text):
 
 
 def machine(program):
-    """What the times depend on, as (name, value)."""
+    """Conditions that the times depend on, as (name, value)."""
     def first(pattern, path):
         try:
             found = re.search(pattern, Path(path).read_text(), re.MULTILINE)
@@ -102,7 +102,7 @@ def told(what, shown, problem):
 
 
 def section_data(study, number, section, rows, folder):
-    """What a section shows; what cannot be shown is told instead."""
+    """Content of a section; problems are reported in place of failed parts."""
     data = {"title": section.get("title", ""), "id": f"{study.name}-{number}",
             "text": paragraphs(section.get("text", "")),
             "source": section.get("text", ""), "figures": [], "tables": [],

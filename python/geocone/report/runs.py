@@ -202,7 +202,7 @@ class Computer:
                 computed.append(run.name)
                 progress.done += 1
                 progress.failed += record.get("status") != "finished"
-                # What the ended ones took, against what was expected.
+                # Time of completed runs relative to the estimate.
                 ended = sum(expected[name] or mean for name in computed)
                 rest = sum(expected[other.name] or mean for other in waiting
                            if other.name not in computed)
@@ -214,7 +214,7 @@ class Computer:
                         functools.partial(work, run)) for run in waiting])
 
     def row(self, run):
-        """What is known of a run, for figures and tables."""
+        """Data of a run, for figures and tables."""
         record, folder = self.record(run), self.folder / run.name
         summary = read_json(folder / "summary.json")
         status, reason = record["status"], record["reason"]

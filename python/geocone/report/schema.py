@@ -1,6 +1,6 @@
 # Copyright (C) 2026 by the geocone authors
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What study files may say: the kinds of values, the keys of all tables with their kinds,
+"""Schema of study files: the kinds of values, the keys of all tables with their kinds,
 and the check of a table. Kinds of options stand at the functions that take them."""
 
 import difflib
@@ -74,7 +74,7 @@ def table_of(kind):
 
 
 def any_of(*kinds):
-    """What is of one of several kinds."""
+    """A value of one of several kinds."""
     return Kind(lambda value: any(kind.holds(value) for kind in kinds),
                 "; or ".join(kind.allowed for kind in kinds))
 

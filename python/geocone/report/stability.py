@@ -63,7 +63,7 @@ def is_known(row):
 
 
 def verdict(row):
-    """What came of a run: (kind, text)."""
+    """Outcome of a run: (kind, text)."""
     table, reason = steps_of(row), row["reason"]
     must_fail = row["check"].get("status") == "failed"
     if row["code"] is None:
@@ -153,7 +153,7 @@ def counts(rows, _):
 
 @takes()
 def scenes(rows, _):
-    """What each scene is: the comment at the beginning of its parameter file."""
+    """Description of each scene: the comment at the beginning of its parameter file."""
     lines = []
     for name, file in {row["group"]: row["file"] for row in rows}.items():
         words = []

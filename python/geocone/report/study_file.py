@@ -52,7 +52,7 @@ class Run:
         return [word for setting in self.settings for word in ("--set", setting)]
 
     def inputs(self):
-        """What the result depends on but the program, as one text."""
+        """Input that the result depends on, without the program, as one text."""
         return "\n".join([content_of(self.file), *self.settings, str(self.ranks)])
 
 
@@ -189,7 +189,7 @@ def group_runs(path, group, defaults, most):
 
 
 def read_table(path):
-    """What a study file says."""
+    """Content of a study file."""
     remedy = "check the name; studies/quick.toml is an example"
     require(os.path.isfile(path), path, "is no file", "a study file", remedy)
     require(NAME.holds(path.stem), path, f"its results would be named {shown(path.stem)}",
