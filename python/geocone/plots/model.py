@@ -244,7 +244,7 @@ def value_text(values, unit):
 
 
 def draw_supports(axes, model):
-    """What holds the body: pins where no component may move, rollers where one may, arrows
+    """Supports: ticks where no component may move, rollers where one may, arrows
     where it is moved. @return entries of the legend"""
     entries = {}
     step = model.size / 40.
@@ -280,7 +280,7 @@ def draw_supports(axes, model):
 
 
 def arrow_entry(color):
-    """What stands for arrows in a legend."""
+    """The entry of arrows in a legend."""
     return FancyArrow(0., 0., 1., 0., color=color, width=0.05, length_includes_head=True)
 
 
@@ -372,7 +372,7 @@ def draw_side_names(axes, model):
 
 
 def view_of(model):
-    """Corners of what is shown: the body, tractions' arrows and the mesh of particles."""
+    """Corners of the view: the body, tractions' arrows and the mesh of particles."""
     corners = np.array([model.low, model.high])
     held = [point for condition in model.data["supports"] for face in condition["faces"]
             for point in face]
@@ -413,7 +413,7 @@ def notable_stages(model):
 
 
 def words_of(stage):
-    """What a stage does, in a few words."""
+    """Changes of a stage, in a few words."""
     words = []
     if "removed" in stage or "removed_lattice" in stage:
         words.append("excavation")
