@@ -303,6 +303,9 @@ namespace geocone::GEOCONE_DIM
   {
     ModelMesh mesh;
     mesh.materials = triangles->material;
+    const auto corners =
+      dealii::BoundingBox<dim>(triangles->vertices).get_boundary_points();
+    mesh.box = {{corners.first, corners.second}};
     for (const auto &cell : triangles->cells)
       mesh.cells.push_back({triangles->vertices[cell[0]],
                             triangles->vertices[cell[1]],

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <tuple>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -299,29 +300,6 @@ namespace geocone::GEOCONE_DIM
         }
       return all;
     }
-
-    /** Corners of the box of the body and of the mesh. */
-    std::array<Point<dim>, 2>
-    extent_of(const Scene &scene, const ModelMesh &mesh)
-    {
-      std::vector<Point<dim>> corners;
-      if (scene.geometry.shape != Geometry::Shape::file)
-        {
-          const auto [low, high] = scene.geometry.bounding_box();
-          corners                = {low, high};
-        }
-      else
-        for (const Face &cell : mesh.cells)
-          corners.insert(corners.end(), cell.begin(), cell.end());
-      std::array<Point<dim>, 2> box = {{corners.at(0), corners[0]}};
-      for (const Point<dim> &x : corners)
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            box[0][c] = std::min(box[0][c], x[c]);
-            box[1][c] = std::max(box[1][c], x[c]);
-          }
-      return box;
-    }
     /** Whether a condition of particles is on the sides of the body, not of the mesh. */
     bool
     is_on_body(const BoundaryCondition &condition)
@@ -379,29 +357,36 @@ namespace geocone::GEOCONE_DIM
   {
     ModelMesh   model;
     const auto &triangulation = mesh.triangulation();
-    if (dim == 2 &&
-        (triangulation.n_global_active_cells() <= most_cells_drawn ||
-         scene.geometry.shape == Geometry::Shape::file))
-      {
-        std::vector<std::pair<unsigned int, Face>> own;
-        for (const auto &cell : mesh.own_cells())
-          {
-            Face corners = {cell->vertex(0), cell->vertex(1)};
-            // Quadrilaterals are numbered by rows.
-            if (cell->n_vertices() == 4)
-              corners.push_back(cell->vertex(3));
-            corners.push_back(cell->vertex(2));
-            own.emplace_back(cell->material_id(), corners);
-          }
-        for (const auto &of_rank : dealii::Utilities::MPI::all_gather(
-               triangulation.get_communicator(), own))
-          for (const auto &[material, corners] : of_rank)
-            {
-              model.cells.push_back(corners);
-              if (!of_particles)
-                model.materials.push_back(material);
-            }
-      }
+    const auto  corners       = mesh.bounding_box().get_boundary_points();
+    model.box                 = {{corners.first, corners.second}};
+    std::vector<std::pair<unsigned int, Face>> own;
+    // Vertices of quadrilaterals are numbered by rows.
+    const auto add = [&](const auto &part, const unsigned int material) {
+      Face face = {part->vertex(0), part->vertex(1)};
+      if (part->n_vertices() == 4)
+        face.push_back(part->vertex(3));
+      face.push_back(part->vertex(2));
+      own.emplace_back(material, face);
+    };
+    if (triangulation.n_global_active_cells() <= most_cells_drawn ||
+        scene.geometry.shape == Geometry::Shape::file)
+      for (const auto &cell : mesh.own_cells())
+        {
+          if constexpr (dim == 2)
+            add(cell, cell->material_id());
+          else
+            for (const unsigned int f : cell->face_indices())
+              if (cell->face(f)->at_boundary())
+                add(cell->face(f), cell->material_id());
+        }
+    for (const auto &of_rank : dealii::Utilities::MPI::all_gather(
+           triangulation.get_communicator(), own))
+      for (const auto &[material, face] : of_rank)
+        {
+          model.cells.push_back(face);
+          if (!of_particles)
+            model.materials.push_back(material);
+        }
     model.faces_of = [&, of_particles](const BoundaryCondition &condition) {
       if (of_particles && is_on_body(condition))
         return faces_of_body(condition, scene.geometry);
@@ -425,6 +410,7 @@ namespace geocone::GEOCONE_DIM
         lower[d] = lines[d].front();
         upper[d] = lines[d].back();
       }
+    model.box     = {{lower, upper}};
     const auto &x = lines[0], &y = lines[1];
     if (dim == 2 && x.size() * y.size() <= most_cells_drawn)
       for (std::size_t j = 1; j < y.size(); ++j)
@@ -450,8 +436,11 @@ namespace geocone::GEOCONE_DIM
   {
     const OutwardNormals      normals(scene, mesh);
     const std::vector<double> times = times_of(scene.loading);
-    const auto [low, high]          = extent_of(scene, mesh);
-    Json materials                  = Json::array();
+    // Of a file the mesh is the body; that of particles is larger.
+    auto [low, high] = mesh.box;
+    if (scene.geometry.shape != Geometry::Shape::file)
+      std::tie(low, high) = scene.geometry.bounding_box();
+    Json materials = Json::array();
     for (unsigned int i = 0; i < scene.materials.size(); ++i)
       {
         Json material = {{"name", scene.materials.name(i)}};

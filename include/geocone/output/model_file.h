@@ -30,6 +30,9 @@ namespace geocone::GEOCONE_DIM
      *  Scene::geometry. */
     std::vector<unsigned int> materials;
 
+    /** Corners of the box around it. */
+    std::array<dealii::Point<dim>, 2> box;
+
     /** Boundary faces on the sides of a condition. */
     std::function<std::vector<Face>(const BoundaryCondition &)> faces_of;
   };

@@ -530,7 +530,14 @@ def draw_space(model, path):
     frame(axes, box)
     entries = legend_of(model)
     absent = model.absent()
-    for i, material in enumerate(model.data["materials"]):
+    of_cell = model.data["material_of_cell"] or []
+    if of_cell:  # the boundary faces of the mesh, the nearest last
+        faces = [np.array(face, dtype=float) for face in model.data["cells"]]
+        order = np.argsort([face.mean(axis=0) @ view.towards for face in faces])
+        axes.add_collection(PolyCollection(
+            [view.seen(faces[i]) for i in order], edgecolors="#50505060", linewidths=0.2,
+            facecolors=[color_of(of_cell[i]) for i in order], zorder=1))
+    for i, material in enumerate(() if of_cell else model.data["materials"]):
         ends = (model.low, model.high) if i == 0 else (
             np.array(material["region"], dtype=float) if "region" in material else None)
         if ends is None or material["name"] in absent:
