@@ -37,5 +37,5 @@ assert not particles["material_of_cell"] and particles["cells"]
 footing, = (s for s in particles["supports"] if any(map(any, s["values"])))
 assert all(value == [0., -0.02] for value in footing["values"]), footing["values"]
 PYTHON
-fails "$program" "$root/prm/footing_mpm.prm" --picture
+fails "$program" "$root/prm/footing_mpm.prm" --picture 2>said
 grep -q -- '--picture goes with --dry-run' said
