@@ -22,7 +22,7 @@ from geocone.files import add_to_list, claim, write_whole
 from geocone.reader import Missing
 
 # Okabe and Ito's colours and these maps are clear to colour-blind readers too.
-BLUE, ORANGE, GREY = "#0072B2", "#E69F00", "#a0a0a0"
+BLUE, ORANGE, GREY, WATER = "#0072B2", "#E69F00", "#a0a0a0", "tab:blue"
 COLORS = [BLUE, "#D55E00", "#009E73", "#CC79A7", ORANGE, "#56B4E9", "#505050"]
 STEPS = ListedColormap(matplotlib.colormaps["viridis"](np.linspace(0., 0.92, 256)))
 RATES = ListedColormap(matplotlib.colormaps["magma_r"](np.linspace(0.06, 1., 256)))
@@ -137,17 +137,24 @@ def water_tables(run, time=None):
     return [table for table in tables if len(table)]
 
 
+def draw_table(axes, table):
+    """Draws a piezometric line (n, 2), with its triangle."""
+    if len(table) == 0:
+        return
+    x, y = table.T
+    low, high = axes.get_xlim()
+    x, y = [min(low, x[0]), *x, max(high, x[-1])], [y[0], *y, y[-1]]
+    axes.autoscale(False)
+    axes.plot(x, y, color=WATER, linewidth=1.5, linestyle=(0, (6, 2)), zorder=4.5)
+    place = low + 0.96 * (high - low)
+    axes.plot(place, np.interp(place, x, y), "v", color=WATER, markersize=7,
+              markerfacecolor="white", zorder=4.5)
+
+
 def draw_water(axes, run, time=None):
     """Draws the tables of the water of a run, if there are any, at a time or at its end."""
     for table in water_tables(run, time):
-        x, y = table.T
-        low, high = axes.get_xlim()
-        x, y = [min(low, x[0]), *x, max(high, x[-1])], [y[0], *y, y[-1]]
-        axes.autoscale(False)
-        axes.plot(x, y, color="tab:blue", linewidth=1.5, linestyle=(0, (6, 2)))
-        place = low + 0.96 * (high - low)
-        axes.plot(place, np.interp(place, x, y), "v", color="tab:blue", markersize=7,
-                  markerfacecolor="white")
+        draw_table(axes, table)
 
 
 def obstacles_of(run, time=None):

@@ -311,12 +311,14 @@ namespace geocone::GEOCONE_DIM
                             triangles->vertices[cell[1]],
                             triangles->vertices[cell[2]]});
     mesh.faces_of = [&](const BoundaryCondition &condition) {
-      std::vector<ModelMesh::Face> faces;
+      std::vector<SidePart> faces;
       for (const auto &held : triangles->held_edges(condition))
         {
-          const auto &ends = triangles->edges[held.edge].vertices;
-          faces.push_back(
-            {triangles->vertices[ends[0]], triangles->vertices[ends[1]]});
+          const auto &cell = triangles->cells[held.cell];
+          const auto  end  = [&](const unsigned int i) {
+            return triangles->vertices[cell[(held.opposite_vertex + i) % 3]];
+          };
+          faces.push_back({{end(1), end(2)}});
         }
       return faces;
     };

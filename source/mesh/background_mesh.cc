@@ -5,6 +5,7 @@
 #include <geocone/base/log.h>
 #include <geocone/mesh/background_mesh.h>
 #include <geocone/mesh/structured_mesh.h>
+#include <geocone/shapes/edge_normal.h>
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/mpi.h>
@@ -20,6 +21,7 @@
 
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <numeric>
 
@@ -410,9 +412,20 @@ namespace geocone::GEOCONE_DIM
         if (const auto face = cell->face(f);
             face->at_boundary() && ids.count(face->boundary_id()) > 0)
           {
-            faces.emplace_back();
+            std::vector<Point<dim>> vertices;
             for (const unsigned int v : face->vertex_indices())
-              faces.back().push_back(face->vertex(v));
+              vertices.push_back(face->vertex(v));
+            if (vertices.size() == 4) // which are numbered by rows
+              std::swap(vertices[2], vertices[3]);
+            const Point<dim> &a = vertices[0];
+            Tensor<1, dim>    n;
+            if constexpr (dim == 2)
+              n = edge_normal(a, vertices[1]);
+            else
+              n = cross_product_3d(vertices[1] - a, vertices.back() - a);
+            if (n * (cell->center() - a) > 0.)
+              std::reverse(vertices.begin(), vertices.end());
+            faces.push_back(vertices);
           }
     std::vector<std::vector<Point<dim>>> all;
     for (const auto &of_rank : Utilities::MPI::all_gather(comm, faces))

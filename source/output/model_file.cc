@@ -2,13 +2,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <geocone/output/model_file.h>
-#include <geocone/surfaces/sides_of_body.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <array>
-#include <map>
 #include <tuple>
 
 namespace geocone::GEOCONE_DIM
@@ -23,7 +20,7 @@ namespace geocone::GEOCONE_DIM
     constexpr std::size_t most_cells_drawn = 30000;
 
     /** Parts of a face in the plane, of which a condition may hold some. */
-    constexpr unsigned int parts_of_face = 8;
+    const std::array<unsigned int, dim - 1> number_of_parts = {{8}};
 
     template <int size>
     Json
@@ -45,97 +42,29 @@ namespace geocone::GEOCONE_DIM
       return all;
     }
 
-    Point<dim>
-    centre_of(const Face &face)
-    {
-      Point<dim> centre;
-      for (const Point<dim> &x : face)
-        centre += x / double(face.size());
-      return centre;
-    }
-
     /** The parts of a face that a condition holds. */
-    std::vector<Face>
-    held_parts(const Face &face, const BoundaryCondition &condition)
+    std::vector<SidePart>
+    held_parts(const SidePart &face, const BoundaryCondition &condition)
     {
-      std::vector<Face> held;
+      std::vector<SidePart> held;
       if (dim == 3)
         {
-          if (condition.holds_at(centre_of(face)))
+          if (condition.holds_at(face.middle()))
             held.push_back(face);
           return held;
         }
-      const Tensor<1, dim> part      = (face[1] - face[0]) / parts_of_face;
-      bool                 continues = false;
-      for (unsigned int i = 0; i < parts_of_face; ++i)
+      bool continues = false;
+      for (const SidePart &part : parts_of(face, number_of_parts))
         {
-          const Point<dim> a = face[0] + double(i) * part, b = a + part;
-          const bool       holds = condition.holds_at(centre_of({a, b}));
+          const bool holds = condition.holds_at(part.middle());
           if (holds && continues)
-            held.back()[1] = b;
+            held.back().corners[1] = part.corners[1];
           else if (holds)
-            held.push_back({a, b});
+            held.push_back(part);
           continues = holds;
         }
       return held;
     }
-
-    /** Normals of boundary faces out of the body. */
-    class OutwardNormals
-    {
-    public:
-      OutwardNormals(const Scene &scene, const ModelMesh &mesh)
-        : geometry(scene.geometry)
-      {
-        if (dim == 2 && !mesh.materials.empty())
-          for (const Face &cell : mesh.cells)
-            for (std::size_t i = 0; i < cell.size(); ++i)
-              inside[key({cell[i], cell[(i + 1) % cell.size()]})] =
-                centre_of(cell);
-      }
-
-      Tensor<1, dim>
-      operator()(const Face &face) const
-      {
-        const Tensor<1, dim> along = face[1] - face[0];
-        Tensor<1, dim>       n;
-        if constexpr (dim == 2)
-          {
-            n[0] = along[1];
-            n[1] = -along[0];
-          }
-        else
-          n = dealii::cross_product_3d(along, face[2] - face[0]);
-        n /= n.norm();
-        const Point<dim> centre = centre_of(face);
-        const auto       cell   = inside.find(key(face));
-        const bool       is_outward =
-          cell != inside.end()
-                  ? n * (centre - cell->second) > 0.
-                  : geometry.shape == Geometry::Shape::file ||
-                !geometry.contains(centre + 1e-6 * along.norm() * n);
-        return is_outward ? n : -n;
-      }
-
-    private:
-      using Key = std::array<std::array<double, dim>, 2>;
-
-      static Key
-      key(const Face &face)
-      {
-        Key ends;
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            ends[0][c] = face[0][c];
-            ends[1][c] = face[1][c];
-          }
-        std::sort(ends.begin(), ends.end());
-        return ends;
-      }
-
-      const Geometry           &geometry;
-      std::map<Key, Point<dim>> inside; ///< centre of the cell of each edge
-    };
 
     /** Times at which prescribed values are looked at: the ends of the stages and of
      *  tenths of them. */
@@ -156,17 +85,17 @@ namespace geocone::GEOCONE_DIM
      *  it does not prescribe are 0. */
     Tensor<1, dim>
     largest_value(const BoundaryCondition   &condition,
-                  const Face                &face,
-                  const OutwardNormals      &normals,
+                  const SidePart            &face,
                   const std::vector<double> &times)
     {
-      const Point<dim> x = centre_of(face);
-      Tensor<1, dim>   largest;
+      const Point<dim>     x    = face.middle();
+      const Tensor<1, dim> area = area_of(face);
+      Tensor<1, dim>       largest;
       for (const double t : times)
         {
           Tensor<1, dim> value;
           if (condition.normal || condition.tangential)
-            value = condition.vector_on_side(x, normals(face), t);
+            value = condition.vector_on_side(x, area / area.norm(), t);
           for (unsigned int c = 0; c < dim; ++c)
             if (condition.components[c])
               value[c] += condition.value(c, x, t);
@@ -180,19 +109,17 @@ namespace geocone::GEOCONE_DIM
     Json
     conditions_of(const BoundaryConditions  &conditions,
                   const ModelMesh           &mesh,
-                  const OutwardNormals      &normals,
                   const std::vector<double> &times)
     {
       Json all = Json::array();
       for (const auto &condition : conditions.list)
         {
           Json faces = Json::array(), values = Json::array();
-          for (const Face &face : mesh.faces_of(*condition))
-            for (const Face &part : held_parts(face, *condition))
+          for (const SidePart &face : mesh.faces_of(*condition))
+            for (const SidePart &part : held_parts(face, *condition))
               {
-                faces.push_back(json_of_places(part));
-                values.push_back(
-                  json(largest_value(*condition, part, normals, times)));
+                faces.push_back(json_of_places(part.corners));
+                values.push_back(json(largest_value(*condition, part, times)));
               }
           Json prescribed = Json::array();
           for (const auto &component : condition->components)
@@ -247,7 +174,7 @@ namespace geocone::GEOCONE_DIM
               sides[name] = json_of_places(geometry.side_ends(id));
           body["sides"] = sides;
         }
-      // What an outline does not describe: discs, and the part where a formula holds.
+      // Outlines describe neither discs nor the part where a formula is positive.
       if (dim == 2 && geometry.shape != Geometry::Shape::file &&
           (geometry.outline.empty() || geometry.is_part_by_formula()))
         body["lattice"] = lattice_of(
@@ -300,6 +227,7 @@ namespace geocone::GEOCONE_DIM
         }
       return all;
     }
+
     /** Whether a condition of particles is on the sides of the body, not of the mesh. */
     bool
     is_on_body(const BoundaryCondition &condition)
@@ -307,46 +235,21 @@ namespace geocone::GEOCONE_DIM
       return condition.moves() || condition.is_traction();
     }
 
-    /** The faces of the body that a condition of particles holds. */
-    std::vector<Face>
-    faces_of_body(const BoundaryCondition &condition, const Geometry &geometry)
+    /** The sides of a box that a condition is on. */
+    std::vector<SidePart>
+    sides_of(const std::array<Point<dim>, 2> &box,
+             const BoundaryCondition         &condition)
     {
-      std::vector<Face> faces;
-      for (const SidePart &part : panels_of_body(condition, geometry))
-        faces.push_back(part.corners);
-      return faces;
-    }
-
-    /** The faces of a box on the sides of a condition. */
-    std::vector<Face>
-    faces_of_box(const Point<dim>        &lower,
-                 const Point<dim>        &upper,
-                 const BoundaryCondition &condition)
-    {
-      std::vector<Face> faces;
+      std::vector<SidePart> sides;
       for (unsigned int d = 0; d < dim; ++d)
         for (const bool is_upper : {false, true})
-          {
-            if (!condition.is_on_side(side_of_box[d][is_upper]))
-              continue;
-            Point<dim> corner = lower;
-            corner[d]         = (is_upper ? upper : lower)[d];
-            Face face         = {corner};
-            // Along one edge, and in space back along the opposite one.
-            const unsigned int a = (d + 1) % dim;
-            corner[a]            = upper[a];
-            face.push_back(corner);
-            if (dim == 3)
-              {
-                const unsigned int b = (d + 2) % dim;
-                corner[b]            = upper[b];
-                face.push_back(corner);
-                corner[a] = lower[a];
-                face.push_back(corner);
-              }
-            faces.push_back(face);
-          }
-      return faces;
+          if (condition.is_on_side(side_of_box[d][is_upper]))
+            {
+              auto [low, high] = box;
+              low[d] = high[d] = box[is_upper][d];
+              sides.push_back(side_across(d, is_upper, low, high));
+            }
+      return sides;
     }
   } // namespace
 
@@ -389,11 +292,10 @@ namespace geocone::GEOCONE_DIM
         }
     model.faces_of = [&, of_particles](const BoundaryCondition &condition) {
       if (of_particles && is_on_body(condition))
-        return faces_of_body(condition, scene.geometry);
-      std::vector<Face> faces = mesh.faces_of(condition);
-      for (Face &face : faces)
-        if (face.size() == 4)
-          std::swap(face[2], face[3]); // around the quadrilateral
+        return panels_of_body(condition, scene.geometry);
+      std::vector<SidePart> faces;
+      for (const Face &face : mesh.faces_of(condition))
+        faces.push_back({face});
       return faces;
     };
     return model;
@@ -403,14 +305,12 @@ namespace geocone::GEOCONE_DIM
   model_mesh_of(const std::array<std::vector<double>, dim> &lines,
                 const Scene                                &scene)
   {
-    ModelMesh  model;
-    Point<dim> lower, upper;
+    ModelMesh model;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        lower[d] = lines[d].front();
-        upper[d] = lines[d].back();
+        model.box[0][d] = lines[d].front();
+        model.box[1][d] = lines[d].back();
       }
-    model.box     = {{lower, upper}};
     const auto &x = lines[0], &y = lines[1];
     if (dim == 2 && x.size() * y.size() <= most_cells_drawn)
       for (std::size_t j = 1; j < y.size(); ++j)
@@ -423,18 +323,17 @@ namespace geocone::GEOCONE_DIM
             high[1] = y[j];
             model.cells.push_back(outline_of_box(low, high));
           }
-    model.faces_of =
-      [lower, upper, &scene](const BoundaryCondition &condition) {
-        return is_on_body(condition) ? faces_of_body(condition, scene.geometry)
-                                     : faces_of_box(lower, upper, condition);
-      };
+    model.faces_of = [box = model.box,
+                      &scene](const BoundaryCondition &condition) {
+      return is_on_body(condition) ? panels_of_body(condition, scene.geometry)
+                                   : sides_of(box, condition);
+    };
     return model;
   }
 
   Json
   model_of(const Scene &scene, const ModelMesh &mesh)
   {
-    const OutwardNormals      normals(scene, mesh);
     const std::vector<double> times = times_of(scene.loading);
     // Of a file the mesh is the body; that of particles is larger.
     auto [low, high] = mesh.box;
@@ -451,21 +350,21 @@ namespace geocone::GEOCONE_DIM
     Json cells = Json::array();
     for (const Face &cell : mesh.cells)
       cells.push_back(json_of_places(cell));
-    return {{"dimension", dim},
-            {"low", json(low)},
-            {"high", json(high)},
-            {"body", body_of(scene.geometry)},
-            {"materials", materials},
-            {"cells", cells},
-            {"material_of_cell", mesh.materials},
-            {"supports", conditions_of(scene.dirichlet, mesh, normals, times)},
-            {"tractions", conditions_of(scene.tractions, mesh, normals, times)},
-            {"absorbing_boundaries",
-             conditions_of(scene.absorbing, mesh, normals, times)},
-            {"obstacles",
-             obstacles_of(scene, low + (high - low) / 2., (high - low).norm())},
-            {"observed_points", json_of_places(scene.observation.points)},
-            {"gravity_m_per_s2", json(scene.gravity.at(times.back()))},
-            {"stages", stages_of(scene)}};
+    return {
+      {"dimension", dim},
+      {"low", json(low)},
+      {"high", json(high)},
+      {"body", body_of(scene.geometry)},
+      {"materials", materials},
+      {"cells", cells},
+      {"material_of_cell", mesh.materials},
+      {"supports", conditions_of(scene.dirichlet, mesh, times)},
+      {"tractions", conditions_of(scene.tractions, mesh, times)},
+      {"absorbing_boundaries", conditions_of(scene.absorbing, mesh, times)},
+      {"obstacles",
+       obstacles_of(scene, low + (high - low) / 2., (high - low).norm())},
+      {"observed_points", json_of_places(scene.observation.points)},
+      {"gravity_m_per_s2", json(scene.gravity.at(times.back()))},
+      {"stages", stages_of(scene)}};
   }
 } // namespace geocone::GEOCONE_DIM

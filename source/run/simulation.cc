@@ -28,8 +28,12 @@ namespace geocone::GEOCONE_DIM
           log.warn(warning);
         if (options.picture)
           {
+            const Json description = model();
+            if (description.is_null())
+              throw InputError("--picture draws a scene, and a point has none\n"
+                               "  remedy:  leave it out");
             output().make_folder_of_model(options);
-            write_model();
+            output().write_model(description);
           }
         return true;
       }
@@ -45,7 +49,8 @@ namespace geocone::GEOCONE_DIM
       {
         for (const std::string &warning : warnings)
           log.warn(warning);
-        write_model();
+        if (const Json description = model(); !description.is_null())
+          output().write_model(description);
       }
     write_summary("running");
     try
@@ -83,14 +88,6 @@ namespace geocone::GEOCONE_DIM
         throw;
       }
     return output().expectations_hold();
-  }
-
-  void
-  Simulation::write_model()
-  {
-    const Json description = model();
-    if (!description.is_null())
-      output().write_model(description);
   }
 
   void

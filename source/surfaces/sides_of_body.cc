@@ -112,18 +112,8 @@ namespace geocone::GEOCONE_DIM
                     is_there = is_there && high[c] > low[c];
                   }
               }
-            if (!is_there)
-              continue;
-            // These, and d, are right-handed.
-            std::array<unsigned int, 2> across = {
-              {(d + 1) % dim, (d + 2) % dim}};
-            if (!is_upper)
-              std::swap(across[0], across[1]);
-            std::array<Point<dim>, dim> ends;
-            ends.fill(low);
-            for (unsigned int k = 0; k + 1 < dim; ++k)
-              ends[k + 1][across[k]] = high[across[k]];
-            panels.push_back(spanned_by(ends));
+            if (is_there)
+              panels.push_back(side_across(d, is_upper, low, high));
           }
       refuse_no_part(condition, panels.size());
       return panels;
@@ -135,6 +125,30 @@ namespace geocone::GEOCONE_DIM
   {
     return dim == 3 ? panels_of_box(condition, geometry)
                     : panels_of_outline(condition, geometry);
+  }
+
+  SidePart
+  side_across(const unsigned int axis,
+              const bool         is_upper,
+              const Point<dim>  &low,
+              const Point<dim>  &high)
+  {
+    if constexpr (dim == 2)
+      return (axis == 0) == is_upper ? SidePart{{low, high}}
+                                     : SidePart{{high, low}};
+    else
+      {
+        // These, and the axis, are right-handed.
+        std::array<unsigned int, 2> across = {
+          {(axis + 1) % dim, (axis + 2) % dim}};
+        if (!is_upper)
+          std::swap(across[0], across[1]);
+        std::array<Point<dim>, dim> ends;
+        ends.fill(low);
+        for (unsigned int k = 0; k < 2; ++k)
+          ends[k + 1][across[k]] = high[across[k]];
+        return spanned_by(ends);
+      }
   }
 
   double

@@ -39,3 +39,6 @@ assert all(value == [0., -0.02] for value in footing["values"]), footing["values
 PYTHON
 fails "$program" "$root/prm/footing_mpm.prm" --picture 2>said
 grep -q -- '--picture goes with --dry-run' said
+fails "$program" "$root/prm/element/cyclic_shear.prm" --dry-run --picture 2>said
+grep -q -- '--picture draws a scene' said
+[ "$(ls results)" = embankment-model ]

@@ -224,7 +224,8 @@ namespace geocone::GEOCONE_DIM
     std::set<dealii::types::boundary_id>
     side_ids(const BoundaryCondition &condition) const;
 
-    /** The vertices of each face on the sides of a condition, of all ranks.
+    /** The vertices of each face on the sides of a condition, of all ranks: in the plane
+     *  the body is on the left, in space they are counterclockwise as seen from outside.
      *  Collective. @throws InputError for a name that no side has */
     std::vector<std::vector<dealii::Point<dim>>>
     faces_of(const BoundaryCondition &condition) const;

@@ -7,6 +7,7 @@
 #include <geocone/mesh/background_mesh.h>
 #include <geocone/output/json.h>
 #include <geocone/scene/scene.h>
+#include <geocone/surfaces/sides_of_body.h>
 
 #include <array>
 #include <functional>
@@ -34,7 +35,7 @@ namespace geocone::GEOCONE_DIM
     std::array<dealii::Point<dim>, 2> box;
 
     /** Boundary faces on the sides of a condition. */
-    std::function<std::vector<Face>(const BoundaryCondition &)> faces_of;
+    std::function<std::vector<SidePart>(const BoundaryCondition &)> faces_of;
   };
 
   /**

@@ -160,10 +160,6 @@ namespace geocone::GEOCONE_DIM
     dealii::Timer  total, step_loop, output_time;
 
   private:
-    /** Describes the model in the folder of the run. Collective. */
-    void
-    write_model();
-
     /** All stages, from where the run is. */
     void
     follow_programme();

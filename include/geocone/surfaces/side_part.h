@@ -95,7 +95,7 @@ namespace geocone::GEOCONE_DIM
   ends_of(const SidePart &part);
   /** @} */
 
-  /** What of a line or quadrilateral is between unit coordinates. */
+  /** The part of a line or quadrilateral between unit coordinates. */
   SidePart
   part_of(const SidePart &whole, const UnitPart &part);
 

@@ -19,6 +19,14 @@ namespace geocone::GEOCONE_DIM
   std::vector<SidePart>
   panels_of_body(const BoundaryCondition &condition, const Geometry &geometry);
 
+  /** The side of a box across an axis.
+   *  @param low,high corners of the side, or of a part of it */
+  SidePart
+  side_across(const unsigned int        axis,
+              const bool                is_upper,
+              const dealii::Point<dim> &low,
+              const dealii::Point<dim> &high);
+
   /** The longest part of the middle line along an edge in one cell (m). Collective. */
   double
   cell_size_along(const BackgroundMesh &mesh,

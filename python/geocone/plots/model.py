@@ -18,12 +18,13 @@ from matplotlib.transforms import offset_copy
 from geocone.parameter_file import IncludeError, parameters_of
 from geocone.plots.solid import ON_DARK, View, add_directions
 from geocone.reader import Missing, ReadError
-from geocone.style import plain, save, subplots, table_of, unit_for
+from geocone.style import (WATER, draw_table, plain, save, subplots, table_of,
+                           unit_for)
 
 FILE = "model.json"
 # Light enough for symbols, clear to colour-blind readers, and by lightness on paper.
 SOILS = ["#e3d3ae", "#b99f77", "#cfdccb", "#9fb3bf", "#e8c3a8", "#c9bedb", "#8f8676", "#f2ead2"]
-SUPPORT, LOAD, MOTION, WATER = "#303030", "#b02020", "#0060a0", "#3a86c8"
+SUPPORT, LOAD, MOTION = "#303030", "#b02020", "#0060a0"
 MOST_STAGES = 6  # small pictures of stages
 
 
@@ -179,14 +180,13 @@ def draw_mesh(axes, model):
 
 
 def segments_of(faces):
-    """The straight segments that faces of the boundary make together (n, 2, 2)."""
+    """The straight segments that faces of the boundary make together (n, 2, 2), with the body
+    on the left as of faces."""
     faces = np.array(faces, dtype=float).reshape(-1, 2, 2)
     tolerance = 1e-6 * max(np.ptp(faces.reshape(-1, 2), axis=0).max(), 1e-300)
     lines = {}
     for a, b in faces:
         along = (b - a) / max(np.linalg.norm(b - a), 1e-300)
-        if (along[0], along[1]) < (-1e-9, 0.) or abs(along[0]) <= 1e-9 and along[1] < 0.:
-            a, b, along = b, a, -along
         offset = along[0] * a[1] - along[1] * a[0]
         key = (*np.round(along, 6), round(offset / (100. * tolerance)))
         lines.setdefault(key, []).append((a @ along, b @ along, a, b))
@@ -207,31 +207,18 @@ def segments_of(faces):
 def spaced(faces, distance):
     """Places along faces in the plane, about a distance apart on each straight part.
 
-    @return indices of the nearest faces, places (n, 2), unit directions along them (n, 2)"""
-    places, directions = [], []
+    @return indices of the nearest faces, places (n, 2), outward unit normals (n, 2)"""
+    places, normals = [], []
     for a, b in segments_of(faces):
-        length = np.linalg.norm(b - a)
+        x, y = b - a
+        length = max(math.hypot(x, y), 1e-300)
         n = max(1, min(60, round(length / distance)))
         places.extend(a + (k + 0.5) / n * (b - a) for k in range(n))
-        directions.extend([(b - a) / max(length, 1e-300)] * n)
+        normals.extend([(y / length, -x / length)] * n)
     places = np.array(places)
     middles = np.array(faces, dtype=float).mean(axis=1)
     index = np.array([np.argmin(np.sum((middles - x)**2, axis=1)) for x in places])
-    return index, places, np.array(directions)
-
-
-def outward_of(model, places, directions):
-    """Unit normals at places of the boundary, away from the body, or from its middle where
-    the mesh of particles goes beyond it."""
-    normals = np.stack([directions[:, 1], -directions[:, 0]], axis=1)
-    away = np.sum(normals * (places - (model.low + model.high) / 2.), axis=1)
-    outline = outline_of(model)
-    if outline is not None:
-        probe = 1e-4 * model.size * normals
-        before, behind = (outline.contains_points(places - probe),
-                          outline.contains_points(places + probe))
-        away = np.where(before == behind, away, np.where(behind, -1., 1.))
-    return normals * np.where(away < 0., -1., 1.)[:, None]
+    return index, places, np.array(normals)
 
 
 def value_text(values, unit):
@@ -252,8 +239,7 @@ def draw_supports(axes, model):
         if not condition["faces"]:
             continue
         values = np.array(condition["values"], dtype=float)
-        index, places, along = spaced(condition["faces"], step)
-        outward = outward_of(model, places, along)
+        index, places, outward = spaced(condition["faces"], step)
         moved = np.linalg.norm(values[index], axis=1) > 0.
         if np.any(moved):
             draw_arrows(axes, places[moved], values[index][moved], outward[moved], MOTION,
@@ -263,7 +249,8 @@ def draw_supports(axes, model):
         held = ~moved
         if not np.any(held):
             continue
-        x, n, t = places[held], outward[held], along[held]
+        x, n = places[held], outward[held]
+        t = np.stack([-n[:, 1], n[:, 0]], axis=1)
         axes.add_collection(LineCollection(segments_of(condition["faces"]), colors=SUPPORT,
                                            linewidths=1.4, zorder=4))
         if all(condition["prescribed"]) or condition["normal"] and any(condition["prescribed"]):
@@ -321,27 +308,10 @@ def draw_tractions(axes, model):
         sizes = np.linalg.norm(values, axis=1)
         if not len(values) or not sizes.max() > 0.:
             continue
-        index, places, along = spaced(condition["faces"], model.size / 45.)
-        draw_arrows(axes, places, values[index], outward_of(model, places, along), LOAD,
-                    0.1 * model.size)
+        index, places, outward = spaced(condition["faces"], model.size / 45.)
+        draw_arrows(axes, places, values[index], outward, LOAD, 0.1 * model.size)
         entries[f"{plain(condition['name'])}: {value_text(values, 'Pa')}"] = arrow_entry(LOAD)
     return entries
-
-
-def draw_table(axes, table, text=None):
-    """A piezometric line with its triangle."""
-    if len(table) == 0:
-        return
-    x, y = np.array(table, dtype=float).T
-    low, high = axes.get_xlim()
-    axes.plot([min(low, x[0]), *x, max(high, x[-1])], [y[0], *y, y[-1]], color=WATER,
-              linewidth=1.5, linestyle=(0, (6, 2)), zorder=4.5)
-    place = low + 0.96 * (high - low)
-    axes.plot(place, np.interp(place, x, y), "v", color=WATER, markersize=7,
-              markerfacecolor="white", zorder=4.6)
-    if text:
-        axes.annotate(text, (place, np.interp(place, x, y)), xytext=(0, 7),
-                      textcoords="offset points", ha="right", color=WATER, fontsize=8)
 
 
 def draw_obstacles(axes, model):
@@ -360,11 +330,13 @@ def draw_obstacles(axes, model):
 
 def draw_side_names(axes, model):
     """Names of the sides beside their middles, as conditions call them."""
-    sides = {name: np.array(ends) for name, ends in model.data["body"].get("sides", {}).items()}
-    for name, (a, b) in sides.items():
-        along = (b - a) / np.linalg.norm(b - a)
-        middle = a + 0.5 * (b - a)
-        normal = outward_of(model, middle[None], along[None])[0]
+    body = model.data["body"]
+    x, y = np.array(body.get("outline", np.empty((0, 2)))).T
+    turn = np.sign(x @ np.roll(y, -1) - y @ np.roll(x, -1))  # the outline may run either way
+    for name, ends in body.get("sides", {}).items():
+        a, b = np.array(ends)
+        middle = (a + b) / 2.
+        normal = turn * np.array([b[1] - a[1], a[0] - b[0]]) / np.linalg.norm(b - a)
         axes.annotate(plain(name), middle, xytext=11. * -normal, textcoords="offset points",
                       ha="center", va="center", fontsize=7, color="#303030", zorder=6,
                       bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "#909090",
@@ -509,11 +481,9 @@ def box_faces(low, high):
     return np.array(faces), np.array(normals)
 
 
-def is_seen(model, view, face):
-    """Whether a face of the boundary is on the side of the body that a view shows."""
-    normal = np.cross(face[1] - face[0], face[2] - face[0])
-    outward = normal @ (face.mean(axis=0) - (model.low + model.high) / 2.) > 0.
-    return (normal @ view.towards > 0.) == outward
+def is_seen(view, face):
+    """Whether a view shows the outside of a face, whose corners are counterclockwise there."""
+    return np.cross(face[1] - face[0], face[2] - face[0]) @ view.towards > 0.
 
 
 def draw_space(model, path):
@@ -562,7 +532,7 @@ def draw_space(model, path):
             moved = np.linalg.norm(values, axis=1) > 0.
             shown = color if np.any(moved) else SUPPORT
             axes.add_collection(PolyCollection(
-                [view.seen(face) for face in faces if is_seen(model, view, face)],
+                [view.seen(face) for face in faces if is_seen(view, face)],
                 facecolors=shown + "30", edgecolors="none", zorder=2))
             text = plain(condition["name"])
             if np.any(moved):
