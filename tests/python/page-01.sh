@@ -31,7 +31,7 @@ class Page(html.parser.HTMLParser):
 page = Page()
 page.feed(text)
 # Among them that of an elastic body, which has no plastic strain.
-assert len(page.images) == 5, len(page.images)
+assert len(page.images) == 6, len(page.images)
 for source in page.images:
     kind, data = source.split(",", 1)
     assert kind == "data:image/png;base64"
@@ -44,7 +44,7 @@ words = " ".join(page.words)
 summary = json.loads(pathlib.Path("run/summary.json").read_text())
 assert f"{summary['energy']['kinetic_J_per_m']:.6g}" in words
 assert "kinetic (J/m)" in words and "front x (m)" in words
-assert "Largest shear stress of the material points" in words
+assert "The model" in words and "Largest shear stress of the material points" in words
 assert "set Friction coefficient" in words and "0.3" in words
 PYTHON
 # What a file says is shown, not run.
