@@ -5,6 +5,7 @@
 #include <geocone/base/hdf5_file.h>
 #include <geocone/command_line.h>
 #include <geocone/lab/replay.h>
+#include <geocone/linear/blas_kernels.h>
 #include <geocone/linear/one_thread.h>
 
 #include <deal.II/base/mpi.h>
@@ -99,6 +100,7 @@ namespace
 int
 main(int argc, char **argv)
 {
+  select_blas_kernels();
   use_one_thread();
   return run_program(argv, [&](Drawing &) { return run(argc, argv); });
 }

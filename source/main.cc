@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/command_line.h>
+#include <geocone/linear/blas_kernels.h>
 #include <geocone/linear/one_thread.h>
 #include <geocone/output/run_folder.h>
 #include <geocone/output/watcher.h>
@@ -72,6 +73,7 @@ namespace
 int
 main(int argc, char **argv)
 {
+  select_blas_kernels();
   use_one_thread();
   const Watcher watcher;
   CommandLine   call; // whose errors are those of the program of plane scenes

@@ -3,6 +3,7 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/stop_request.h>
+#include <geocone/linear/blas_kernels.h>
 #include <geocone/run/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -146,7 +147,9 @@ namespace geocone::GEOCONE_DIM
   void
   Simulation::write_summary(const std::string &status)
   {
-    output().write_summary(status, topics());
+    Json json                 = topics();
+    json["cost"]["blas_core"] = blas_core();
+    output().write_summary(status, json);
   }
 
   void
