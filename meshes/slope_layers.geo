@@ -47,8 +47,8 @@ For i In {1 : 3}
   Plane Surface(i) = {i};
 EndFor
 
-// Layers: the number is what 'Region number' of a material takes. With any physical
-// surface gmsh leaves out those that have none, so each layer needs a name.
+// Layers: 'Region number' of a material takes the number or the name. With any physical
+// surface gmsh leaves out those that have none, so each layer needs one.
 Physical Surface("clay", 1) = {1};
 Physical Surface("silt", 2) = {2};
 Physical Surface("fill", 3) = {3};

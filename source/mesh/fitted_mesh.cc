@@ -81,7 +81,7 @@ namespace geocone::GEOCONE_DIM
             : unstructured_mesh(parameters, scene.regions, lines, comm);
       }
     for (auto &cell : mesh.cells)
-      cell.material_id = scene.regions.material_at(mesh.centre(cell), -1);
+      cell.material_id = scene.regions.material_at(mesh.centre(cell));
     mesh.sides = parameters.fits_body ? scene.geometry.sides : sides_of_box();
     for (const CoarseMesh::Face &face : mesh.outer_faces())
       mesh.add_boundary(face,

@@ -194,15 +194,16 @@ namespace geocone::GEOCONE_DIM
                         .push_back(element);
                     }
                 }
-              if (dimension == int(dim) - 1)
-                for (const int group : groups)
-                  {
-                    std::string name;
-                    gmsh::model::getPhysicalName(dimension, group, name);
+              const bool is_face = dimension < int(dim);
+              for (const int group : groups)
+                {
+                  std::string name;
+                  gmsh::model::getPhysicalName(dimension, group, name);
+                  if (is_face)
                     data.face_groups.insert(group);
-                    if (!name.empty())
-                      data.face_names[group] = name;
-                  }
+                  if (!name.empty())
+                    (is_face ? data.face_names : data.cell_names)[group] = name;
+                }
             }
         }
       return data;

@@ -131,10 +131,14 @@ namespace geocone::GEOCONE_DIM
               in.refuse("the name " + shown_part(name) +
                           " has unprintable letters",
                         "rename the physical group");
-            if (dimension == int(dim) - 1 && !name.empty() &&
-                !data.face_names.emplace(number, name).second)
-              in.refuse("the physical " + face_word + " " +
-                          std::to_string(number) + " has two names",
+            if (name.empty() || dimension < int(dim) - 1 ||
+                dimension > int(dim))
+              continue;
+            const bool is_face = dimension < int(dim);
+            auto      &names   = is_face ? data.face_names : data.cell_names;
+            if (!names.emplace(number, name).second)
+              in.refuse("the physical " + (is_face ? face_word : cell_word) +
+                          " " + std::to_string(number) + " has two names",
                         "delete one of them");
           }
       }

@@ -475,10 +475,15 @@ namespace geocone::GEOCONE_DIM
     void
     add_cells(const Elements                               &cells,
               const std::vector<std::vector<unsigned int>> &around,
-              const std::vector<std::vector<int>>          &group_lists,
+              const MshData                                &data,
               const Regions                                &regions,
               CoarseMesh                                   &mesh)
     {
+      std::map<int, std::string> groups = data.cell_names;
+      for (const MshData::Element *const element : cells)
+        for (const int group : data.group_lists[element->groups])
+          groups.emplace(group, "");
+      regions.check_groups(groups);
       for (std::size_t c = 0; c < around.size(); ++c)
         {
           dealii::CellData<dim> cell(around[c].size());
@@ -487,9 +492,11 @@ namespace geocone::GEOCONE_DIM
             for (unsigned int i = 2; i < cell.vertices.size(); i += 4)
               std::swap(cell.vertices[i], cell.vertices[i + 1]);
           const Point<dim> centre = mesh.centre(cell);
-          unsigned int     filled = regions.material_at(centre, -1);
-          for (const int group : group_lists[cells[c]->groups])
-            filled = std::max(filled, regions.material_at(centre, group));
+          unsigned int     filled = regions.material_at(centre);
+          for (const int group : data.group_lists[cells[c]->groups])
+            filled = std::max(
+              filled,
+              regions.material_at(centre, group, groups.find(group)->second));
           cell.material_id = filled;
           mesh.cells.push_back(cell);
         }
@@ -558,7 +565,7 @@ namespace geocone::GEOCONE_DIM
     orient(mesh.points, cells, what, around);
     if (dim == 2)
       check_overlap(mesh.points, around, what);
-    add_cells(cells, around, data.group_lists, regions, mesh);
+    add_cells(cells, around, data, regions, mesh);
 
     const FaceGroups groups = groups_of_faces(data, vertices);
     set_sides(data, what, mesh);

@@ -43,13 +43,12 @@ namespace geocone::GEOCONE_DIM
 
       /** Adds those of a law at a point of a face. */
       void
-      add(const Material &law, const FacePoint &point)
+      add(const Material &law, const double rho, const FacePoint &point)
       {
-        const Elasticity &e   = law.elasticity();
-        const double      rho = law.density(),
-                     of_p     = std::sqrt(
-                       rho * (e.lambda + e.two_G + law.fluid_modulus())),
-                     of_s = std::sqrt(rho * e.two_G / 2.);
+        const Elasticity &e = law.elasticity();
+        const double      of_p =
+          std::sqrt(rho * (e.lambda + e.two_G + law.fluid_modulus()));
+        const double of_s = std::sqrt(rho * e.two_G / 2.);
         for (unsigned int i = 0; i < point.nodes.size(); ++i)
           {
             const double       w   = point.weight * point.values[i];
@@ -125,7 +124,7 @@ namespace geocone::GEOCONE_DIM
         return of_cell[cell->active_cell_index()];
       // Within the body, not on its border; of another body there is none here.
       const unsigned int material = scene.regions.material_at(
-        point.position - 1e-6 * cell->diameter() * point.normal, 0);
+        point.position - 1e-6 * cell->diameter() * point.normal);
       return scene.contacts.body_of(material) == mesh.layer_of(cell) ? material
                                                                      : none;
     };
@@ -141,7 +140,9 @@ namespace geocone::GEOCONE_DIM
             const unsigned int material = material_at(cell, point);
             if (material == none)
               return;
-            sums.add(scene.materials[material], point);
+            sums.add(scene.materials[material],
+                     scene.density(material, point.position),
+                     point);
           });
         refuse_no_face(*conditions.list[c],
                        n_faces,

@@ -11,8 +11,10 @@
 
 #include <deal.II/base/bounding_box.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <tuple>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -542,6 +544,40 @@ namespace geocone::GEOCONE_DIM
         "Geometry/Where", where_text, "empty with " + who, remedy);
   }
 
+  namespace
+  {
+    /** The part of the domain below a line, which is level beyond its ends. */
+    Polygon
+    part_below(const std::vector<Point<dim>> &line, const Geometry &geometry)
+    {
+      // Cells of a file are only asked for, wherever they are.
+      double     margin = largest_coordinate;
+      Point<dim> lower = line.front(), upper = line.back();
+      if (geometry.shape != Geometry::Shape::file)
+        {
+          std::tie(lower, upper) = geometry.bounding_box();
+          margin                 = lower.distance(upper);
+        }
+      const double left  = std::min(lower[0], line.front()[0]) - margin;
+      const double right = std::max(upper[0], line.back()[0]) + margin;
+      double       base  = lower[1];
+      for (const Point<dim> &x : line)
+        base = std::min(base, x[1]);
+      base -= margin;
+      const auto at = [](const double x, const double y) {
+        Point<dim> place;
+        place[0] = x;
+        place[1] = y;
+        return place;
+      };
+      Polygon part = {at(left, base), at(right, base)};
+      part.push_back(at(right, line.back()[1]));
+      part.insert(part.end(), line.rbegin(), line.rend());
+      part.push_back(at(left, line.front()[1]));
+      return part;
+    }
+  } // namespace
+
   Regions::Region::Region(const std::string &name)
     : dealii::ParameterAcceptor("/Materials/" + name)
   {
@@ -553,16 +589,52 @@ namespace geocone::GEOCONE_DIM
                              "a box (m)") +
         ": the part of the domain that this material fills. Empty: the first "
         "material fills what no other one does.");
+    if (dim == 2)
+      add_parameter("Region below",
+                    below,
+                    "Points x, y; x, y; ... (m), x ascending, of a line: this "
+                    "material fills the domain below it. Beyond its ends the "
+                    "line is level; one point is a level. Layers are listed "
+                    "from the top: each covers those before it.");
     add_parameter("Region number",
-                  id,
-                  "Number of the physical surface of the .msh file that this "
-                  "material fills, or -1.");
+                  group,
+                  "Number or name of the physical surface of the .msh file "
+                  "that this material fills, or -1.");
     points.declare(
       *this,
       "Points",
       " of this material with implicit MPM. Fixed: they stay in the "
       "background mesh and strains are small, as with finite "
       "elements, beside material that moves.");
+  }
+
+  void
+  Regions::Region::prepare(const Geometry &geometry)
+  {
+    const std::string section = get_section_name().substr(1);
+    if (!polygon.empty())
+      check_polygon(polygon, section + "/Region polygon");
+    if (!polygon.empty() && !below.empty())
+      throw InputError(section + "/Region below",
+                       text(below),
+                       "empty with a 'Region polygon'",
+                       "give one of them");
+    for (std::size_t i = 0; i < below.size(); ++i)
+      if (!(std::abs(below[i][0]) <= largest_coordinate &&
+            std::abs(below[i][1]) <= largest_coordinate &&
+            (i == 0 || below[i][0] > below[i - 1][0])))
+        throw InputError(section + "/Region below",
+                         text(below),
+                         "points whose x ascends",
+                         "list them from left to right; for a part with "
+                         "overhangs give a 'Region polygon'");
+    outline = below.empty() ? polygon : part_below(below, geometry);
+    if (has_group() && geometry.shape != Geometry::Shape::file)
+      throw InputError(section + "/Region number",
+                       group,
+                       "-1, unless the domain comes from a .msh file",
+                       dim == 2 ? "give a 'Region polygon' or 'Region below'"
+                                : "give a 'Region polygon'");
   }
 
   Regions::Regions(const std::vector<std::string> &materials)
@@ -578,17 +650,11 @@ namespace geocone::GEOCONE_DIM
     empty_ones = may_be_empty_;
     for (std::size_t i = 0; i < regions.size(); ++i)
       {
-        const Region     &region  = *regions[i];
-        const std::string section = region.get_section_name().substr(1);
-        if (!region.polygon.empty())
-          check_polygon(region.polygon, section + "/Region polygon");
-        if (region.id >= 0 && geometry.shape != Geometry::Shape::file)
-          throw InputError(section + "/Region number",
-                           region.id,
-                           "-1, unless the domain comes from a .msh file",
-                           "give a 'Region polygon' instead");
-        if (region.polygon.empty() && region.id < 0 && !may_be_empty(i))
-          throw InputError(section + "/Region polygon",
+        Region &region = *regions[i];
+        region.prepare(geometry);
+        if (region.outline.empty() && !region.has_group() && !may_be_empty(i))
+          throw InputError(region.get_section_name().substr(1) +
+                             "/Region polygon",
                            "",
                            "a polygon (or a region number) for every material "
                            "but the first",
@@ -613,26 +679,59 @@ namespace geocone::GEOCONE_DIM
   {
     std::vector<Polygon> all;
     for (const auto &region : regions)
-      if (!region->polygon.empty())
-        all.push_back(region->polygon);
+      if (!region->outline.empty())
+        all.push_back(region->outline);
     return all;
   }
 
   bool
-  Regions::have_numbers() const
+  Regions::have_groups() const
   {
+    return std::any_of(regions.begin(), regions.end(), [](const auto &region) {
+      return region->has_group();
+    });
+  }
+
+  void
+  Regions::check_groups(const std::map<int, std::string> &groups) const
+  {
+    const char *const kind = dim == 2 ? "surfaces" : "volumes";
     for (const auto &region : regions)
-      if (region->id >= 0)
-        return true;
-    return false;
+      {
+        std::string known;
+        bool        found = !region->has_group();
+        for (const auto &[number, name] : groups)
+          {
+            found = found || region->is_group(number, name);
+            known += (known.empty() ? "" : ", ") + std::to_string(number);
+            if (!name.empty())
+              known += " ('" + name + "')";
+          }
+        if (!found)
+          throw InputError(
+            region->get_section_name().substr(1) + "/Region number",
+            region->group,
+            known.empty() ? std::string("-1: the file has no physical ") + kind
+                          : std::string("the physical ") + kind + " " + known,
+            known.empty() ? "make them in gmsh, or give a 'Region polygon'"
+                          : "choose one of them by its number or name");
+      }
   }
 
   unsigned int
-  Regions::material_at(const Point<dim> &x, const int id) const
+  Regions::material_at(const Point<dim> &x) const
+  {
+    return material_at(x, -1, "");
+  }
+
+  unsigned int
+  Regions::material_at(const Point<dim>  &x,
+                       const int          group,
+                       const std::string &name) const
   {
     for (std::size_t i = regions.size(); i-- > 1;)
-      if ((regions[i]->id >= 0 && regions[i]->id == id) ||
-          (!regions[i]->polygon.empty() && contains(regions[i]->polygon, x)))
+      if (regions[i]->is_group(group, name) ||
+          (!regions[i]->outline.empty() && contains(regions[i]->outline, x)))
         return i;
     return 0;
   }

@@ -88,15 +88,15 @@ namespace geocone::GEOCONE_DIM
     /** The physical groups of faces: curves, or surfaces. */
     std::set<int> face_groups;
 
-    /** Their names by their numbers. */
-    std::map<int, std::string> face_names;
+    /** Their names by their numbers, and those of groups of cells. */
+    std::map<int, std::string> face_names, cell_names;
 
     template <class Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
       archive &nodes &cells &faces &group_lists &face_groups &face_names
-        &place_of_list;
+        &cell_names &place_of_list;
     }
 
   private:
@@ -107,8 +107,9 @@ namespace geocone::GEOCONE_DIM
   inline const std::string msh_remedy =
     "write it anew, e.g.: gmsh OLD.msh -save -format msh41 -o NEW.msh";
 
-  /** What gmsh calls the faces of cells. */
+  /** Names in gmsh of the faces of cells, and of parts that cells fill. */
   const std::string face_word = dim == 2 ? "curve" : "surface";
+  const std::string cell_word = dim == 2 ? "surface" : "volume";
 
   /** The number of nodes of an element of one of MshData's types, and its
    *  dimension. */

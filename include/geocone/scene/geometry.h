@@ -225,8 +225,8 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Which material fills which part of the domain: per material a polygon, or
-   * the number of a physical surface of a .msh file.
+   * Which material fills which part of the domain: per material a polygon, what lies
+   * below a line, or a physical surface of a .msh file.
    */
   class Regions
   {
@@ -256,16 +256,28 @@ namespace geocone::GEOCONE_DIM
     const Polygon &
     polygon_of(const unsigned int material) const
     {
-      return regions[material]->polygon;
+      return regions[material]->outline;
     }
 
-    /** Whether a material is found by the number of a physical surface. */
+    /** Whether a material is found by a physical surface. */
     bool
-    have_numbers() const;
+    have_groups() const;
 
-    /** The material at x in a cell of a physical surface @p id. */
+    /** @throws InputError if a file has no physical surface of a material
+     *  @param groups numbers and names, empty where there is none, of the file */
+    void
+    check_groups(const std::map<int, std::string> &groups) const;
+
+    /** The material at x, outside of all physical surfaces. */
     unsigned int
-    material_at(const dealii::Point<dim> &x, const int id) const;
+    material_at(const dealii::Point<dim> &x) const;
+
+    /** The material at x in a cell of a physical surface.
+     *  @param name empty: it has none */
+    unsigned int
+    material_at(const dealii::Point<dim> &x,
+                const int                 group,
+                const std::string        &name) const;
 
     /** Whether the points of a material stay where they are while others move, as
      *  those of finite elements do. */
@@ -290,10 +302,28 @@ namespace geocone::GEOCONE_DIM
     {
     public:
       explicit Region(const std::string &name);
-      std::vector<dealii::Point<dim>> polygon;
-      int                             id     = -1;
-      Choice<Points>                  points = {
-                         {{"moving", Points::moving}, {"fixed", Points::fixed}}};
+
+      void
+      prepare(const Geometry &geometry);
+
+      bool
+      has_group() const
+      {
+        return group != "-1";
+      }
+
+      bool
+      is_group(const int number, const std::string &name) const
+      {
+        return has_group() &&
+               (group == std::to_string(number) || group == name);
+      }
+
+      std::vector<dealii::Point<dim>> polygon, below;
+      std::string                     group = "-1"; ///< number or name
+      Polygon        outline; ///< the polygon, or what lies below the line
+      Choice<Points> points = {
+        {{"moving", Points::moving}, {"fixed", Points::fixed}}};
     };
     std::vector<std::unique_ptr<Region>> regions;
     std::vector<bool>                    empty_ones; ///< see may_be_empty()
