@@ -32,8 +32,10 @@ namespace geocone::GEOCONE_DIM
       {
         values.reinit(points.cells[c]);
         space.cell_nodes(points.cells[c], nodes);
-        const double rho =
-          scene.materials[points.material[points.first_point[c]]].density();
+        const unsigned int  material = points.material[points.first_point[c]];
+        std::vector<double> rho; // at quadrature points
+        for (const Point<dim> &x : values.position)
+          rho.push_back(scene.density(material, x));
         std::vector<double> row_sum(nodes.size(), 0.);
         std::vector<double> diagonal(nodes.size(), 0.);
         double              total = 0., trace = 0.;
@@ -42,8 +44,8 @@ namespace geocone::GEOCONE_DIM
             for (unsigned int q = 0; q < values.weight.size(); ++q)
               {
                 const double N = values.value(i, q);
-                row_sum[i] += rho * N * values.weight[q];
-                diagonal[i] += rho * N * N * values.weight[q];
+                row_sum[i] += rho[q] * N * values.weight[q];
+                diagonal[i] += rho[q] * N * N * values.weight[q];
               }
             total += row_sum[i];
             trace += diagonal[i];

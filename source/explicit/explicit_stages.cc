@@ -93,8 +93,9 @@ namespace geocone::GEOCONE_DIM
       for (int i = 0; i < n_mandel; ++i)
         group.stress[i][p] = components[i];
       group.volume[p] = seed.volume;
-      group.mass[p]   = seed.volume * law.density();
-      largest_mass    = std::max(largest_mass, group.mass[p]);
+      group.mass[p] =
+        seed.volume * scene->density(seed.material, seed.position);
+      largest_mass = std::max(largest_mass, group.mass[p]);
       const ConstitutiveLaw::Stress stress =
         stress_of(extended(seed.stress, seed.stress_zz));
       if (!std::isfinite(seed.velocity.norm()) ||

@@ -110,8 +110,10 @@ namespace geocone::GEOCONE_DIM
     Tensor<1, dim>
     weight(const BoundScene &bound, const unsigned int cell)
     {
+      // Triangles do not cross the water, whose lines are edges of the mesh.
       const Scene &scene = bound.scene;
-      return scene.materials.law(bound.triangles.material[cell]).density() *
+      return scene.density(bound.triangles.material[cell],
+                           bound.triangles.centre(cell)) *
              scene.gravity.at(std::numeric_limits<double>::max()) *
              bound.units.length / bound.units.stress;
     }

@@ -345,7 +345,7 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int m = 0; m < scene.materials.size(); ++m)
       dead =
         std::max(dead,
-                 height * scene.materials.law(m).density() *
+                 height * scene.materials.law(m).saturated_density() *
                    scene.gravity.at(std::numeric_limits<double>::max()).norm());
     for (const auto &load : scene.tractions.list)
       for (const auto &held : triangles.held_edges(*load))

@@ -166,8 +166,7 @@ namespace geocone::GEOCONE_DIM
       "bounds know no stress before the load, on which undrained strength "
       "depends: take Tresca with that strength, or steps");
     scene.regions.prepare(scene.geometry);
-    scene.gravity.prepare();
-    scene.water.prepare(scene.gravity, scene.geometry);
+    scene.prepare_weight();
     if (scene.water.is_of_grid())
       scene.water.refuse("'Analysis/Kind' = " + analysis.word(),
                          "strict bounds need a constant force in each "

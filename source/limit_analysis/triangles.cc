@@ -138,6 +138,15 @@ namespace geocone::GEOCONE_DIM
     return (a[0] * b[1] - a[1] * b[0]) / 2.;
   }
 
+  dealii::Point<dim>
+  Triangles::centre(const unsigned int cell) const
+  {
+    const auto &[i, j, k] = cells[cell];
+    return dealii::Point<dim>((vertices[i] + Tensor<1, dim>(vertices[j]) +
+                               Tensor<1, dim>(vertices[k])) /
+                              3.);
+  }
+
   std::array<Tensor<1, dim>, 3>
   Triangles::gradients(const unsigned int cell) const
   {

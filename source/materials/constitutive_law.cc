@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace geocone::GEOCONE_DIM
 {
@@ -13,6 +14,14 @@ namespace geocone::GEOCONE_DIM
     : dealii::ParameterAcceptor("/" + section)
   {
     add_parameter("Density", rho, "Mass density rho (kg/m^3), > 0.");
+    add_parameter("Unit weight",
+                  unit_weight,
+                  "Weight per volume gamma (N/m^3), > 0, in place of the "
+                  "density: rho = gamma/|g|. 0: by 'Density'.");
+    add_parameter("Saturated unit weight",
+                  saturated_unit_weight,
+                  "Weight per volume (N/m^3) below the water of 'Water', as it "
+                  "is at the start, at least that above it. 0: the same.");
     add_parameter("K0",
                   k0,
                   "Horizontal over vertical effective stress in a geostatic "
@@ -44,6 +53,18 @@ namespace geocone::GEOCONE_DIM
         rho,
         "rho > 0 kg/m^3",
         "without inertia and gravity any positive value will do");
+    rho_saturated = rho;
+    require(unit_weight >= 0. && std::isfinite(unit_weight),
+            "Unit weight",
+            unit_weight,
+            ">= 0 N/m^3, finite",
+            "soils have 16000 to 22000 N/m^3; 0 leaves it to 'Density'");
+    require(saturated_unit_weight >= 0. && std::isfinite(saturated_unit_weight),
+            "Saturated unit weight",
+            saturated_unit_weight,
+            ">= 0 N/m^3, finite",
+            "soils have 18000 to 22000 N/m^3; 0 is the same above and below "
+            "the water");
     require(k0 >= 0. && std::isfinite(k0),
             "K0",
             k0,
@@ -54,6 +75,28 @@ namespace geocone::GEOCONE_DIM
             pore_fluid,
             ">= 0 Pa, finite",
             "water has 2.2e9 Pa; 0 is drained soil");
+  }
+
+  void
+  ConstitutiveLaw::set_gravity(const double g)
+  {
+    for (const auto &[name, value] :
+         {std::pair("Unit weight", unit_weight),
+          std::pair("Saturated unit weight", saturated_unit_weight)})
+      require(value == 0. || g > 0.,
+              name,
+              value,
+              "0 without gravity",
+              "set 'Gravity/Acceleration', or give a 'Density'");
+    if (unit_weight > 0.)
+      rho = unit_weight / g;
+    rho_saturated =
+      saturated_unit_weight > 0. ? saturated_unit_weight / g : rho;
+    require(rho_saturated >= rho,
+            "Saturated unit weight",
+            saturated_unit_weight,
+            "at least that above the water",
+            "it is the weight of the soil with the water in its pores");
   }
 
   void

@@ -177,6 +177,13 @@ namespace geocone::GEOCONE_DIM
     found = gather();
   }
 
+  void
+  Materials::set_gravity(const double g)
+  {
+    for (const auto &law : list)
+      law->set_gravity(g);
+  }
+
   LawTraits
   Materials::gather() const
   {

@@ -121,8 +121,8 @@ namespace geocone::GEOCONE_DIM
         set.position[p] = seed.position;
         set.volume[p]   = seed.volume;
         set.material[p] = seed.material;
-        set.mass[p]     = seed.volume * law.density();
-        set.stress[p]   = seed.stress;
+        set.mass[p] = seed.volume * scene.density(seed.material, seed.position);
+        set.stress[p] = seed.stress;
         if (!later)
           set.velocity[p] = seed.velocity;
         start.set(law,

@@ -197,7 +197,7 @@ namespace geocone::GEOCONE_DIM
                            folder_of_parameters,
                            "Particles/File",
                            "an existing .csv or .h5 file of points");
-    if (scene.regions.have_numbers())
+    if (scene.regions.have_groups())
       throw InputError(
         "Particles/Layout",
         layout.word(),
@@ -490,7 +490,7 @@ namespace geocone::GEOCONE_DIM
                     const Detail detail) const
   {
     if (!given[ParticleFile::material])
-      seed.material = scene.regions.material_at(seed.position, -1);
+      seed.material = scene.regions.material_at(seed.position);
     if (detail == Detail::material)
       return;
     if (!given[ParticleFile::volume])

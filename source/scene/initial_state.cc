@@ -224,7 +224,7 @@ namespace geocone::GEOCONE_DIM
                        "g_x = 0 and g_y <= 0 with a geostatic initial "
                        "stress",
                        "give the initial stress by formulas instead");
-    if (regions.have_numbers())
+    if (regions.have_groups())
       throw InputError(parameter,
                        word,
                        "zero | given, where materials are found by their "
@@ -303,6 +303,19 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
+    /** Where a property ends that holds at @p low but not at @p high. */
+    template <typename Property>
+    double
+    border(double low, double high, const Property &holds)
+    {
+      for (unsigned int step = 0; step < 50; ++step)
+        {
+          const double half          = (low + high) / 2.;
+          (holds(half) ? low : high) = half;
+        }
+      return high;
+    }
+
     /** A part of a column of soil that is of one material. */
     struct Layer
     {
@@ -321,7 +334,7 @@ namespace geocone::GEOCONE_DIM
       const auto material_at = [&](const double y) {
         dealii::Point<dim> place = x;
         place[1]                 = y;
-        return regions.material_at(place, -1);
+        return regions.material_at(place);
       };
       const unsigned int n    = materials.size() == 1 ? 1 : 400;
       const double       part = (top - x[1]) / n;
@@ -334,12 +347,10 @@ namespace geocone::GEOCONE_DIM
             layers.push_back({material, x[1], top});
           else if (material != layers.back().material)
             {
-              double below = middle - part, above = middle;
-              for (unsigned int step = 0; step < 50; ++step)
-                {
-                  const double half = (below + above) / 2.;
-                  (material_at(half) == material ? above : below) = half;
-                }
+              const double above =
+                border(middle - part, middle, [&](const double y) {
+                  return material_at(y) != material;
+                });
               layers.back().high = above;
               layers.push_back({material, above, top});
             }
@@ -365,8 +376,16 @@ namespace geocone::GEOCONE_DIM
          column_above(x, stage < 0 ? surface : top, materials, regions))
       if (stage_of[layer.material] == stage)
         {
-          vertical -= g * materials.law(layer.material).density() *
-                      (layer.high - layer.low);
+          const ConstitutiveLaw &law = materials.law(layer.material);
+          double                 wet = layer.low; // up to here
+          if (law.saturated_density() > law.density() && pressure(wet) > 0.)
+            wet = pressure(layer.high) > 0.
+                    ? layer.high
+                    : border(layer.low, layer.high, [&](const double y) {
+                        return pressure(y) > 0.;
+                      });
+          vertical -= g * (law.saturated_density() * (wet - layer.low) +
+                           law.density() * (layer.high - wet));
           if (stage >= 0)
             vertical += pressure(layer.low) - pressure(layer.high);
         }

@@ -159,14 +159,13 @@ namespace geocone::GEOCONE_DIM
       }
     loading.prepare(materials.names(), tractions.names());
     regions.prepare(geometry, is_made);
-    gravity.prepare();
+    prepare_weight();
     for (const auto &stage : loading.list)
       if (stage->raises("weight") && !gravity.acts())
         throw InputError("Loading/" + stage->name + "/Raised loads",
                          "weight",
                          "names of tractions where there is no gravity",
                          "set 'Gravity/Acceleration', e.g. 0, -9.81");
-    water.prepare(gravity, geometry);
     water.prepare_stages(loading);
     initial_velocity.prepare();
     initial_stress.prepare(gravity, geometry, regions, water, stage_that_adds);
@@ -191,6 +190,24 @@ namespace geocone::GEOCONE_DIM
                            "it is the load of a strip; set it to none or to "
                            "the load of the round footing (N)");
     check_values(*this);
+  }
+
+  void
+  Scene::prepare_weight()
+  {
+    gravity.prepare();
+    materials.set_gravity(
+      gravity.at(std::numeric_limits<double>::max()).norm());
+    water.prepare(gravity, geometry);
+  }
+
+  double
+  Scene::density(const unsigned int material, const dealii::Point<dim> &x) const
+  {
+    const ConstitutiveLaw &law = materials.law(material);
+    return law.saturated_density() > law.density() && water.pressure(x) > 0.
+             ? law.saturated_density()
+             : law.density();
   }
 
   namespace
@@ -250,6 +267,10 @@ namespace geocone::GEOCONE_DIM
             !(density >= lightest && density <= heaviest))
           warnings.push_back(
             format("the density of '%s' is %g kg/m^3", name.c_str(), density));
+        if (scene.materials.law(m).saturated_density() > density &&
+            !scene.water.acts())
+          warnings.push_back("the saturated unit weight of '" + name +
+                             "' is not used: there is no water");
         const auto strength = scene.materials.law(m).plane_strain_strength();
         if (!strength)
           continue;

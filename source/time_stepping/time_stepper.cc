@@ -72,7 +72,8 @@ namespace geocone::GEOCONE_DIM
                     points.position[p],
                     points.history_of(p));
           if (!points.mass.empty())
-            points.mass[p] = points.volume[p] * materials[to].density();
+            points.mass[p] =
+              points.volume[p] * scene.density(to, points.position[p]);
         }
     start.check<StepFailure>(comm);
     Utilities::MPI::sum(number, comm, number);

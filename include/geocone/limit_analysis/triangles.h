@@ -50,6 +50,10 @@ namespace geocone::GEOCONE_DIM
     double
     area(const unsigned int cell) const;
 
+    /** Centre of gravity of a cell. */
+    dealii::Point<dim>
+    centre(const unsigned int cell) const;
+
     /** The gradients of the barycentric coordinates of a cell (1/m). */
     std::array<dealii::Tensor<1, dim>, 3>
     gradients(const unsigned int cell) const;

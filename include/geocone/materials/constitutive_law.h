@@ -43,12 +43,24 @@ namespace geocone::GEOCONE_DIM
     virtual void
     prepare();
 
-    /** Mass density rho (kg/m^3). */
+    /** Mass density rho above the water (kg/m^3). */
     double
     density() const
     {
       return rho;
     }
+
+    /** Mass density below the water (kg/m^3). */
+    double
+    saturated_density() const
+    {
+      return rho_saturated;
+    }
+
+    /** Takes the densities from the unit weights of the file. @param g (m/s^2)
+     *  @throws InputError if there are any, and g is zero */
+    void
+    set_gravity(const double g);
 
     /** K_w/n (Pa) of the fluid in the pores of soil that is undrained: the excess
      *  pressure of a point grows by dp = -K_w/n tr(de). 0: drained. */
@@ -191,7 +203,8 @@ namespace geocone::GEOCONE_DIM
             const char        *remedy) const;
 
   private:
-    double rho        = 2000.;
+    double rho = 2000., rho_saturated = rho;
+    double unit_weight = 0., saturated_unit_weight = 0.;
     double pore_fluid = 0., k0 = 0.;
   };
 

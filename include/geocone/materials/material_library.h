@@ -52,6 +52,10 @@ namespace geocone::GEOCONE_DIM
     void
     set_axisymmetric();
 
+    /** See ConstitutiveLaw::set_gravity(). */
+    void
+    set_gravity(const double g);
+
     /** Properties of the laws, of prepare() and later changes. */
     const LawTraits &
     traits() const

@@ -42,6 +42,15 @@ namespace geocone::GEOCONE_DIM
       return !obstacles.list.empty() || !contacts.list.empty();
     }
 
+    /** Prepares gravity, water, and the densities that follow from them. */
+    void
+    prepare_weight();
+
+    /** Mass density of a material at x (kg/m^3), which is saturated below the water of
+     *  the start. */
+    double
+    density(const unsigned int material, const dealii::Point<dim> &x) const;
+
     /** @throws InputError if something may touch, with what can have none of it */
     void
     refuse_contact(const std::string &what, const std::string &remedy) const
