@@ -237,6 +237,13 @@ namespace geocone::GEOCONE_DIM
                            "a law that hardens",
                            "Mohr-Coulomb | Tresca where loads are bounded",
                            "take the strength that counts, initial or final");
+        if (cone->is_cut())
+          throw InputError("Materials/" + scene.materials.name(m) +
+                             "/Tensile strength",
+                           cone->opening / sqrt2,
+                           "none where loads are bounded",
+                           "strict bounds have no cut-off yet: the upper one "
+                           "holds without it; take steps for both");
         flow_cones.push_back(*cone);
         growth.push_back(scene.materials[m].growth());
         less_dilatant = less_dilatant || cone->b < cone->a * (1. - 1e-12);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace geocone
 {
@@ -43,8 +44,29 @@ namespace geocone
   }
 
   void
-  FrictionalStrength::check(const std::string &section) const
+  FrictionalStrength::declare_tension(dealii::ParameterAcceptor &law)
   {
+    law.add_parameter("Tensile strength",
+                      tension_text,
+                      "Largest principal stress of the plane (Pa), >= 0: "
+                      "Rankine's cut-off, with flow along its normal. none: "
+                      "the cone alone limits tension, to c cot(phi).");
+  }
+
+  void
+  FrictionalStrength::prepare(const std::string &section)
+  {
+    if (tension_text != "none")
+      {
+        char *end = nullptr;
+        tension   = std::strtod(tension_text.c_str(), &end);
+        if (end == tension_text.c_str() || *end != '\0' ||
+            !(tension >= 0. && std::isfinite(tension)))
+          throw InputError(section + "/Tensile strength",
+                           tension_text,
+                           "none, or a number >= 0 (Pa)",
+                           "0 is soil that carries no tension");
+      }
     if (!(phi >= 0. && phi < 90.))
       throw InputError(section + "/Friction angle",
                        phi,
@@ -74,11 +96,13 @@ namespace geocone
   {
     if (F == 1.)
       return *this;
-    const double angle = std::atan(std::tan(radians(phi)) / F) * 180. / pi;
-    return {c / F,
-            angle,
-            theta == phi ? angle : std::min(theta, angle),
-            gradient / F,
-            level};
+    const double angle     = std::atan(std::tan(radians(phi)) / F) * 180. / pi;
+    FrictionalStrength now = *this;
+    now.c                  = c / F;
+    now.phi                = angle;
+    now.theta              = theta == phi ? angle : std::min(theta, angle);
+    now.tension            = tension / F;
+    now.gradient           = gradient / F;
+    return now;
   }
 } // namespace geocone

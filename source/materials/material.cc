@@ -197,7 +197,7 @@ namespace geocone::GEOCONE_DIM
   {
     counts.updates += block.n_points;
     if (!has_history())
-      if (const std::optional<FlowCone> cone = flow_cone(nullptr))
+      if (const auto cone = flow_cone(nullptr); cone && !cone->is_cut())
         return advance_cone(*cone, elastic, block);
     constexpr unsigned int   size = PointBlock::capacity;
     std::array<Mandel, size> strain, stress_n, stress;
@@ -268,6 +268,13 @@ namespace geocone::GEOCONE_DIM
       cone->a > 0. ? -cone->k / (sqrt2 * cone->a) : std::min(0., -p);
     const double q      = 2. * cone->a * p + sqrt2 * cone->k;
     const double at_tip = cone->a > 0. ? 0. : sqrt2 * cone->k;
+    const double T      = cone->opening / sqrt2;
+    if (cone->is_cut() && (cone->a == 0. || -T > tip))
+      {
+        const double corner = (cone->k / sqrt2 - T) / (1. - cone->a);
+        const double there  = 2. * (corner + T);
+        return {{{p, -q}, {corner, -there}, {-T, 0.}, {corner, there}, {p, q}}};
+      }
     return {{{p, -q}, {tip, -at_tip}, {tip, at_tip}, {p, q}}};
   }
 } // namespace geocone::GEOCONE_DIM

@@ -14,7 +14,7 @@ namespace geocone::GEOCONE_DIM
   MohrCoulomb::prepare()
   {
     Material::prepare();
-    given.check(parameter());
+    given.prepare(parameter());
     set_cone(1.);
     memory.prepare(*this, cone.b < cone.a);
   }
@@ -24,6 +24,7 @@ namespace geocone::GEOCONE_DIM
   {
     const FrictionalStrength now = given.reduced(F);
     cone                         = cone_of(now.c, now.phi, now.theta);
+    cone.opening                 = sqrt2 * now.tension;
     k_per_cohesion               = cone_of(1. / F, now.phi, now.theta).k;
   }
 
@@ -119,7 +120,7 @@ namespace geocone::GEOCONE_DIM
   {
     const bool only_remembers = memory.time() > 0. && !cohesion_grows() &&
                                 n_history() == MohrCoulomb::n_history();
-    if (!only_remembers)
+    if (!only_remembers || cone.is_cut())
       return Material::advance(block, counts);
     counts.updates += block.n_points;
     advance_cone(cone,

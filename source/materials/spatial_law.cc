@@ -56,7 +56,7 @@ namespace geocone::GEOCONE_DIM
   FrictionalSpatialLaw::prepare()
   {
     Frictional::prepare();
-    given.check(parameter());
+    given.prepare(parameter());
     set_strength(1.);
     memory.prepare(*this, non_associativity() > 0.);
   }

@@ -61,9 +61,11 @@ namespace geocone::GEOCONE_DIM
         refuse("another one with the material '" + materials.name(material) +
                  "', whose strength has a history",
                "take a perfectly plastic law, or automatic");
-      else if (!materials[material].flow_cone(nullptr))
+      else if (const auto cone = materials[material].flow_cone(nullptr);
+               !cone || cone->is_cut())
         refuse("another one with the material '" + materials.name(material) +
-                 "', which has no yield surface",
+                 (cone ? "', whose cone is cut off by its tensile strength"
+                       : "', which has no yield surface"),
                "take Mohr-Coulomb or Tresca, or automatic");
   }
 

@@ -60,7 +60,8 @@ namespace geocone::GEOCONE_DIM
 
     /**
      * Of a cone. The complementarity law is that of one without a cut-off: at a cut-off
-     * the strength alone is checked.
+     * of the normal stress the strength alone is checked, and at Rankine's the plastic
+     * strain, flow_at_cut_off().
      * @param solved,exact cones at the end of the step
      * @param z,s less the plastic strain increment, and the stress, in their axes
      */
@@ -74,13 +75,17 @@ namespace geocone::GEOCONE_DIM
     {
       const Vector y = solved.psi(z);
       FlowCheck    here;
-      here.stress     = s.norm();
-      here.size       = exact.k;
-      here.flow       = y.norm();
-      here.compliance = 1. / two_G;
-      here.violation  = solved.yield_function(s);
-      here.excess     = exact.yield_function(s);
-      if (s[0] > -solved.tension + 1e-12 * (here.stress + here.size))
+      here.stress           = s.norm();
+      here.size             = exact.k;
+      here.flow             = y.norm();
+      here.compliance       = 1. / two_G;
+      here.violation        = solved.yield_function(s);
+      here.excess           = exact.yield_function(s);
+      const double rounding = 1e-12 * (here.stress + here.size);
+      if (solved.is_cut() && solved.beyond_cut_off(s) > -rounding)
+        here.natural_map = here.exact_map =
+          two_G * flow_at_cut_off(solved, z, s, rounding);
+      else if (s[0] > -solved.tension + rounding)
         {
           here.natural_map = geocone::natural_map(solved, s, y, two_G).norm();
           here.exact_map =
@@ -89,6 +94,34 @@ namespace geocone::GEOCONE_DIM
           here.complementary = std::abs(solved.complementarity_product(y, s));
         }
       return here;
+    }
+
+  private:
+    /**
+     * By how much z misses the flow of a stress on Rankine's cut-off (-): multipliers
+     *   g_1 + g_2 = -z_t.u,  b g_1 + g_2 = z_n
+     * of the cone and of the cut-off, along u = s_t/|s_t|, that are negative, one of the
+     * cone where s is within it, or strain across u; at the tip |z_t| <= z_n.
+     */
+    template <typename Vector>
+    static double
+    flow_at_cut_off(const FlowCone &cone,
+                    const Vector   &z,
+                    const Vector   &s,
+                    const double    rounding)
+    {
+      constexpr int n_tangential = Vector::RowsAtCompileTime - 1;
+      const double  radius       = FlowCone::tangential_norm(s);
+      if (radius <= rounding)
+        return std::max(0., FlowCone::tangential_norm(z) - z[0]);
+      const auto   u       = (s.template tail<n_tangential>() / radius).eval();
+      const double w       = -z.template tail<n_tangential>().dot(u);
+      const double across  = (z.template tail<n_tangential>() + w * u).norm();
+      const double of_cut  = (z[0] - cone.b * w) / (1. - cone.b);
+      const double of_cone = w - of_cut;
+      const bool   is_on_cone = radius > cone.a * s[0] + cone.k - rounding;
+      return across + std::max(0., -of_cut) +
+             (is_on_cone ? std::max(0., -of_cone) : std::abs(of_cone));
     }
   };
 

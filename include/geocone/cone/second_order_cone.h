@@ -111,18 +111,43 @@ namespace geocone::GEOCONE_DIM
      *  end of the step. */
     double hardening = 0.;
 
+    /**
+     * Rankine's cut-off: |s_t| <= s_n + opening also where the cone allows more (Pa), with
+     * flow along its normal. In the plane it limits the largest principal stress to
+     * opening/sqrt2.
+     */
+    double opening = infinite_tension;
+
+    bool
+    is_cut() const
+    {
+      return opening < infinite_tension;
+    }
+
     /** The cone at the end of a step with |z_t| = slip, which hardens no more. */
     FlowCone
     hardened(const double slip) const
     {
-      return {a, b, k + hardening * slip, tension};
+      FlowCone end  = *this;
+      end.k         = k + hardening * slip;
+      end.hardening = 0.;
+      return end;
     }
 
+    /** By how much s is beyond the cone, or the cut-off (Pa); negative within both. */
     template <typename V>
     double
     yield_function(const V &s) const
     {
-      return tangential_norm(s) - a * s[0] - k;
+      const double of_cone = tangential_norm(s) - a * s[0] - k;
+      return is_cut() ? std::max(of_cone, beyond_cut_off(s)) : of_cone;
+    }
+
+    template <typename V>
+    double
+    beyond_cut_off(const V &s) const
+    {
+      return tangential_norm(s) - s[0] - opening;
     }
 
     /** Psi(z) = z + (a - b) |z_t| n: the change of variable of eq (25). */
@@ -162,11 +187,11 @@ namespace geocone::GEOCONE_DIM
       if (part == 0.)
         return *this;
       const double limit = k / a;
-      return {a - part,
-              b,
-              k + part * std::max(s_n_at_start, -limit),
-              limit,
-              hardening};
+      FlowCone     later = *this;
+      later.a            = a - part;
+      later.k            = k + part * std::max(s_n_at_start, -limit);
+      later.tension      = limit;
+      return later;
     }
 
     /** Violation of y in K*: max(0, a |y_t| - y_n). */
@@ -197,6 +222,8 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
+   * return_map() of a cone without Rankine's cut-off.
+   *
    * Solution of the one-point problem
    *   s = t + D z with D = diag(K, 2G, ..., 2G),  z from the law of FlowCone
    * for a trial value t, in closed form (doc/theory/laws.md):
@@ -216,12 +243,12 @@ namespace geocone::GEOCONE_DIM
    */
   template <typename V, typename M>
   Mode
-  return_map(const FlowCone &cone,
-             const double    K,
-             const double    two_G,
-             const V        &t,
-             V              &s,
-             M              *tangent)
+  return_map_uncut(const FlowCone &cone,
+                   const double    K,
+                   const double    two_G,
+                   const V        &t,
+                   V              &s,
+                   M              *tangent)
   {
     constexpr int n_tangential = V::RowsAtCompileTime - 1;
     const double  radius       = cone.a * t[0] + cone.k;
@@ -303,7 +330,64 @@ namespace geocone::GEOCONE_DIM
     return Mode::apex;
   }
 
-  /** Euclidean projection onto {|s_t| <= a s_n + k, s_n >= -tension} of a cone,
+  /**
+   * The part of return_map() where a trial value is beyond Rankine's cut-off after its
+   * return to the cone: it goes to the cut-off, which is an associated cone of aperture
+   * 1, or, if that is beyond the cone, to the circle where both meet,
+   *   s_n = (k + q T - (1 + q) opening)/(1 - a + q),  |s_t| = s_n + opening,
+   * with q = h/2G.
+   */
+  template <typename V, typename M>
+  Mode
+  return_to_cut_off(const FlowCone &cone,
+                    const double    K,
+                    const double    two_G,
+                    const V        &t,
+                    V              &s,
+                    M              *tangent)
+  {
+    constexpr int n_tangential = V::RowsAtCompileTime - 1;
+    const Mode    mode =
+      return_map_uncut(FlowCone{1., 1., cone.opening}, K, two_G, t, s, tangent);
+    const double T = FlowCone::tangential_norm(t);
+    const double q = cone.hardening / two_G;
+    const double r = FlowCone::tangential_norm(s);
+    if (r <= cone.a * s[0] + cone.k + q * (T - r))
+      return mode;
+    const auto u = (t.template tail<n_tangential>() / T).eval();
+    s[0] = (cone.k + q * T - (1. + q) * cone.opening) / (1. - cone.a + q);
+    const double radius             = s[0] + cone.opening;
+    s.template tail<n_tangential>() = radius * u;
+    if (tangent != nullptr)
+      {
+        const double growth = two_G * q / (1. - cone.a + q);
+        tangent->setZero();
+        tangent->template block<1, n_tangential>(0, 1) = growth * u.transpose();
+        auto C = tangent->template block<n_tangential, n_tangential>(1, 1);
+        C      = (growth - two_G * radius / T) * u * u.transpose();
+        C.diagonal().array() += two_G * radius / T;
+      }
+    return Mode::cone;
+  }
+
+  /** Solution of the one-point problem of a cone, see return_map_uncut(), and of its
+   *  cut-off, return_to_cut_off(). */
+  template <typename V, typename M>
+  Mode
+  return_map(const FlowCone &cone,
+             const double    K,
+             const double    two_G,
+             const V        &t,
+             V              &s,
+             M              *tangent)
+  {
+    const Mode mode = return_map_uncut(cone, K, two_G, t, s, tangent);
+    return cone.is_cut() && cone.beyond_cut_off(s) > 0.
+             ? return_to_cut_off(cone, K, two_G, t, s, tangent)
+             : mode;
+  }
+
+  /** Euclidean projection onto the admissible set of a cone with its cut-offs,
    *  whatever its flow. @param[out] jacobian as below */
   template <typename V,
             typename M =
@@ -311,8 +395,10 @@ namespace geocone::GEOCONE_DIM
   V
   project(const FlowCone &cone, const V &x, M *jacobian = nullptr)
   {
-    V              projected;
-    const FlowCone associated{cone.a, cone.a, cone.k, cone.tension};
+    V        projected;
+    FlowCone associated  = cone;
+    associated.b         = cone.a;
+    associated.hardening = 0.;
     return_map(associated, 1., 1., x, projected, jacobian);
     return projected;
   }

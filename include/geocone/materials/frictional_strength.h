@@ -6,6 +6,7 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <limits>
 #include <string>
 
 namespace geocone
@@ -16,6 +17,9 @@ namespace geocone
     double c     = 2000.; ///< cohesion (Pa)
     double phi   = 25.;   ///< friction angle (degrees)
     double theta = 25.;   ///< dilatancy angle (degrees)
+
+    /** Largest principal stress of the plane (Pa). */
+    double tension = std::numeric_limits<double>::infinity();
 
     double gradient = 0.; ///< of the cohesion with depth (Pa/m)
     double level    = 0.; ///< where it is c: y (m)
@@ -31,7 +35,9 @@ namespace geocone
     static FrictionalStrength
     without_friction()
     {
-      return {2000., 0., 0.};
+      FrictionalStrength clay;
+      clay.phi = clay.theta = 0.;
+      return clay;
     }
 
     /** Declares its three parameters in the section of a law. */
@@ -47,14 +53,22 @@ namespace geocone
     void
     declare_growth(dealii::ParameterAcceptor &law);
 
-    /** @throws InputError @param section of the law */
+    /** Declares the tensile strength. */
     void
-    check(const std::string &section) const;
+    declare_tension(dealii::ParameterAcceptor &law);
+
+    /** Takes the tensile strength from its text.
+     *  @throws InputError @param section of the law */
+    void
+    prepare(const std::string &section);
 
     /** c and tan(phi) divided by F; theta as phi where both are the same, and else what
      *  it was, at most phi. F = 1: to the last digit what the file says. */
     FrictionalStrength
     reduced(const double F) const;
+
+  private:
+    std::string tension_text = "none";
   };
 } // namespace geocone
 

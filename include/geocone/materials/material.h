@@ -347,7 +347,7 @@ namespace geocone::GEOCONE_DIM
     dilates() const
     {
       const auto cone = initial_cone();
-      return cone && cone->b > 0.;
+      return cone && (cone->b > 0. || cone->is_cut());
     }
 
     /** Whether the tangent is symmetric in all states. */

@@ -15,7 +15,8 @@ namespace geocone::GEOCONE_DIM
    * with friction angle phi, dilatancy angle theta <= phi and cohesion c.
    * phi = 0 is Tresca's cylinder, |s_t| <= sqrt2 c. Yielding is governed by the
    * in-plane stresses: the out-of-plane stress is assumed intermediate.
-   * theta = phi is associated flow, theta = 0 flow without dilatancy.
+   * theta = phi is associated flow, theta = 0 flow without dilatancy. A tensile strength T
+   * is Rankine's cut-off, sigma_1 <= T in the plane: |s_t| <= s_n + sqrt2 T.
    *
    * Friction with memory (doc/theory/friction_memory.md; Prakash and Clifton
    * 1993 and Cochard and Rice 2000 for sliding): the strength follows the normal
@@ -32,7 +33,9 @@ namespace geocone::GEOCONE_DIM
   public:
     explicit MohrCoulomb(const std::string &section)
       : Frictional(section)
-    {}
+    {
+      given.declare_tension(*this);
+    }
 
     void
     prepare() override;
@@ -43,6 +46,13 @@ namespace geocone::GEOCONE_DIM
     /** Exact, without memory. */
     std::optional<FlowCone>
     flow_cone(const double *history) const override;
+
+    /** The natural map projects onto the cone alone. */
+    bool
+    has_natural_map() const override
+    {
+      return !cone.is_cut();
+    }
 
     Growth
     growth() const override
@@ -162,7 +172,9 @@ namespace geocone::GEOCONE_DIM
   public:
     explicit Tresca(const std::string &section)
       : MohrCoulomb(section, "Undrained shear strength c (Pa), > 0.")
-    {}
+    {
+      given.declare_tension(*this);
+    }
   };
 } // namespace geocone::GEOCONE_DIM
 
