@@ -26,14 +26,15 @@ namespace geocone::GEOCONE_DIM
     PointCone   &cone    = cones[material];
     cone.a               = tan_phi * cos_phi;
     cone.k *= k_factor * cos_phi;
+    cone.opening *= k_factor;
     growth[material].slope *= k_factor * cos_phi;
   }
 
   bool
-  BoundProblem::has_cylinders() const
+  BoundProblem::has_incompressible() const
   {
     return std::any_of(cone.begin(), cone.end(), [](const PointCone &one) {
-      return one.is_cylinder();
+      return one.is_incompressible();
     });
   }
 
@@ -69,17 +70,36 @@ namespace geocone::GEOCONE_DIM
 
     using Strains = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
-    /** What all spaces share: points, cones, and room for n dofs.
-     *  @param n_columns the most dofs that a point knows */
+    /** The triangles with a point whose cone a cut-off reduces; that of others is left
+     *  out. */
+    std::vector<unsigned int>
+    cut_triangles(std::vector<PointCone> &cone)
+    {
+      std::vector<unsigned int> all;
+      for (unsigned int c = 0; 3 * c < cone.size(); ++c)
+        {
+          PointCone *const own = &cone[3 * c];
+          if (std::any_of(own, own + 3, [](const PointCone &one) {
+                return one.is_cut() && one.a * one.opening < one.k;
+              }))
+            all.push_back(c);
+          else
+            for (unsigned int i = 0; i < 3; ++i)
+              own[i].opening = infinite_tension;
+        }
+      return all;
+    }
+
+    /** What all spaces share: points, cones, and room for n dofs and those of cut-offs.
+     *  @param n_columns the most dofs that a point knows but those of its cut-off */
     BoundProblem
-    begin_problem(const BoundScene  &bound,
-                  const unsigned int n_columns,
-                  const unsigned int n_dofs)
+    begin_problem(const BoundScene &bound,
+                  unsigned int      n_columns,
+                  unsigned int      n_dofs)
     {
       const Triangles &triangles = bound.triangles;
       const double     L         = bound.units.length;
       BoundProblem     problem;
-      problem.B = PointStrains(n_columns);
       for (unsigned int c = 0; c < triangles.cells.size(); ++c)
         for (unsigned int i = 0; i < 3; ++i)
           {
@@ -88,13 +108,70 @@ namespace geocone::GEOCONE_DIM
               bound.cone_at(triangles.material[c],
                             triangles.vertices[triangles.cells[c][i]]));
           }
-      problem.n_triangles = triangles.cells.size();
+      problem.n_triangles   = triangles.cells.size();
+      problem.first_cut_dof = n_dofs;
+      problem.cut           = cut_triangles(problem.cone);
+      if (!problem.cut.empty())
+        n_columns += 3;
+      n_dofs += 9 * problem.cut.size();
+      problem.B = PointStrains(n_columns);
       problem.is_prescribed.assign(n_dofs, false);
       problem.has_no_force.assign(n_dofs, false);
       problem.prescribed.setZero(n_dofs);
       problem.dead.setZero(n_dofs);
       problem.live.setZero(n_dofs);
       return problem;
+    }
+
+    /** The dofs of the rate w of a point of a cut-off. @param c its place in
+     *  BoundProblem::cut */
+    std::vector<unsigned int>
+    cut_dofs(const BoundProblem &problem,
+             const unsigned int  c,
+             const unsigned int  i)
+    {
+      const unsigned int first = problem.first_cut_dof + 9 * c + 3 * i;
+      return {first, first + 1, first + 2};
+    }
+
+    /** Adds point i of a triangle, with its rates B q - w. */
+    void
+    add_point_of_triangle(BoundProblem             &problem,
+                          const unsigned int        triangle,
+                          const unsigned int        i,
+                          Strains                   B,
+                          std::vector<unsigned int> dofs)
+    {
+      const auto cut =
+        std::lower_bound(problem.cut.begin(), problem.cut.end(), triangle);
+      if (cut != problem.cut.end() && *cut == triangle)
+        {
+          const auto w = cut_dofs(problem, cut - problem.cut.begin(), i);
+          dofs.insert(dofs.end(), w.begin(), w.end());
+          B.conservativeResize(3, B.cols() + 3);
+          B.rightCols<3>() = -Eigen::Matrix3d::Identity();
+        }
+      problem.B.add(B, dofs);
+    }
+
+    /** Adds the cut-offs as the last cells. */
+    void
+    add_cut_offs(BoundProblem &problem)
+    {
+      problem.n_interfaces = problem.owner.size();
+      for (unsigned int c = 0; c < problem.cut.size(); ++c)
+        {
+          const unsigned int triangle = problem.cut[c];
+          problem.owner.push_back(triangle);
+          for (unsigned int i = 0; i < 3; ++i)
+            {
+              problem.volume.push_back(problem.volume[3 * triangle + i]);
+              problem.cone.push_back(
+                {1., problem.cone[3 * triangle + i].opening});
+              problem.B.add(Eigen::Matrix3d::Identity(),
+                            cut_dofs(problem, c, i));
+            }
+        }
     }
 
     /** The vector to which tractions or weight are added. */
@@ -529,7 +606,8 @@ namespace geocone::GEOCONE_DIM
                                            triangles.cells[c][i]) +
                                    d);
                   }
-              problem.B.add(bound.units.length * B, dofs);
+              add_point_of_triangle(
+                problem, c, i, bound.units.length * B, dofs);
             }
           add_body_forces(problem,
                           bound,
@@ -565,7 +643,8 @@ namespace geocone::GEOCONE_DIM
               d);
         const auto g = triangles.gradients(c);
         for (unsigned int i = 0; i < 3; ++i)
-          problem.B.add(L * strains_of_quadratic(g, i), dofs);
+          add_point_of_triangle(
+            problem, c, i, L * strains_of_quadratic(g, i), dofs);
         for (const unsigned int v : triangles.cells[c])
           is_used[v] = true;
         // The integral of a vertex function is zero, of an edge function A/3.
@@ -611,6 +690,7 @@ namespace geocone::GEOCONE_DIM
       },
       dim * n_nodes,
       problem);
+    add_cut_offs(problem);
     return problem;
   }
 
@@ -664,6 +744,7 @@ namespace geocone::GEOCONE_DIM
       },
       dim * n_nodes,
       problem);
+    add_cut_offs(problem);
     return problem;
   }
 } // namespace geocone::GEOCONE_DIM

@@ -237,13 +237,14 @@ namespace geocone::GEOCONE_DIM
                            "a law that hardens",
                            "Mohr-Coulomb | Tresca where loads are bounded",
                            "take the strength that counts, initial or final");
-        if (cone->is_cut())
+        if (cone->opening == 0.)
           throw InputError("Materials/" + scene.materials.name(m) +
                              "/Tensile strength",
-                           cone->opening / sqrt2,
-                           "none where loads are bounded",
-                           "strict bounds have no cut-off yet: the upper one "
-                           "holds without it; take steps for both");
+                           0,
+                           "none, or > 0 Pa where loads are bounded",
+                           "free surfaces would be at their strength whatever "
+                           "the load: give a small one, e.g. a hundredth of "
+                           "the cohesion");
         flow_cones.push_back(*cone);
         growth.push_back(scene.materials[m].growth());
         less_dilatant = less_dilatant || cone->b < cone->a * (1. - 1e-12);
@@ -388,8 +389,9 @@ namespace geocone::GEOCONE_DIM
       scene, triangles, chosen, units, {}, interfaces(scene, triangles), {}};
     for (unsigned int m = 0; m < flow_cones.size(); ++m)
       {
-        bound.cones.push_back(
-          {flow_cones[m].a, flow_cones[m].k / units.stress});
+        bound.cones.push_back({flow_cones[m].a,
+                               flow_cones[m].k / units.stress,
+                               flow_cones[m].opening / units.stress});
         bound.growth.push_back(
           {growth[m].slope / units.stress, growth[m].level});
       }

@@ -30,11 +30,12 @@ namespace geocone::GEOCONE_DIM
       return s.tail<2>().norm() - cone.a * s[0] - cone.k;
     }
 
-    /** The violation of -e in K*; of a cylinder nothing here. */
+    /** The violation of -e in K*, which a cut-off does not change but for a cylinder; of
+     *  incompressible soil nothing here. */
     double
     violation(const PointCone &cone, const Vector3d &e)
     {
-      return cone.is_cylinder() ? 0. : cone.a * e.tail<2>().norm() + e[0];
+      return cone.is_incompressible() ? 0. : cone.a * e.tail<2>().norm() + e[0];
     }
 
     Tensor<1, dim>
@@ -76,7 +77,10 @@ namespace geocone::GEOCONE_DIM
                      const std::vector<Vector3d> &s)
     {
       return problem.B.forces(
-        problem.volume, s, problem.n_dofs(), 3 * problem.n_triangles);
+        problem.volume,
+        {s.begin(), s.begin() + problem.first_cut_point()},
+        problem.n_dofs(),
+        3 * problem.n_triangles);
     }
 
     /** What linear stresses have to do with the loads of a lower problem. */
@@ -139,7 +143,7 @@ namespace geocone::GEOCONE_DIM
               }
         }
       for (unsigned int dof = dim * (n_cells + 2 * triangles.edges.size());
-           dof < problem.n_dofs();
+           dof < problem.first_cut_dof;
            ++dof)
         if (problem.is_prescribed[dof])
           result.power += at_interfaces[dof] * problem.prescribed[dof];
@@ -162,7 +166,7 @@ namespace geocone::GEOCONE_DIM
       for (unsigned int p = 0; p < n; ++p)
         {
           blocks[p] = problem.volume[p] * Eigen::Matrix3d::Identity();
-          if (problem.cone[p].is_cylinder())
+          if (problem.cone[p].is_incompressible())
             blocks[p](0, 0) += problem.volume[p] * penalty;
         }
       if (!matrix.factorise(blocks))
@@ -174,13 +178,13 @@ namespace geocone::GEOCONE_DIM
           auto       s = problem.B.rates(q - q_0);
           const auto e = problem.B.rates(q);
           for (unsigned int p = 0; p < n; ++p)
-            if (problem.cone[p].is_cylinder())
+            if (problem.cone[p].is_incompressible())
               s[p][0] += multiplier[p] + penalty * e[p][0];
           q -=
             matrix.solve(problem.B.forces(problem.volume, s, problem.n_dofs()));
           const auto next = problem.B.rates(q);
           for (unsigned int p = 0; p < n; ++p)
-            if (problem.cone[p].is_cylinder())
+            if (problem.cone[p].is_incompressible())
               multiplier[p] += penalty * next[p][0];
         }
       return true;
@@ -200,7 +204,7 @@ namespace geocone::GEOCONE_DIM
           {
             const double y = triangles.vertices[v][1];
             bottom         = std::min(bottom, y);
-            if (problem.cone[3 * c].is_cylinder())
+            if (problem.cone[3 * c].is_incompressible())
               highest = std::max(highest, y);
           }
       const double begin = std::max(bottom, highest);
@@ -221,6 +225,12 @@ namespace geocone::GEOCONE_DIM
   double
   dissipation(const PointCone &cone, const Vector3d &rate)
   {
+    if (cone.is_cut())
+      {
+        const double shear = std::max(0., rate.tail<2>().norm() + rate[0]);
+        return -cone.opening * rate[0] +
+               (cone.k - cone.a * cone.opening) * shear / (1. - cone.a);
+      }
     return cone.is_cylinder() ? cone.k * rate.tail<2>().norm()
                               : -cone.k / cone.a * rate[0];
   }
@@ -237,7 +247,9 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int p = 0; p < problem.n_points(); ++p)
       {
         const PointCone &cone = problem.cone[p];
-        if (problem.B.is_removed(p))
+        if (p >= problem.first_cut_point())
+          result.s[p] = result.s[problem.point_of_triangle(p)];
+        else if (problem.B.is_removed(p))
           result.s[p].setZero(); // it has no part in anything
         largest = std::max(largest, result.s[p].norm());
         if (const double f = excess(cone, result.s[p]); f > 0.)
@@ -316,22 +328,23 @@ namespace geocone::GEOCONE_DIM
                 const BoundSolution &solution)
   {
     Bound result;
-    result.q            = solution.q;
-    const bool cylinder = problem.has_cylinders();
+    result.q = solution.q;
     if (!solution.q.allFinite())
       {
         result.objection = "it is not a number";
         return result;
       }
-    if (cylinder && !make_incompressible(problem, result.q))
+    if (problem.has_incompressible() && !make_incompressible(problem, result.q))
       result.objection = "incompressible velocities were not found";
+    // Cut-offs dissipate by the whole rates, dissipation().
+    result.q.tail(problem.n_dofs() - problem.first_cut_dof).setZero();
 
     double     largest = std::numeric_limits<double>::min();
     const auto rates   = problem.B.rates(result.q);
     for (unsigned int p = 0; p < problem.n_points(); ++p)
       {
         largest = std::max(largest, rates[p].norm());
-        if (problem.cone[p].is_cylinder())
+        if (problem.cone[p].is_incompressible())
           result.error = std::max(result.error, std::abs(rates[p][0]));
         result.violation =
           std::max(result.violation, violation(problem.cone[p], rates[p]));
@@ -390,7 +403,9 @@ namespace geocone::GEOCONE_DIM
     // Of Bernstein's functions with those of linear reactions.
     constexpr double share[3][2] = {
       {1. / 4., 1. / 12.}, {1. / 6., 1. / 6.}, {1. / 12., 1. / 4.}};
-    for (unsigned int c = problem.n_triangles; c < problem.n_cells(); ++c)
+    for (unsigned int c = problem.n_triangles;
+         3 * c < problem.first_cut_point();
+         ++c)
       for (unsigned int i = 0; i < 3; ++i)
         {
           const unsigned int p = 3 * c + i;

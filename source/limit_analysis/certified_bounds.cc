@@ -23,9 +23,9 @@ namespace geocone::GEOCONE_DIM
       options.equilibrium_tolerance = tolerance;
       // What is missed is repaired, which is dear; a projection takes care of
       // phi = 0.
-      options.flow_tolerance = above.has_cylinders() ? 1e-6 : 1e-8;
+      options.flow_tolerance = above.has_incompressible() ? 1e-6 : 1e-8;
       // No field is known that repairs what is missed beside obstacles.
-      if (!above.owner.empty())
+      if (above.n_interfaces > 0)
         options.flow_margin = 10. * options.flow_tolerance;
       CertifiedBounds::Side side;
       side.solution   = InteriorPoint::solve(above, options);

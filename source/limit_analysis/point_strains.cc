@@ -12,7 +12,9 @@ namespace geocone
   PointStrains::PointStrains(const unsigned int n_columns)
     : n_columns(n_columns)
   {
-    Assert(n_columns == 6 || n_columns == 10, dealii::ExcInternalError());
+    Assert(n_columns == 6 || n_columns == 9 || n_columns == 10 ||
+             n_columns == 13,
+           dealii::ExcInternalError());
   }
 
   void

@@ -4,6 +4,7 @@
 #ifndef geocone_limit_analysis_bound_problem_h
 #define geocone_limit_analysis_bound_problem_h
 
+#include <geocone/cone/second_order_cone.h>
 #include <geocone/limit_analysis/interfaces.h>
 #include <geocone/limit_analysis/point_strains.h>
 #include <geocone/limit_analysis/triangles.h>
@@ -35,16 +36,30 @@ namespace geocone::GEOCONE_DIM
     double velocity = 1.; ///< (m/s)
   };
 
-  /** The cone of a point, in units: |s_t| <= a s_n + k. */
+  /** The cone of a point, in units: |s_t| <= a s_n + k, and where there is a tensile
+   *  strength |s_t| <= s_n + opening (FlowCone::opening). */
   struct PointCone
   {
-    double a = 0., k = 0.;
+    double a = 0., k = 0., opening = infinite_tension;
+
+    bool
+    is_cut() const
+    {
+      return opening < infinite_tension;
+    }
 
     /** Tresca's cylinder, whose normal rate is zero. */
     bool
     is_cylinder() const
     {
       return a == 0.;
+    }
+
+    /** A cylinder without a cut-off, where soil may open. */
+    bool
+    is_incompressible() const
+    {
+      return is_cylinder() && !is_cut();
     }
   };
 
@@ -62,6 +77,12 @@ namespace geocone::GEOCONE_DIM
    * V is a part of an edge's length, B q the velocity of the body relative to the
    * obstacle, whose own velocity has the last dofs, before how far interfaces open
    * (Interface::opens()).
+   *
+   * The last cells are the cut-offs of triangles: their points have the stress of the
+   * triangle's, in the cone |s_t| <= s_n + opening, and the rate w with which it opens,
+   * which the triangle's points have less, B q - w. Equilibrium of the w is that both
+   * stresses are the same, and the dissipation of both the infimal convolution of those
+   * of the cone and of the cut-off.
    */
   struct BoundProblem
   {
@@ -69,8 +90,11 @@ namespace geocone::GEOCONE_DIM
     std::vector<double>    volume; ///< of each point
     std::vector<PointCone> cone;   ///< of each point
 
-    unsigned int              n_triangles = 0;
-    std::vector<unsigned int> owner; ///< the triangle at each later cell
+    unsigned int n_triangles = 0, n_interfaces = 0;
+    /** The triangle at each later cell, of interfaces and of cut-offs. */
+    std::vector<unsigned int> owner;
+    std::vector<unsigned int> cut;               ///< triangles with a cut-off
+    unsigned int              first_cut_dof = 0; ///< nine for each of them
 
     std::vector<bool> is_prescribed; ///< by dof
     std::vector<bool> has_no_force;  ///< prescribed, too: no stress is there
@@ -87,18 +111,27 @@ namespace geocone::GEOCONE_DIM
     {
       return volume.size();
     }
-    unsigned int
-    n_cells() const
-    {
-      return n_points() / 3;
-    }
     bool
     has_factor() const
     {
       return live.squaredNorm() > 0.;
     }
     bool
-    has_cylinders() const;
+    has_incompressible() const;
+
+    /** The first point of the cut-offs. */
+    unsigned int
+    first_cut_point() const
+    {
+      return 3 * (n_triangles + n_interfaces);
+    }
+
+    /** The point of the triangle that a point of its cut-off belongs to. */
+    unsigned int
+    point_of_triangle(const unsigned int cut_point) const
+    {
+      return 3 * owner[cut_point / 3 - n_triangles] + cut_point % 3;
+    }
 
     /** Whether stresses that are scaled down bear a load that is scaled down: no
      *  load is dead, and there is cohesion everywhere. */
@@ -124,7 +157,9 @@ namespace geocone::GEOCONE_DIM
     PointCone
     cone_at(const unsigned int material, const dealii::Point<dim> &x) const
     {
-      return {cones[material].a, cones[material].k + growth[material].at(x[1])};
+      PointCone cone = cones[material];
+      cone.k += growth[material].at(x[1]);
+      return cone;
     }
 
     /** Makes a material's strength another one: tan(phi), and k over cos(phi) times a

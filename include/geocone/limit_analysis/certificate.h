@@ -74,7 +74,11 @@ namespace geocone::GEOCONE_DIM
                const Bound        &upper,
                const Bound        &lower);
 
-  /** The dissipation of a point at a strain rate in cone axes, per volume. */
+  /**
+   * The dissipation of a point at a strain rate in cone axes, per volume. With a cut-off
+   * it is the infimal convolution of those of cone and cut-off,
+   *   opening (-e_n) + (k - a opening) (|e_t| + e_n)^+/(1 - a).
+   */
   double
   dissipation(const PointCone &cone, const Eigen::Vector3d &rate);
 } // namespace geocone::GEOCONE_DIM

@@ -22,7 +22,8 @@ namespace geocone
   public:
     PointStrains() = default;
 
-    /** @param n_columns the most dofs that a point knows: 6 or 10 */
+    /** @param n_columns the most dofs that a point knows: 6 or 10, or with a cut-off 9 or
+     *  13 */
     explicit PointStrains(const unsigned int n_columns);
 
     /** Adds a point. @param B a column for each of the dofs; those that are zero are
@@ -67,8 +68,12 @@ namespace geocone
     {
       if (n_columns == 6)
         f(std::integral_constant<int, 6>());
+      else if (n_columns == 9)
+        f(std::integral_constant<int, 9>());
       else if (n_columns == 10)
         f(std::integral_constant<int, 10>());
+      else if (n_columns == 13)
+        f(std::integral_constant<int, 13>());
     }
 
     /** B of a point. */
