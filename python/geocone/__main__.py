@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """python3 -m geocone plot RUN-FOLDER ...     draws pictures of runs
 python3 -m geocone report STUDY.toml ...   computes studies and writes their report
+python3 -m geocone dxf DRAWING.dxf NEW.prm begins a parameter file from a drawing
 Each with --help."""
 
 import os
@@ -15,6 +16,8 @@ def main(arguments, prog=None):
         from geocone.plots import main as call
     elif verb == "report":
         from geocone.report.study import main as call
+    elif verb == "dxf":
+        from geocone.dxf import main as call
     else:
         print(__doc__, file=sys.stdout if verb in ("-h", "--help") else sys.stderr)
         return 0 if verb in ("-h", "--help") else 1
