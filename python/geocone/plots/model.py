@@ -61,8 +61,8 @@ class Model:
     def properties(self, name):
         """A material in a line: its law and what describes its strength."""
         value = {key: self.parameters.get(f"Materials/{name}/{key}") for key in (
-            "Type", "Density", "Cohesion", "Friction angle", "Dilatancy angle",
-            "Undrained strength")}
+            "Type", "Density", "Unit weight", "Saturated unit weight", "Cohesion",
+            "Friction angle", "Dilatancy angle", "Tensile strength", "Undrained strength")}
 
         def number(key):
             try:
@@ -78,7 +78,14 @@ class Model:
         for key, symbol in (("Friction angle", "φ"), ("Dilatancy angle", "ψ")):
             if number(key) is not None:
                 parts.append(f"{symbol} = {number(key):g}°")
-        if number("Density") is not None:
+        if number("Tensile strength") is not None:
+            unit, size = unit_for(number("Tensile strength"), "Pa")
+            parts.append(f"$\\sigma_t$ = {number('Tensile strength') / size:g} {unit}")
+        weights = [("Unit weight", "γ"), ("Saturated unit weight", "$\\gamma_{sat}$")]
+        for key, symbol in weights:
+            if number(key):  # 0: not given
+                parts.append(f"{symbol} = {number(key) / 1e3:.4g} kN/m³")
+        if number("Density") is not None and not number("Unit weight"):
             parts.append(f"ρ = {number('Density'):g} kg/m³")
         return ", ".join(parts)
 
