@@ -55,9 +55,11 @@ for method in ("FEM", "MPM"):
         assert error < (1e-9 if method == "FEM" else 1e-5), (method, error)
 bounds = [json.load(open(f"{name}/summary.json"))["safety"] for name in ("saturated", "two")]
 print(bounds)
-for end in ("lower", "upper"):
+# The meshes differ a little: 0.02 and 0.55 %. With the weight of dry soil the lower bound is
+# 2.8 % smaller.
+for end, allowed in (("lower", 2e-3), ("upper", 1e-2)):
     a, b = (safety[end] for safety in bounds)
-    assert abs(a / b - 1.) < 1e-4, (end, a, b)
+    assert abs(a / b - 1.) < allowed, (end, a, b)
 PYTHON
 fails "$program" two.prm --dry-run --set 'Gravity/Acceleration = 0, 0' \
   --set 'Materials/wet/Unit weight = 20000' 2>said
