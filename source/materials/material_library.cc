@@ -29,9 +29,7 @@ namespace geocone::GEOCONE_DIM
       return std::make_unique<Law>(section);
     }
 
-    using List = std::vector<
-      std::pair<std::string,
-                std::unique_ptr<ConstitutiveLaw> (*)(const std::string &)>>;
+    using List = std::vector<std::pair<std::string, MakeLaw>>;
 
     /** The list of all laws: a new one is a new line here. In three dimensions
      *  Mohr-Coulomb's law is the spatial one, and those of the plane are not there. */
@@ -57,11 +55,8 @@ namespace geocone::GEOCONE_DIM
       return list;
     }
 
-    const List laws = all_laws();
-  } // namespace
+    List laws = all_laws();
 
-  namespace
-  {
     /** Whether a law checks the flow of a step, Material::check_flow(). */
     bool
     checks_flow(const Material &law)
@@ -75,6 +70,12 @@ namespace geocone::GEOCONE_DIM
       return law.check_flow(none, {}).has_value();
     }
   } // namespace
+
+  void
+  add_law(const std::string &type, const MakeLaw make)
+  {
+    laws.emplace_back(type, make);
+  }
 
   std::vector<std::string>
   material_types()

@@ -15,6 +15,15 @@
 
 namespace geocone::GEOCONE_DIM
 {
+  /** Makes a law of a section. */
+  using MakeLaw =
+    std::unique_ptr<ConstitutiveLaw> (*)(const std::string &section);
+
+  /** Adds a law of another program, built on this library (doc/tutorials/soil.md), to
+   *  those that make_material() knows. */
+  void
+  add_law(const std::string &type, const MakeLaw make);
+
   /**
    * Makes the material of a section, e.g. "Materials/soil".
    * @param type a name of material_types()
