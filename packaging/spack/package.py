@@ -15,7 +15,7 @@ class Geocone(CMakePackage):
 
     license("LGPL-2.1-or-later")
 
-    version("0.1.0")
+    version("0.2.0")
 
     generator("ninja")
 
