@@ -7,8 +7,11 @@ beyond, i.e. in which order they come, is here."""
 import json
 import re
 import shutil
+import subprocess
 from pathlib import Path
 
+from pygments.lexer import RegexLexer, bygroups
+from pygments.token import Comment, Keyword, Name, Text
 from myst_parser.parsers.sphinx_ import MystParser
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -21,6 +24,7 @@ release = re.search(r"project\(geocone VERSION ([\d.]+)",
 extensions = ["myst_parser", "sphinx.ext.mathjax"]
 root_doc = "README"
 include_patterns = ["*.md", "doc/*.md", "doc/cookbook/*.md", "doc/theory/*.md",
+                    "doc/tutorials/*.md",
                     "doc/notebooks/*.ipynb", "packaging/*.md", "meshes/*.md"]
 exclude_patterns = ["doc/api.md"]  # the first page of doxygen's site
 myst_enable_extensions = ["dollarmath", "amsmath"]
@@ -50,11 +54,11 @@ mathjax2_config = {"tex2jax": {"inlineMath": [["\\(", "\\)"]],
 
 # The pages in the order of the menu, below the first one.
 PAGES = {
-    "Use": ["doc/scenes", "doc/your_own_scene", "doc/cookbook/README", "doc/notebooks/footing",
+    "Use": ["doc/tutorials/README", "doc/scenes", "doc/your_own_scene", "doc/cookbook/README", "doc/notebooks/footing",
             "doc/notebooks/slope_factor_of_safety", "doc/notebooks/element_tests",
             "doc/runs", "doc/trust", "doc/element_test", "doc/studies",
             "meshes/README", "packaging/README"],
-    "What is known": ["doc/comparison", "doc/validation", "doc/verification",
+    "What is known": ["doc/limits", "doc/comparison", "doc/validation", "doc/verification",
                       "doc/verification_mpm", "doc/limit_load", "doc/footing_deep",
                       "doc/friction_memory", "doc/small_dilatancy", "doc/stability", "doc/performance",
                       "doc/overhead", "doc/paper",
@@ -78,9 +82,23 @@ def add_menu(_, page, source):
     """Before a page is read."""
     if page == root_doc:
         source[0] += "".join(menu(*part) for part in PAGES.items())
-    elif page in ("doc/cookbook/README", "doc/theory/README"):
+    elif page in ("doc/cookbook/README", "doc/theory/README", "doc/tutorials/README"):
         folder = page[:-len("README")]
         source[0] += menu("", (folder + name for name in linked_pages(source[0])))
+    elif page == "CHANGELOG":
+        unreleased = subprocess.run([ROOT / "scripts" / "changes"], check=True, text=True,
+                                    capture_output=True).stdout
+        source[0] = source[0].replace("\n## ", f"\n{unreleased}\n## ", 1)
+
+
+class ParameterLexer(RegexLexer):
+    """Colours of parameter files."""
+
+    name, aliases = "parameter file", ["prm"]
+    tokens = {"root": [(r"#.*", Comment),
+                       (r"^(\s*)(set)( [^=\n]*)(=)", bygroups(Text, Keyword, Name.Attribute, Text)),
+                       (r"^(\s*)(subsection|end|include)\b", bygroups(Text, Keyword)),
+                       (r"[^#\n]+", Text), (r"\n", Text)]}
 
 
 class NotebookParser(MystParser):
@@ -118,5 +136,6 @@ def setup(app):
     """Entry point of Sphinx."""
     app.add_source_suffix(".ipynb", "ipynb")
     app.add_source_parser(NotebookParser)
+    app.add_lexer("prm", ParameterLexer)
     app.connect("source-read", add_menu)
     app.connect("build-finished", add_mathjax)

@@ -9,7 +9,7 @@ grep -qx "site: $folder/site/index.html" said
 /usr/bin/python3 -B "$root/tests/site/links.py" site
 # Every page of the repository is in it, also by its menu.
 cd "$root"
-for page in *.md doc/*.md doc/cookbook/*.md doc/theory/*.md; do
+for page in *.md doc/*.md doc/cookbook/*.md doc/theory/*.md doc/tutorials/*.md; do
   [ "$page" = doc/api.md ] && continue # doxygen's
   [ -f "$folder/site/${page%.md}.html" ]
   grep -q "toctree-l.*href=\"\(${page%.md}.html\|#\)\"" "$folder/site/README.html" ||
