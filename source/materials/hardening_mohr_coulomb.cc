@@ -91,9 +91,10 @@ namespace geocone::GEOCONE_DIM
   {
     MohrCoulomb::prepare();
     if (cohesion_grows())
-      throw InputError(parameter("Cohesion gradient"),
-                       cohesion_gradient(),
-                       "0 for a law that hardens",
+      throw InputError(parameter(has_strength_formula() ? "Cohesion formula"
+                                                        : "Cohesion gradient"),
+                       "set",
+                       "none for a law that hardens",
                        "take Mohr-Coulomb, or layers of several materials");
     if (!(modulus >= 0.))
       throw InputError(

@@ -13,8 +13,7 @@ namespace geocone::GEOCONE_DIM
   void
   MohrCoulomb::prepare()
   {
-    Material::prepare();
-    given.prepare(parameter());
+    Frictional::prepare();
     set_cone(1.);
     memory.prepare(*this, cone.b < cone.a);
   }

@@ -56,7 +56,6 @@ namespace geocone::GEOCONE_DIM
   FrictionalSpatialLaw::prepare()
   {
     Frictional::prepare();
-    given.prepare(parameter());
     set_strength(1.);
     memory.prepare(*this, non_associativity() > 0.);
   }

@@ -6,10 +6,13 @@
 
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
+#include <geocone/functions/expression.h>
+#include <geocone/functions/formula.h>
 #include <geocone/materials/frictional_strength.h>
 #include <geocone/materials/material.h>
 #include <geocone/materials/with_friction_memory.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +21,8 @@ namespace geocone::GEOCONE_DIM
   /**
    * A law with cohesion, friction and dilatancy, and what of its strength is a point's
    * own: the normal stress that friction remembers (WithFrictionMemory), and, where the
-   * cohesion grows with depth, c(y) = c + gradient (level - y), what it has grown by at
-   * the place where the point began (Pa), the history variable that follows.
+   * cohesion is that of a place, c(y) = c + gradient (level - y) or a formula, by how much
+   * it is more than c where the point began (Pa), the history variable that follows.
    * @tparam Base Material, or a class derived from it
    */
   template <typename Base>
@@ -30,6 +33,30 @@ namespace geocone::GEOCONE_DIM
   public:
     using typename Remembering::Components;
     using typename Remembering::Shown;
+
+    void
+    prepare() override
+    {
+      Remembering::prepare();
+      given.prepare(this->parameter());
+      if (profile_text.empty())
+        return;
+      if (given.gradient != 0.)
+        throw InputError(this->parameter("Cohesion formula"),
+                         profile_text,
+                         "empty with a 'Cohesion gradient'",
+                         "give one of them");
+      check_formula(
+        profile_text, this->parameter("Cohesion formula"), FormulaOf::place);
+      profile.emplace().prepare(profile_text,
+                                this->parameter("Cohesion formula"));
+    }
+
+    bool
+    has_strength_formula() const override
+    {
+      return profile.has_value();
+    }
 
     unsigned int
     n_history() const override
@@ -42,14 +69,17 @@ namespace geocone::GEOCONE_DIM
     {
       if (!cohesion_grows())
         return;
-      const double more = given.growth(place[1]), here = given.c + more;
+      const double more =
+        profile ? profile->value(place, 0.) - given.c : given.growth(place[1]);
+      const double here = given.c + more;
       if (!(here > 0. || (here == 0. && given.phi > 0.)))
         throw InputError(
-          this->parameter("Cohesion gradient"),
-          given.gradient,
+          this->parameter(profile ? "Cohesion formula" : "Cohesion gradient"),
+          profile ? profile_text : format("%g", given.gradient),
           format("a cohesion > 0 Pa everywhere; here it is %g Pa", here),
-          "give 'Cohesion' at the top of the soil, and its y as "
-          "'Cohesion level'");
+          profile ? "limit it from below, e.g. max(1000, ...)"
+                  : "give 'Cohesion' at the top of the soil, and its y as "
+                    "'Cohesion level'");
       history[place_of_growth()] = more;
     }
 
@@ -78,7 +108,7 @@ namespace geocone::GEOCONE_DIM
       : Remembering(section)
     {
       given.declare(*this);
-      given.declare_growth(*this);
+      declare_places();
       this->memory.declare(*this);
     }
 
@@ -90,13 +120,14 @@ namespace geocone::GEOCONE_DIM
     {
       this->memory = FrictionMemory("0");
       given.declare_cohesion(*this, cohesion);
-      given.declare_growth(*this);
+      declare_places();
     }
 
+    /** Whether the cohesion is that of a place. */
     bool
     cohesion_grows() const
     {
-      return given.gradient != 0.;
+      return given.gradient != 0. || profile;
     }
 
     /** By how much the cohesion of a point is more than c (Pa).
@@ -116,6 +147,21 @@ namespace geocone::GEOCONE_DIM
     }
 
     FrictionalStrength given;
+
+  private:
+    void
+    declare_places()
+    {
+      given.declare_growth(*this);
+      this->add_parameter("Cohesion formula",
+                          profile_text,
+                          "Cohesion (Pa) as a formula in the coordinates of "
+                          "the place where a point begins, in place of "
+                          "'Cohesion'. Empty: none.");
+    }
+
+    std::string               profile_text;
+    std::optional<Expression> profile;
   };
 } // namespace geocone::GEOCONE_DIM
 

@@ -329,6 +329,13 @@ namespace geocone::GEOCONE_DIM
       return {};
     }
 
+    /** Whether the strength is given by a formula in the coordinates. */
+    virtual bool
+    has_strength_formula() const
+    {
+      return false;
+    }
+
     /**
      * Largest (a - b)/a for which the line search alone was seen to be enough
      * on most meshes: theta >= phi/2 is (nearly) 1/2.
