@@ -20,7 +20,7 @@ namespace geocone
   {
     const std::string format_name = "geocone checkpoint 3";
 
-    /** The checksum, goes on with an array. */
+    /** Updates the checksum with an array. */
     unsigned long
     add_to_checksum(const unsigned long        sum,
                     const std::string         &name,
@@ -130,7 +130,7 @@ namespace geocone
         if (file.read_text("belongs to") != run)
           throw RunError("it belongs to a run with other parameters");
         archive->names = file.read_text("names");
-        // The others rely on what the first rank has seen.
+        // The first rank verifies the file for all ranks.
         if (this_mpi_process(comm) == 0)
           {
             unsigned long      sum = 0;

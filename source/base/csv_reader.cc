@@ -13,7 +13,7 @@ namespace geocone
 {
   namespace
   {
-    /** A line of a table is shorter by far; another file may have one line only. */
+    /** Bytes per line; longer lines mean that the file is not a table. */
     constexpr std::size_t longest_line = 4096;
 
     std::string
@@ -30,7 +30,7 @@ namespace geocone
       return part;
     }
 
-    /** A line cut at its commas. */
+    /** Splits a line at its commas. */
     std::vector<std::string>
     cut(const std::string &line)
     {

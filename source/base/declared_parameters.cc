@@ -26,8 +26,8 @@ namespace geocone
 
     constexpr double largest_value = 1e100;
 
-    /** Output of ParameterHandler, with names as declared; only a name with
-     *  a dot comes apart there. */
+    /** Parses the output of ParameterHandler, with names as declared; only
+     *  names with a dot are split there. */
     Declared
     from_json(const nlohmann::json &json)
     {
@@ -43,7 +43,7 @@ namespace geocone
       return declared;
     }
 
-    /** The bounds in a pattern like "[Double 0...1 (inclusive)]". */
+    /** Bounds in a pattern like "[Double 0...1 (inclusive)]". */
     std::string
     bounds(const std::string &pattern)
     {
@@ -64,7 +64,7 @@ namespace geocone
                         : "";
     }
 
-    /** What a pattern of the library allows, in words. */
+    /** Admissible values of a deal.II pattern, in words. */
     std::string
     allowed_by(const std::string &pattern)
     {
@@ -103,8 +103,8 @@ namespace geocone
       return "text";
     }
 
-    /** Whether decimal commas may stand in a text: a comma between two digits, in a
-     *  list beside one that a blank follows. */
+    /** Whether a text may contain decimal commas: a comma between two digits,
+     *  in a list next to a comma that a blank follows. */
     bool
     has_decimal_comma(const std::string &value, const bool is_list)
     {
@@ -113,8 +113,8 @@ namespace geocone
              (!is_list || std::regex_search(value, loose));
     }
 
-    /** The numbers in a text, which commas, semicolons and blanks separate, are
-     *  finite and not absurd. */
+    /** Whether the numbers in a text, separated by commas, semicolons or
+     *  blanks, are finite and not absurd. */
     bool
     is_sensible(const std::string &value)
     {
@@ -194,7 +194,7 @@ namespace geocone
                        "numbers with decimal points, e.g. 0.5; in a list a "
                        "blank follows each comma, or none does",
                        "write 0.5, not 0,5 (" + place + ")");
-    // The library takes a number without sign for one with it.
+    // The library treats unsigned numbers as signed ones.
     if (entry.pattern == "[Integer]" &&
         (value.empty() ||
          value.find_first_not_of("0123456789") != std::string::npos ||
@@ -202,8 +202,8 @@ namespace geocone
          std::stoull(value) > std::numeric_limits<unsigned>::max()))
       refuse("a whole number from 0 to " +
              std::to_string(std::numeric_limits<unsigned>::max()));
-    // Not as a line of text, in which the library would neither match a value
-    // with a brace nor take it.
+    // Not as a line of text: the library neither matches nor sets values with a
+    // brace there.
     auto &prm = ParameterAcceptor::prm;
     for (const std::string &section : sections)
       prm.enter_subsection(section);

@@ -21,7 +21,7 @@ namespace geocone
   {
     namespace fs = std::filesystem;
 
-    /** The run's folder, and which of its files are in the list. */
+    /** Folder of the run, and its files in the list. */
     struct ListOfFiles
     {
       fs::path              folder;
@@ -45,8 +45,8 @@ namespace geocone
                        "\n  remedy:  take it away");
     }
 
-    /** Makes a file that is not there yet. @param is_ours what may be there is left
-     *  over from this run. @return its descriptor, or -1 */
+    /** Creates a new file. @param is_ours an existing file is left over from
+     *  this run. @return its descriptor, or -1 */
     int
     make_file(const std::string &name, const bool is_ours)
     {
@@ -73,7 +73,7 @@ namespace geocone
   {
     list().folder = fs::path(folder).lexically_normal();
     list().names  = {list_of_files};
-    // Of a run that is resumed it has names already.
+    // Resumed runs have a list already.
     std::ifstream in(list().folder / list_of_files);
     for (std::string name; std::getline(in, name);)
       list().names.insert(name);
@@ -104,7 +104,7 @@ namespace geocone
                      "  remedy:  move it away, and go on with --resume or "
                      "run it anew");
     list().names.insert(path.filename().string());
-    // Appended in one piece, for all ranks write into it.
+    // Appended by a single write, because all ranks write into it.
     const std::string line = path.filename().string() + "\n";
     const std::string name = (list().folder / list_of_files).string();
     const int         file =
@@ -175,12 +175,12 @@ namespace geocone
       }
     catch (const dealii::ExceptionBase &)
       {
-        // The library's writers throw where a stream fails.
+        // The library's writers throw if a stream fails.
         out.setstate(std::ios::failbit);
       }
     catch (...)
       {
-        // Perhaps for want of memory: nothing here may need any.
+        // Possibly out of memory: nothing here may allocate.
         ::close(file);
         ::unlink(temporary.c_str());
         throw;
@@ -303,7 +303,7 @@ namespace geocone
   {
     const std::filesystem::path beside =
       std::filesystem::path(folder_of_parameters) / name;
-    std::error_code error; // a name that cannot be asked for is no file
+    std::error_code error; // inaccessible names count as absent
     for (const std::filesystem::path &path :
          {beside, std::filesystem::path(name)})
       if (std::filesystem::is_regular_file(path, error))

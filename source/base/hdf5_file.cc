@@ -61,13 +61,14 @@ namespace geocone
       herr_t (*const close)(hid_t);
     };
 
-    /** Entries of a chunk of a compressed array; one may have 4 GB at most. */
+    /** Entries per chunk of a compressed array; HDF5 limits chunks to 4 GB. */
     constexpr hsize_t chunk_size = 1 << 20;
 
-    /** The most that a byte can be after deflate: the limit of its format. */
+    /** Largest expansion of a byte compressed by deflate, a limit of the
+     *  format. */
     constexpr std::size_t largest_expansion = 1032;
 
-    /** Memory of this machine (bytes). */
+    /** Physical memory of this machine (bytes). */
     std::size_t
     physical_memory()
     {
@@ -81,7 +82,7 @@ namespace geocone
     : file_name(file_name)
     , creates(access == Access::create)
   {
-    // Errors are named here; and a file must not make the library load code.
+    // Errors are reported here, and a file must not make the library load code.
     H5Eset_auto(H5E_DEFAULT, nullptr, nullptr);
     H5PLset_loading_state(0);
     if (creates)
@@ -142,7 +143,7 @@ namespace geocone
                         const std::size_t  n_columns,
                         const bool         compressed)
   {
-    // No column: an array of one dimension.
+    // Without columns, the array is one-dimensional.
     const std::array<hsize_t, 2> size = {
       {n_columns > 0 ? n / n_columns : n, n_columns}};
     const Handle space(
@@ -181,7 +182,7 @@ namespace geocone
                          const unsigned int       n_columns_of_parts,
                          const unsigned int       n_columns)
   {
-    // Entries of one dimension, or rows.
+    // Entries of a one-dimensional array, or rows.
     const hsize_t per_row = n_columns > 0 ? 1 : n_columns_of_parts;
     hsize_t       n       = 0;
     for (const Part &part : parts)
@@ -280,7 +281,7 @@ namespace geocone
   bool
   Hdf5File::has(const std::string &name) const
   {
-    // Each part of a path must be there before the next one may be asked for.
+    // H5Lexists() requires that all parent groups exist.
     for (std::size_t end = name.find('/');; end = name.find('/', end + 1))
       {
         if (H5Lexists(id, name.substr(0, end).c_str(), H5P_DEFAULT) <= 0)
@@ -350,7 +351,7 @@ namespace geocone
                        "fletcher32");
       }
 
-    // What a damaged size claims is never allocated.
+    // The size claimed by a damaged file is never allocated.
     const auto fits = [&](const hsize_t n_items) {
       return n_items <= (largest_expansion * file_size + chunk_size) / item &&
              n_items <= physical_memory() / sizeof(double);
@@ -361,7 +362,7 @@ namespace geocone
          (H5Pget_chunk(properties, 1, &chunk) != 1 || !fits(chunk))))
       fail(array + "claims " + std::to_string(std::max(n, chunk)) +
            " entries, more than the file or the memory can hold");
-    // Where less is stored, the library would read beyond it.
+    // If less is stored, the library would read beyond it.
     if (layout != H5D_CHUNKED && n > 0 && H5Dget_storage_size(data) < n * item)
       fail(array + "holds less than it announces");
     size = n;
@@ -474,7 +475,7 @@ namespace geocone
   std::vector<int>
   Hdf5File::read_integers(const std::string &name) const
   {
-    // Through a wider type, for the library would cut off what is too large.
+    // Through a wider type, because the library would clip larger values.
     const std::vector<long long> values = read_array<long long>(name);
     for (const long long value : values)
       if (value < std::numeric_limits<int>::min() ||

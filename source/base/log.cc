@@ -80,7 +80,7 @@ namespace geocone
       return;
     if (!quiet && terminal)
       {
-        // Pad with blanks what a longer line before left on the screen.
+        // Blanks overwrite the rest of a longer line on the screen.
         std::cout << '\r' << text
                   << std::string(progress_width > text.size()
                                    ? progress_width - text.size()

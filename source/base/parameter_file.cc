@@ -73,8 +73,8 @@ namespace geocone
       return row.back();
     }
 
-    /** What to say of an unknown name: the known one that it nearly is, or all of
-     *  them if they are few. */
+    /** Suggestion for an unknown name: a similar known name, or all known names
+     *  if they are few. */
     std::string
     suggestion(const std::string              &name,
                const std::string              &section,
@@ -90,7 +90,7 @@ namespace geocone
               distance = d;
               best     = candidate;
             }
-      // Or only its beginning.
+      // Or an abbreviation.
       for (const std::string &candidate : known)
         if (best.empty() && name.size() > 2 &&
             candidate.compare(0, name.size(), name) == 0)
@@ -108,8 +108,8 @@ namespace geocone
              "are";
     }
 
-    /** "SECTION/NAME" where another section has a parameter of this name, and only
-     *  one has. */
+    /** "SECTION/NAME" if exactly one other section has a parameter of this
+     *  name. */
     std::string
     place_of(const std::string &name, const Declared &declared)
     {
@@ -265,7 +265,7 @@ namespace geocone
   {
     int open_sections = 0;
     int number        = 0;
-    // Some editors begin files of UTF-8 with a mark.
+    // Some editors begin UTF-8 files with a byte-order mark.
     if (in.peek() == 0xEF)
       {
         char mark[3];
@@ -339,7 +339,7 @@ namespace geocone
       declared = all_declared();
     std::vector<SetLine>     all;
     std::vector<std::string> path;
-    std::size_t              left_out = 0; ///< sections below one taken out
+    std::size_t              left_out = 0; ///< subsections of a removed one
     for (const Line &line : lines)
       {
         if (line.text.compare(0, 11, "subsection ") == 0)

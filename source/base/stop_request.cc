@@ -14,15 +14,15 @@ namespace geocone
   {
     volatile std::sig_atomic_t request = 0;
 
-    /** Whether the end of the terminal is to be ignored; asked before MPI starts, which
-     *  changes that. */
+    /** Whether SIGHUP is ignored; queried before MPI starts, which changes
+     *  that. */
     const bool is_under_nohup = []() {
       struct sigaction present;
       return ::sigaction(SIGHUP, nullptr, &present) == 0 &&
              present.sa_handler == SIG_IGN;
     }();
 
-    extern "C" // what a handler is called as, of this unit alone
+    extern "C" // C linkage for a handler, internal to this unit
     {
     static void
     note_request(const int signal)

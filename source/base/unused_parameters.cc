@@ -11,8 +11,8 @@ namespace geocone
 {
   namespace
   {
-    /** Declared so far: rules of whole sections, and of single parameters. There before
-     *  the first rule declares itself, which is before main(). */
+    /** Declared rules of complete sections and of single parameters. A
+     *  function-local static, because rules are declared before main(). */
     struct Rules
     {
       std::vector<UsedWhere> of_sections, of_parameters;
@@ -30,8 +30,8 @@ namespace geocone
       return split_names(path, '/');
     }
 
-    /** Whether a path is one of those of a rule; @p star is what a '*' stands
-     *  for. */
+    /** Whether a path matches that of a rule; @p star is the text that a '*'
+     *  stands for. */
     bool
     matches(const std::string &rule, const std::string &path, std::string &star)
     {
@@ -46,7 +46,7 @@ namespace geocone
       return true;
     }
 
-    /** The first of the rules that a setting breaks, as a text; or nothing. */
+    /** The first rule that a setting violates, as a text; or empty. */
     std::string
     broken_rule(const std::vector<UsedWhere>              &rules,
                 const ParameterFile::Setting              &setting,
@@ -123,8 +123,8 @@ namespace geocone
             add(setting.path, setting.of_other);
             continue;
           }
-        // A file that holds all parameters, as used, says nothing by its
-        // defaults.
+        // In files with all parameters, as written by runs, default values are
+        // not intentional.
         if (setting.value == setting.default_value)
           continue;
         std::string needed =

@@ -17,26 +17,27 @@
 namespace geocone
 {
   /**
-   * The state of a run as a file of named arrays (HDF5), which any number of ranks
-   * can read. Written whole by the first rank, which holds it in memory; with a
-   * checksum over all arrays, so that a damaged file is found before any of it is
-   * used. Or without a file, to hand state over between the ranks of a run: each of
-   * them then holds all that is written. All functions are collective.
+   * State of a run as a file of named arrays (HDF5), independent of the number
+   * of ranks. The first rank holds it in memory and writes it in one piece,
+   * with a checksum over all arrays, so that a damaged file is detected before
+   * any of it is used. Without a file it transfers state between the ranks of a
+   * run: each of them then holds all data written. All functions are
+   * collective.
    */
   class Archive
   {
   public:
-    /** A new one, with the digest of the run that it belongs to. */
+    /** A new archive, with the digest of the run that it belongs to. */
     Archive(const MPI_Comm     comm,
             const std::string &file_name,
             const std::string &run);
 
-    /** A new one without a file, read by the ranks that write it. */
+    /** A new archive without a file, read by the ranks that write it. */
     explicit Archive(const MPI_Comm comm);
 
     /**
-     * @return one to be read, or nothing
-     * @param why_not is set to what is wrong with the file
+     * @return an archive to be read, or null
+     * @param why_not is set to the fault of the file
      */
     static std::unique_ptr<Archive>
     open(const MPI_Comm     comm,
@@ -44,11 +45,11 @@ namespace geocone
          const std::string &run,
          std::string       &why_not);
 
-    /** The arrays of all ranks, one after another. */
+    /** Writes the concatenated arrays of all ranks. */
     void
     write(const std::string &name, const std::vector<double> &of_this_rank);
 
-    /** Variables that all ranks have alike. */
+    /** Writes variables that are equal on all ranks. */
     void
     write_row(const std::string &name, const StateRow &row);
 
@@ -59,16 +60,17 @@ namespace geocone
     bool
     has(const std::string &name) const;
 
-    /** An array of all ranks, on each of them. */
+    /** The concatenated array of all ranks, on each of them. */
     std::vector<double>
     read(const std::string &name) const;
 
-    /** What this rank has written, or about as many of the array, in whole
-     *  records of @p size numbers, where the number of ranks has changed. */
+    /** The entries that this rank has written. If the number of ranks has
+     *  changed, an equal share of the array instead, in complete records of
+     *  @p size numbers. */
     std::vector<double>
     read_part(const std::string &name, const std::size_t size) const;
 
-    /** The number of ranks that have written an array. */
+    /** Number of ranks that have written an array. */
     unsigned int
     n_ranks_of(const std::string &name) const;
 
@@ -86,10 +88,10 @@ namespace geocone
     std::string       names;
     unsigned long     checksum = 0;
 
-    /** On the first rank, or on all where it is read. */
+    /** On the first rank only, or on all ranks while reading. */
     std::unique_ptr<Hdf5File> file;
 
-    /** The arrays, where there is no file. */
+    /** The arrays of an archive without a file. */
     std::map<std::string, std::vector<double>> arrays;
   };
 } // namespace geocone

@@ -13,9 +13,9 @@
 namespace geocone
 {
   /**
-   * A parameter that is one of some words, each for a value of an enumeration, or a
-   * pointer to what is meant. The list of the words begins its documentation, and
-   * another word is refused.
+   * A parameter with a list of admissible words, each of which stands for a
+   * value of an enumeration or for a pointer. The list of words begins the
+   * documentation of the parameter; any other word is rejected.
    */
   template <typename Enum>
   class Choice
@@ -47,7 +47,7 @@ namespace geocone
       return *this;
     }
 
-    /** Takes one of the words. */
+    /** Sets the value by its word. */
     void
     set(const std::string &given)
     {
@@ -56,7 +56,7 @@ namespace geocone
           value = meant;
     }
 
-    /** What the file calls it. */
+    /** Word of the present value in the parameter file. */
     std::string
     word() const
     {
@@ -66,7 +66,7 @@ namespace geocone
       return "";
     }
 
-    /** Declares it in the section of an acceptor. */
+    /** Declares the parameter in the section of an acceptor. */
     void
     declare(dealii::ParameterAcceptor &acceptor,
             const std::string         &entry,

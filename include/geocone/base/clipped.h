@@ -10,7 +10,7 @@
 
 namespace geocone
 {
-  /** What of a convex polygon is where (x - on) into >= 0. */
+  /** The part of a convex polygon in the half-plane (x - on) into >= 0. */
   template <int n>
   std::vector<dealii::Point<n>>
   clipped(const std::vector<dealii::Point<n>> &polygon,

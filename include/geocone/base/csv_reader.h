@@ -11,9 +11,10 @@
 namespace geocone
 {
   /**
-   * A table in a .csv file whose first line names its columns, read row by row. It may
-   * begin with a byte-order mark, have lines that end by CR LF, values in quotes, spaces
-   * around them, and blank lines at its end. Errors are RunErrors that name the line.
+   * Row-by-row reader of a .csv file whose first line holds the names of the
+   * columns. Byte-order marks, CR LF line ends, quoted values, spaces around
+   * values and blank lines at the end are accepted. Errors are RunErrors that
+   * name the line.
    */
   class CsvReader
   {
@@ -27,17 +28,19 @@ namespace geocone
       return columns;
     }
 
-    /** @return whether there is another row, of as many values as there are columns */
+    /** @return whether there is another row, with as many values as columns */
     bool
     next_row(std::vector<std::string> &values);
 
-    /** The value of a column as a number. @param otherwise said of what is none */
+    /** Value of a column as a number. @param otherwise error text for
+     *  non-numbers */
     double
     number(const std::vector<std::string> &values,
            const std::size_t               column,
            const char                     *otherwise = "is not a number") const;
 
-    /** @name Of the last line, for messages: "line 3", "line 3, column 'x'" */
+    /** @name Position of the last line, for messages: "line 3", "line 3, column
+     *  'x'" */
     /** @{ */
     std::string
     place() const;

@@ -10,8 +10,8 @@
 
 namespace geocone
 {
-  /** The parameters that objects have declared to dealii::ParameterAcceptor: what a
-   *  file may set. A section of them. */
+  /** A section of the parameters that objects have declared to
+   *  dealii::ParameterAcceptor, and that a file can set. */
   struct Declared
   {
     struct Entry
@@ -36,7 +36,7 @@ namespace geocone
     }
   };
 
-  /** All of them, with their present values. */
+  /** All declared parameters, with their present values. */
   Declared
   all_declared();
 
@@ -46,7 +46,7 @@ namespace geocone
           const Declared    &section,
           const std::string &indent = "");
 
-  /** The names in a map. */
+  /** Keys of a map. */
   template <typename T>
   std::vector<std::string>
   keys(const std::map<std::string, T> &map)
@@ -57,14 +57,15 @@ namespace geocone
     return all;
   }
 
-  /** SECTION/SUBSECTION/NAME. */
+  /** Path of a parameter: SECTION/SUBSECTION/NAME. */
   std::string
   joined(const std::vector<std::string> &sections, const std::string &name);
 
   /**
-   * Gives a declared parameter its value.
+   * Sets the value of a declared parameter.
    * @param place where it is set, for messages
-   * @throws InputError if it does not fit, with what is allowed
+   * @throws InputError if the value is not admissible, with the admissible
+   * values
    */
   void
   set_value(const std::vector<std::string> &sections,

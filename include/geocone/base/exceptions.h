@@ -11,8 +11,8 @@
 
 namespace geocone
 {
-  /** A text from outside as it may be shown: control characters as \xNN, and no
-   *  more than 200 of its bytes. */
+  /** External text in printable form: control characters as \xNN, at most 200
+   *  of its bytes. */
   inline std::string
   printable(const std::string &text)
   {
@@ -27,7 +27,7 @@ namespace geocone
     return text.size() > 200 ? shown + "..." : shown;
   }
 
-  /** What an error says; of memory that is not there, with a remedy. */
+  /** Message of an exception; for `bad_alloc`, with a remedy. */
   inline std::string
   text_of(const std::exception &error)
   {
@@ -38,9 +38,9 @@ namespace geocone
   }
 
   /**
-   * Wrong input, found before anything is computed or written. The text names
-   * the parameter (with its sections), the value, what is allowed, and how to
-   * mend it. The programs print it and end with exit code 1.
+   * Invalid input, detected before anything is computed or written. The text
+   * names the parameter (with its sections), the value, the admissible values
+   * and the remedy. The programs print it and exit with code 1.
    */
   class InputError : public std::runtime_error
   {
@@ -76,9 +76,9 @@ namespace geocone
   };
 
   /**
-   * A computation that cannot go on: steps that fail at the smallest step
-   * size, a file that cannot be written, a value that is not a number.
-   * Results written before stay as they are.
+   * A computation that cannot continue, e.g. because steps fail at the smallest
+   * step size, a file cannot be written or a value is not a number. Results
+   * written before are kept.
    */
   class RunError : public std::runtime_error
   {
@@ -86,7 +86,8 @@ namespace geocone
     using std::runtime_error::runtime_error;
   };
 
-  /** A RunError that all ranks find together, so that they can end together. */
+  /** A RunError detected by all ranks together, so that they terminate
+   *  together. */
   class StepFailure : public RunError
   {
   public:

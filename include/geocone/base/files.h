@@ -15,22 +15,22 @@
 
 namespace geocone
 {
-  /** Name of the list of the files that a run has written into its folder. */
+  /** Name of the list of files that a run has written into its folder. */
   constexpr const char *list_of_files = "files.txt";
 
   /**
-   * Names the folder of the run. From then on each file that the functions below
-   * put into it is entered in its list (list_of_files), a name per line, before
-   * the file is there: a later run may delete what stands in that list, and
-   * nothing else.
+   * Sets the folder of the run. From then on each file that the functions below
+   * create in it is first entered in its list (list_of_files), one name per
+   * line. A later run may delete the files in that list, and no others.
    */
   void
   keep_list_of_files(const std::string &folder);
 
   /**
-   * Enters a file in the list of its folder, if that is the run's.
-   * @return whether it stood there before
-   * @throws RunError if it is a symbolic link, or there already and not in the list
+   * Enters a file of the run's folder in the list; ignores other files.
+   * @return whether it was in the list before
+   * @throws RunError for a symbolic link, or an existing file that is not in
+   * the list
    */
   bool
   enter_in_list(const std::string &file_name);
@@ -39,53 +39,53 @@ namespace geocone
   bool
   is_in_list(const std::string &name);
 
-  /** Waits until a file, or the names in a folder, are on the disk (fsync).
+  /** Waits until a file, or the entries of a folder, are on disk (fsync).
    *  @throws RunError */
   void
   sync_to_disk(const std::string &path);
 
   /**
-   * Writes a file whole: into a temporary name first, renamed when it is
-   * complete, so that a reader never sees a part of it. Nothing is written through
-   * a symbolic link.
-   * @param is_durable whether it must outlast a power cut: it is on the disk
-   * before it gets its name, and so is that when this returns
-   * @throws RunError naming the file and the cause if it cannot be written
+   * Writes a file atomically: under a temporary name, renamed when it is
+   * complete, so that readers never see a part of it. Symbolic links are not
+   * followed.
+   * @param is_durable whether it must survive a power failure: its content is
+   * on disk before it is renamed, and its name before this function returns
+   * @throws RunError with the file and the cause if it cannot be written
    */
   void
   write_file(const std::string                         &file_name,
              const std::function<void(std::ostream &)> &write,
              const bool                                 is_durable = false);
 
-  /** The text of the cause @p error (errno; 0: unknown) of a failed writing,
-   *  with the remedy. */
+  /** Text for the cause @p error (errno; 0: unknown) of a write error, with the
+   *  remedy. */
   std::string
   cause_and_remedy(const int error);
 
   /**
-   * A table of comma-separated values that grows by whole lines; each line is
-   * on the disk when add_line() returns. Column names carry their unit; those
-   * with a comma, a quote or a line break are quoted (RFC 4180).
+   * A table of comma-separated values that grows line by line; each line is on
+   * disk when add_line() returns. Column names carry their unit; those with a
+   * comma, a quote or a line break are quoted (RFC 4180).
    */
   class CsvFile
   {
   public:
     CsvFile() = default;
-    /** Begins the table; one that @p goes_on is that of an earlier process, with
-     *  the same columns, and begins where state() says. */
+    /** Opens the table. With @p goes_on it continues the table of an earlier
+     *  process with the same columns, from the position restored by state(). */
     void
     open(const std::string              &file_name,
          const std::vector<std::string> &columns,
          const bool                      goes_on = false);
 
-    /** Where the table ends, for a checkpoint, before which it is on the disk; what
-     *  stands behind that is cut off when it is read.
+    /** End of the table, for checkpoints. Writing synchronises the table to
+     *  disk first; reading truncates it to the stored length.
      *  @throws RunError if the table is shorter */
     void
     state(StateRow &row);
 
-    /** @throws RunError if the line cannot be written: what was written of it
-     *  is taken back. */
+    /** @throws RunError if the line cannot be written; a partly written line is
+     *  removed. */
     void
     add_line(const std::vector<double> &values);
 
@@ -96,12 +96,12 @@ namespace geocone
     std::string    name;
     std::ofstream  file;
     std::size_t    n_columns = 0;
-    std::uintmax_t size      = 0; ///< of the whole lines (bytes)
+    std::uintmax_t size      = 0; ///< of the complete lines (bytes)
   };
 
   /**
-   * The path of a file whose name is relative to the folder of the parameter
-   * file, or else to that of the call.
+   * Path of a file given relative to the folder of the parameter file or,
+   * failing that, to the working directory.
    * @throws InputError if there is no such file
    */
   std::string

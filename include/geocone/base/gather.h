@@ -13,8 +13,8 @@
 namespace geocone
 {
   /**
-   * The arrays of all ranks one after another, on the first one; nothing on the
-   * others. Collective. Only the first rank has more than its own part in memory.
+   * Concatenates the arrays of all ranks on the first one; empty on the others.
+   * Collective. Only the first rank stores more than its own part.
    */
   template <typename T>
   std::vector<T>

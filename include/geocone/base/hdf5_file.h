@@ -11,18 +11,17 @@
 namespace geocone
 {
   /**
-   * An HDF5 file of named arrays, of one process.
+   * An HDF5 file of named arrays, of a single process.
    *
-   * A new one is built in memory, and close() writes it whole (write_file()):
-   * the library never has a file of the disk open for writing, which it could not
-   * close where the disk is full. Needs twice the size of the file.
+   * A new file is built in memory and written in one piece by close()
+   * (write_file()): the library could not close a file on a full disk. This
+   * needs twice the size of the file.
    *
-   * One that is read may come from anywhere. Arrays are read only if they are
-   * plain: in the file itself, without filters that the library would load from
-   * elsewhere, and no larger than the file and the memory allow.
+   * Files to be read are not trusted. Arrays are read only if they are stored
+   * in the file itself, without filters that the library would have to load,
+   * and are no larger than the file and the memory allow.
    *
-   * @throws RunError naming the file where it cannot be written, or what is wrong
-   * in it
+   * @throws RunError with the file if it cannot be written, or with its fault
    */
   class Hdf5File
   {
@@ -39,7 +38,7 @@ namespace geocone
     Hdf5File &
     operator=(const Hdf5File &) = delete;
 
-    /** @name Arrays with one dimension, compressed */
+    /** @name One-dimensional arrays, compressed */
     /** @{ */
     void
     write(const std::string &name, const std::vector<double> &values);
@@ -53,11 +52,11 @@ namespace geocone
     write(const std::string &name, const std::string &text);
     /** @} */
 
-    /** An array with one dimension, not compressed: fast. */
+    /** Writes a one-dimensional array uncompressed, for speed. */
     void
     write_plain(const std::string &name, const std::vector<double> &values);
 
-    /** @name Tables with the rows one after another, not compressed */
+    /** @name Tables in row-major order, uncompressed */
     /** @{ */
     void
     write_table(const std::string         &name,
@@ -69,7 +68,7 @@ namespace geocone
                 const unsigned int               n_columns);
     /** @} */
 
-    /** Rows of a table in a file beside this one. */
+    /** Rows of a table in another file of the same folder. */
     struct Part
     {
       std::string file, name;
@@ -77,10 +76,11 @@ namespace geocone
     };
 
     /**
-     * An array whose rows stand, part after part, in tables of other files: this one
-     * only names them (HDF5's virtual datasets). It has @p n_columns, of which those
-     * that the parts lack are 0; or, for 0, one dimension, with their rows one after
-     * another. @tparam T of the numbers that readers get: double or long long
+     * Joins the rows of tables in other files to one array, part after part.
+     * The array refers to them only (an HDF5 virtual dataset). It has
+     * @p n_columns columns (0 in those that a part does not have) or, for
+     * @p n_columns = 0, is one-dimensional, with the rows concatenated.
+     * @tparam T number type of readers: double or long long
      */
     template <typename T>
     void
@@ -89,7 +89,7 @@ namespace geocone
                  const unsigned int       n_columns_of_parts,
                  const unsigned int       n_columns);
 
-    /** @name Attributes of a group, which is made if it is not there */
+    /** @name Attributes of a group, created if it does not exist */
     /** @{ */
     void
     write_attribute(const std::string            &group,
@@ -105,15 +105,15 @@ namespace geocone
     void
     close(const bool is_durable = false);
 
-    /** Whether there is anything of this name. */
+    /** Whether an object of this name exists. */
     bool
     has(const std::string &name) const;
 
-    /** Entries of an array with one dimension. */
+    /** Number of entries of a one-dimensional array. */
     std::size_t
     length(const std::string &name) const;
 
-    /** @name Arrays with one dimension */
+    /** @name One-dimensional arrays */
     /** @{ */
     std::vector<double>
     read_doubles(const std::string &name) const;
@@ -135,7 +135,7 @@ namespace geocone
                 const std::size_t  n,
                 const std::size_t  n_columns,
                 const bool         compressed = true);
-    /** Makes an array, with all groups on the way to it. */
+    /** Creates an array, with all groups on its path. */
     long long
     create_array(const std::string &name,
                  const long long    type,
@@ -152,7 +152,8 @@ namespace geocone
     std::vector<T>
     read_array(const std::string &name) const;
 
-    /** Opens an array that is plain; @p size: its entries. */
+    /** Opens an array after the checks above; @p size: number of its
+     *  entries. */
     long long
     open_array(const std::string &name,
                const bool         of_integers,
@@ -163,7 +164,7 @@ namespace geocone
 
     const std::string file_name;
     const bool        creates;
-    std::size_t       file_size = 0;  ///< of a file that is read (bytes)
+    std::size_t       file_size = 0;  ///< of a file to be read (bytes)
     long long         id        = -1; ///< of the HDF5 library, < 0 if closed
   };
 } // namespace geocone

@@ -6,7 +6,8 @@
 
 namespace geocone
 {
-  /** No quantity of a file in SI units is larger; squares of it are still numbers. */
+  /** Largest magnitude of an input quantity in SI units; its square is still
+   *  finite. */
   constexpr double largest_quantity = 1e30;
 } // namespace geocone
 

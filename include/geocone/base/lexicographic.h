@@ -11,10 +11,11 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** What is counted along each direction of a grid, the first one running fastest. */
+  /** Index, or number of entries, along each direction of a grid; the first
+   *  direction runs fastest. */
   using GridIndex = std::array<unsigned int, dim>;
 
-  /** As many along each direction. */
+  /** The same number of entries along each direction. */
   inline GridIndex
   equal_sizes(const unsigned int n)
   {
@@ -23,7 +24,7 @@ namespace geocone::GEOCONE_DIM
     return sizes;
   }
 
-  /** The index of what has this number in a grid of such sizes. */
+  /** Grid index of a lexicographic number, for given grid sizes. */
   inline GridIndex
   index_in_grid(std::size_t number, const GridIndex &sizes)
   {
@@ -36,7 +37,7 @@ namespace geocone::GEOCONE_DIM
     return index;
   }
 
-  /** The inverse. */
+  /** Lexicographic number of a grid index, the inverse of index_in_grid(). */
   inline std::size_t
   number_in_grid(const GridIndex &index, const GridIndex &sizes)
   {
@@ -46,7 +47,7 @@ namespace geocone::GEOCONE_DIM
     return number;
   }
 
-  /** How many there are in a grid of such sizes. */
+  /** Number of entries of a grid of given sizes. */
   inline std::size_t
   grid_volume(const GridIndex &sizes)
   {

@@ -14,9 +14,9 @@
 namespace geocone
 {
   /**
-   * What a run says: on the screen (unless quiet) and in the file log.txt of its
-   * folder. Rank 0 speaks for all. Progress is one line that is overwritten
-   * where the screen is a terminal, and a plain line elsewhere.
+   * Messages of a run: on the screen (unless quiet) and in the file log.txt of
+   * its folder, from rank 0 only. On a terminal, progress is one line that is
+   * overwritten; elsewhere, plain lines.
    */
   class Log
   {
@@ -24,23 +24,23 @@ namespace geocone
     Log(const MPI_Comm comm, const bool quiet);
     ~Log();
 
-    /** Starts to copy everything into @p file_name, what was said included;
-     *  behind what is there if it @p goes_on. */
+    /** Starts to copy all messages, including earlier ones, to @p file_name;
+     *  appends to it if @p goes_on. */
     void
     open(const std::string &file_name, const bool goes_on = false);
 
-    /** Of an earlier process of the same run: they count, too. */
+    /** Includes the warnings of an earlier process of the same run. */
     void
     add_earlier_warnings(const std::vector<std::string> &earlier)
     {
       all_warnings.insert(all_warnings.begin(), earlier.begin(), earlier.end());
     }
 
-    /** One or several complete lines. */
+    /** Prints one or several complete lines. */
     void
     print(const std::string &text);
 
-    /** A warning: also shown on the error stream of a quiet run. */
+    /** Prints a warning, in quiet runs on the error stream. */
     void
     warn(const std::string &text);
 
@@ -51,7 +51,8 @@ namespace geocone
       return all_warnings;
     }
 
-    /** A line of progress, which the next one overwrites on a terminal. */
+    /** Prints a line of progress, which the next one overwrites on a
+     *  terminal. */
     void
     progress(const std::string &text);
 
@@ -73,7 +74,7 @@ namespace geocone
   std::string
   format(const char *pattern, ...) __attribute__((format(printf, 1, 2)));
 
-  /** The text of the lowest rank that has one, or nothing. Collective. */
+  /** The text of the lowest rank with a non-empty one, or empty. Collective. */
   std::string
   text_of_any_rank(const MPI_Comm comm, const std::string &text);
 } // namespace geocone

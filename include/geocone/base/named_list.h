@@ -16,14 +16,14 @@
 namespace geocone
 {
   /**
-   * The members of a section that a list in it names, "SECTION/Names = a, b". Each
-   * has a subsection of its name, which it declares.
+   * Named members of a section, "SECTION/Names = a, b". Each declares a
+   * subsection of its own name.
    */
   template <typename Member>
   class NamedList : public dealii::ParameterAcceptor
   {
   public:
-    /** In the order of their names. */
+    /** In the order of their names in the file. */
     std::vector<std::unique_ptr<Member>> list;
 
     const std::vector<std::string> &
@@ -32,7 +32,7 @@ namespace geocone
       return all_names;
     }
 
-    /** Prepares all. */
+    /** Prepares all members. */
     void
     prepare()
     {
@@ -40,7 +40,8 @@ namespace geocone
         member->prepare();
     }
 
-    /** @throws InputError if there are any. @param what does not take them */
+    /** @throws InputError if the list is not empty. @param what does not
+     *  support it */
     void
     refuse(const std::string &what, const std::string &remedy) const
     {
@@ -53,7 +54,7 @@ namespace geocone
 
   protected:
     /** Declares the list @p entry.
-     *  @param otherwise the names where the file has no list */
+     *  @param otherwise the names if the file has no list */
     NamedList(const ParameterFile &file,
               const std::string   &section,
               const std::string   &documentation,
@@ -66,7 +67,7 @@ namespace geocone
       add_parameter(entry, all_names, documentation);
     }
 
-    /** Makes the members, each of its name and @p arguments. */
+    /** Creates the members, each from its name and @p arguments. */
     template <typename... Arguments>
     void
     make(const Arguments &...arguments)
@@ -75,7 +76,7 @@ namespace geocone
         list.push_back(std::make_unique<Member>(name, arguments...));
     }
 
-    /** @throws InputError if there are none. @param example of a name */
+    /** @throws InputError if the list is empty. @param example of a name */
     void
     require_one(const std::string &example) const
     {
@@ -86,7 +87,7 @@ namespace geocone
                          "set " + entry + " = " + example);
     }
 
-    /** The full name of the list. */
+    /** Full parameter name of the list. */
     std::string
     parameter() const
     {

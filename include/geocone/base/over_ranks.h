@@ -15,8 +15,8 @@
 
 namespace geocone
 {
-  /** Sums an array of numbers (std::array, std::vector, a matrix of Eigen's), of the
-   *  same size on all ranks, over them, in place. Collective. */
+  /** Sums an array (std::array, std::vector, an Eigen matrix), of the same size
+   *  on all ranks, over the ranks, in place. Collective. */
   template <typename Array>
   void
   sum_over_ranks(Array &x, const MPI_Comm comm)
@@ -29,8 +29,7 @@ namespace geocone
         dealii::ArrayView<Number>(x.data(), x.size()));
   }
 
-  /** What the fullest rank has over the mean of all, 1 where there is nothing.
-   *  Collective. */
+  /** Load imbalance: maximum over mean, 1 if there is no load. Collective. */
   inline double
   imbalance(const double of_this_rank, const MPI_Comm comm)
   {
@@ -41,8 +40,8 @@ namespace geocone
              : 1.;
   }
 
-  /** Sums all that the classes of a list name in their function state(), of as many on
-   *  all ranks, in place. Collective. */
+  /** Sums the variables in state() of all members of a list over the ranks, in
+   *  place. Their number must be equal on all ranks. Collective. */
   template <typename Class>
   void
   sum_states_over_ranks(std::vector<Class> &list, const MPI_Comm comm)

@@ -15,13 +15,14 @@
 namespace geocone
 {
   /**
-   * The text of a parameter file, with its `include` lines expanded (relative
-   * to the file that has them) and the overrides of the command line appended.
+   * Text of a parameter file, with its `include` lines expanded (relative to
+   * the file that contains them) and the overrides of the command line
+   * appended.
    *
-   * Lists of named objects (materials, boundary conditions, stages) are sections
-   * whose names stand in the file: named_sections() reads those names before
-   * anything is declared, so that each object can declare its own section;
-   * parse() then reads everything, strictly.
+   * Lists of named objects (materials, boundary conditions, stages) are
+   * sections whose names the file itself lists: named_sections() reads those
+   * names before anything is declared, so that each object can declare its own
+   * section; parse() then reads all parameters, strictly.
    *
    * A parameter file is data: only regular files of at most 16 MB are read, and
    * nothing in them is executed.
@@ -29,17 +30,17 @@ namespace geocone
   class ParameterFile
   {
   public:
-    /** Names of parameters that another kind of object would have, with what has
-     *  them, by the section of the list, e.g. "Materials". */
+    /** Parameters of other kinds of objects, with the name of that kind, by the
+     *  section of the list, e.g. "Materials". */
     using OfOthers = std::map<std::string, std::map<std::string, std::string>>;
 
-    /** A parameter that is set, by its last line. */
+    /** A parameter that the file sets, by its last line. */
     struct Setting
     {
       std::string path;  ///< "Section/Subsection/Name"
       std::string value; ///< as text
       std::string default_value;
-      std::string of_other; ///< what would have used it, if nothing here does
+      std::string of_other; ///< kind of object that would use it
     };
 
     /** An empty file: all parameters keep their defaults. */
@@ -48,18 +49,18 @@ namespace geocone
     /**
      * @param file_name the parameter file
      * @param overrides texts of the form "Section/Subsection/Name = value"
-     * @param original the file that it stands for: names of files in it count
-     * from there; empty: itself
-     * @throws InputError if a file is missing or no text, a section does not end,
-     * or an override is malformed
+     * @param original the file that it replaces, from which file names in it
+     * are resolved; empty: itself
+     * @throws InputError if a file is missing or not a text file, a section is
+     * not closed, or an override is malformed
      */
     ParameterFile(const std::string              &file_name,
                   const std::vector<std::string> &overrides,
                   const std::string              &original = "");
 
     /**
-     * The same from a text, which includes nothing; @p name is what errors call
-     * it.
+     * A parameter file from a text, without includes; @p name is used in error
+     * messages.
      */
     static ParameterFile
     from_text(const std::string              &text,
@@ -71,12 +72,12 @@ namespace geocone
     peek(const std::string &path, const std::string &default_value) const;
 
     /**
-     * The names in the list SECTION/LIST, each of which has a subsection of
-     * SECTION. A subsection that has been in the list by an earlier line (of an
-     * included file) and is not any more has been taken out: it is not read.
-     * @throws InputError if a name stands there twice, cannot be the name of a
-     * section or has none (where the list is given), or a subsection has never
-     * been in the list
+     * Names in the list SECTION/LIST, each of which has a subsection of
+     * SECTION. A subsection is skipped if an earlier line (of an included file)
+     * listed it and the last line does not.
+     * @throws InputError if a name occurs twice, is not admissible as a section
+     * name or (where the list is given) has no section, or if a subsection was
+     * never listed
      */
     std::vector<std::string>
     named_sections(const std::string &section,
@@ -84,17 +85,17 @@ namespace geocone
                    const std::string &default_value) const;
 
     /**
-     * Gives every declared parameter of dealii::ParameterAcceptor its value.
-     * @param of_others parameters that are known, but to other kinds of objects
-     * than the file asks for: they are left out
-     * @return all parameters that are set, with those left out
+     * Sets every declared parameter of dealii::ParameterAcceptor.
+     * @param of_others known parameters of other kinds of objects than those in
+     * the file; they are skipped
+     * @return all parameters that are set, including the skipped ones
      * @throws InputError on unknown sections and entries (with the nearest
-     * known name) and on values that do not fit
+     * known name) and on inadmissible values
      */
     std::vector<Setting>
     parse(const OfOthers &of_others = {}) const;
 
-    /** The absolute name of the file, and its name without folder and ending. */
+    /** Absolute path of the file, and its name without folder and extension. */
     const std::string &
     path() const
     {
@@ -103,14 +104,14 @@ namespace geocone
     std::string
     name() const;
 
-    /** The folder that the file lies in; empty: that of the call. */
+    /** Folder of the file; empty: the working directory. */
     const std::string &
     folder() const
     {
       return folder_of_file;
     }
 
-    /** The present value of a declared parameter, after parse(). */
+    /** Present value of a declared parameter, after parse(). */
     static std::string
     value(const std::string &path);
 
@@ -129,7 +130,7 @@ namespace geocone
       std::string file;
       int         number;
 
-      /** Where it stands, for messages. */
+      /** File and line, for messages. */
       std::string
       place() const;
     };
@@ -147,30 +148,30 @@ namespace geocone
          const std::string &shown_name,
          const int          depth);
 
-    /** Appends the lines of a stream. @param depth of includes; -1: they are
-     *  refused */
+    /** Appends the lines of a stream. @param depth of includes; -1: includes
+     *  are rejected */
     void
     read_lines(std::istream      &in,
                const std::string &file_name,
                const std::string &shown_name,
                const int          depth);
 
-    /** The place of the sign behind the name of an override's parameter: names of sections
-     *  may have equals signs, too. */
+    /** Position of the equals sign after the parameter name of an override;
+     *  section names can contain equals signs as well. */
     std::size_t
     equals_sign(const std::string &override_text) const;
 
-    /** Adds overrides of the command line. */
+    /** Appends overrides of the command line. */
     void
     append(const std::vector<std::string> &overrides);
 
-    /** The lines that set parameters, without those of subsections that have been
-     *  taken out of their lists. @throws InputError for other lines and unknown
-     *  sections, if @p checks */
+    /** The lines that set parameters, without those of subsections removed from
+     *  their lists. @throws InputError for other lines and unknown sections, if
+     *  @p checks */
     std::vector<SetLine>
     set_lines(const bool checks) const;
 
-    /** The subsections of a section, and the first lines of each. */
+    /** The subsections of a section, with the first line of each. */
     std::map<std::string, const Line *>
     subsections_of(const std::string &section) const;
 
@@ -180,13 +181,11 @@ namespace geocone
     unsigned int      n_files          = 0;
     bool              has_strict_lists = true;
 
-    /** Of each section with a list, the names in it. */
+    /** Names in the list of each section that has one. */
     mutable std::map<std::string, std::vector<std::string>> lists;
   };
 
-  /**
-   * Splits "a, b, c" into its trimmed parts, without the empty ones.
-   */
+  /** Splits "a, b, c" into its trimmed, non-empty parts. */
   std::vector<std::string>
   split_names(const std::string &list, const char separator = ',');
 } // namespace geocone

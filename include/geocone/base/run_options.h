@@ -8,17 +8,17 @@
 
 namespace geocone
 {
-  /** What the command line says of a run beyond its parameters. */
+  /** Options of a run from the command line, besides its parameters. */
   struct RunOptions
   {
-    std::string name;           ///< of the parameter file, without its ending
+    std::string name;           ///< of the parameter file, no extension
     std::string parameter_file; ///< its absolute name
     std::string folder; ///< of the results; empty: that of the parameters
     bool        dry_run  = false; ///< check and estimate only
-    bool        picture  = false; ///< of a dry run: describe the model to those who draw
-    bool        force    = false; ///< run what is too large for the machine
-    bool        resumes  = false; ///< go on with the run in the folder
-    bool may_run_scripts = false; ///< gmsh scripts, which can run commands
+    bool        picture  = false; ///< of a dry run: write the model for drawing
+    bool        force    = false; ///< run even if too large for the machine
+    bool        resumes  = false; ///< resume the run in the folder
+    bool may_run_scripts = false; ///< gmsh scripts, which can execute commands
   };
 } // namespace geocone
 

@@ -8,7 +8,7 @@
 
 namespace geocone
 {
-  /** What every machine of this kind has. */
+  /** Baseline instruction set. */
 #if XSIMD_WITH_SSE2
   using BaselineArch = xsimd::sse2;
 #else
@@ -16,10 +16,10 @@ namespace geocone
 #endif
 
   /**
-   * Four doubles, in one register where the architecture has registers of four,
-   * and else in two of two. Kernels written with it are compiled once for each
-   * architecture: as templates over @p Arch, so that no function of one can be
-   * taken for that of the other.
+   * Four doubles, in one register if the architecture has registers of four,
+   * otherwise in two of two. Kernels written with it are compiled once for each
+   * architecture, as templates over @p Arch, so that the linker cannot replace
+   * a function of one by that of another.
    */
   template <typename Arch>
   class Pack
@@ -117,7 +117,7 @@ namespace geocone
     GEOCONE_PACK_FUNCTION(acos)
 #undef GEOCONE_PACK_FUNCTION
 
-    /** a > b ? yes : no, in each place. */
+    /** a > b ? yes : no, component by component. */
     friend Pack
     where_greater(const Pack &a, const Pack &b, const Pack &yes, const Pack &no)
     {
@@ -128,7 +128,7 @@ namespace geocone
       return p;
     }
 
-    /** Whether lower <= a <= upper in all places. */
+    /** Whether lower <= a <= upper in all components. */
     friend bool
     all_between(const Pack &a, const Pack &lower, const Pack &upper)
     {
@@ -139,9 +139,7 @@ namespace geocone
       return all;
     }
 
-    /**
-     * The whole parts of values from 0 to 2^31 - 1, also as integers.
-     */
+    /** Integer parts of values from 0 to 2^31 - 1, also as integers. */
     friend Pack
     whole_part(const Pack &a, int *integers)
     {
@@ -189,7 +187,7 @@ namespace geocone
     }
   };
 
-  /** The 4 x 4 matrix with rows a, b, c, d, transposed in place. */
+  /** Transposes the 4 x 4 matrix with rows a, b, c, d in place. */
   template <typename Arch>
   inline void
   transpose(Pack<Arch> &a, Pack<Arch> &b, Pack<Arch> &c, Pack<Arch> &d)

@@ -7,7 +7,7 @@
 namespace geocone
 {
   /**
-   * Whether kernels may use AVX2 and FMA: the machine has them, and the
+   * Whether kernels can use AVX2 and FMA: the machine has them and the
    * environment variable GEOCONE_SIMD is not "baseline" (for comparisons).
    */
   bool

@@ -11,20 +11,21 @@
 namespace geocone
 {
   /**
-   * A square matrix as a sum over ranks: each rank stores, in compressed rows of
-   * its own local numbering, what its cells contribute; entries that several
-   * ranks hold add up. Direct solvers of distributed matrices take this form as
-   * it is, so that assembly needs no communication. On one rank it is the plain
+   * A square matrix as a sum over ranks: each rank stores the contributions of
+   * its cells in compressed rows of its own local numbering; entries held by
+   * several ranks are added. Distributed direct solvers accept this form, so
+   * that assembly needs no communication. On one rank it is the usual
    * compressed-row matrix.
    *
-   * Local rows: those that the rank owns come first, with consecutive global
+   * Local rows: those owned by the rank come first, with consecutive global
    * numbers.
    */
   struct SparseMatrix
   {
     MPI_Comm comm = MPI_COMM_SELF;
 
-    /** Whether only the entries with column <= row (local numbers) are stored. */
+    /** Whether only the entries with column <= row (local numbers) are
+     *  stored. */
     bool symmetric = false;
 
     int n_global = 0; ///< rows of the whole matrix
@@ -44,11 +45,11 @@ namespace geocone
       return row_start.size() - 1;
     }
 
-    /** Place of an entry of the pattern in `column` and `value`. */
+    /** Position of an entry of the pattern in `column` and `value`. */
     int
     entry(const int row, const int col) const;
 
-    /** Bytes of the arrays. */
+    /** Size of the arrays (bytes). */
     std::size_t
     memory() const;
   };

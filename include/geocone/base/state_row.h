@@ -15,21 +15,21 @@
 namespace geocone
 {
   /**
-   * Variables as a row of numbers for a checkpoint. The same list of variables
-   * writes a row and reads it again, so that each is named once:
+   * Variables as a row of numbers for a checkpoint. One list of variables
+   * serves for writing and reading, so that each is named once:
    *   void state(StateRow &row) { row(time, step, records); }
-   * Numbers that are exact as doubles, texts, arrays, vectors and tensors of them,
-   * and classes with a function state(StateRow &).
+   * Supported are numbers that a double represents exactly, texts, arrays,
+   * vectors and tensors of them, and classes with a function state(StateRow &).
    */
   class StateRow
   {
   public:
-    /** To be written. */
+    /** A row to be written. */
     StateRow()
       : reads(false)
     {}
 
-    /** To be read. */
+    /** A row to be read. */
     explicit StateRow(std::vector<double> values)
       : reads(true)
       , row(std::move(values))
@@ -47,7 +47,7 @@ namespace geocone
       return row;
     }
 
-    /** Whether all that was written has been read. */
+    /** Whether the row has been read completely. */
     bool
     at_end() const
     {
@@ -73,7 +73,7 @@ namespace geocone
     struct IsClass<T, std::void_t<HasState<T>>> : std::true_type
     {};
 
-    /** Of a tensor or a point, or of a Mandel vector. */
+    /** Number of components of a tensor, a point or a Mandel vector. */
     template <typename T>
     static constexpr auto
     n_components() -> decltype(int(T::dimension))

@@ -10,7 +10,7 @@
 
 namespace geocone
 {
-  /** The end that a signal has asked for; all ranks find it together. */
+  /** Termination requested by a signal, detected by all ranks together. */
   class Stopped : public RunError
   {
   public:
@@ -20,10 +20,11 @@ namespace geocone
   };
 
   /**
-   * From now on SIGINT (Ctrl-C), SIGTERM and SIGHUP (the terminal has gone; not under
-   * nohup) ask the run to stop, which it does at the next place where its state is whole; a second one ends the program at
-   * once. Writing beyond a limit (SIGXFSZ) or into a closed pipe (SIGPIPE) is an
-   * error of that writing and no end.
+   * Installs the signal handlers. SIGINT (Ctrl-C), SIGTERM and SIGHUP (terminal
+   * closed; not under nohup) then ask the run to stop as soon as its state is
+   * consistent; a second signal terminates the program at once. Writing beyond
+   * a limit (SIGXFSZ) or into a closed pipe (SIGPIPE) is a write error, not a
+   * termination.
    */
   void
   watch_for_signals();
@@ -45,9 +46,9 @@ namespace geocone
   say_error(const std::string &what);
 
   /**
-   * Prints an error that one of several ranks has found alone, and ends all of
-   * them: the others wait for it, and would do so for ever, as would this one in
-   * the destructors of what is distributed.
+   * Prints an error detected by one of several ranks alone, and terminates all
+   * of them. Otherwise the others would wait for this rank forever, and so
+   * would its own destructors of distributed objects.
    */
   [[noreturn]] void
   end_all_ranks(const std::string &what);

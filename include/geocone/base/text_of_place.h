@@ -13,7 +13,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** The components, each written by this format. */
+  /** Components in a given printf format. */
   inline std::string
   text_of_vector(const dealii::Tensor<1, dim> &x, const char *number)
   {
@@ -23,7 +23,7 @@ namespace geocone::GEOCONE_DIM
     return text;
   }
 
-  /** The coordinates, e.g. "0.5, -2". */
+  /** Coordinates of a point, e.g. "0.5, -2". */
   inline std::string
   text_of_place(const dealii::Point<dim> &x)
   {

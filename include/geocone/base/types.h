@@ -13,10 +13,11 @@
 #include <string>
 
 /**
- * The space dimension of a scene, which the build gives: all that depends on it is
- * compiled once for each, in the namespace geocone::dim2 or geocone::dim3, so that both
- * are in one program and neither pays for the other. It is an inline namespace: nobody
- * but main.cc has to name it. CONTRIBUTING.md explains how this is written.
+ * Space dimension of a scene, set by the build. All dimension-dependent code is
+ * compiled once for each dimension, in the namespace geocone::dim2 or
+ * geocone::dim3, so that one program contains both without a cost at run time.
+ * The namespace is inline: only main.cc has to name it. CONTRIBUTING.md
+ * explains how such code is written.
  */
 #ifndef GEOCONE_DIMENSION
 #define GEOCONE_DIMENSION 2
@@ -33,12 +34,14 @@ namespace geocone
 } // namespace geocone
 
 /**
- * Conventions of the whole code, stated once:
- *  - plane strain in the (x, y) plane, unit thickness: forces are N/m, energies
- *    J/m; or axisymmetric, x the radius, y the axis, z around it: forces are N,
- *    energies J, of the whole body; or three dimensions, forces are N, energies J;
- *    where weight needs a vertical, it is y in all of them;
- *  - SI units, angles in parameter files in degrees;
+ * Conventions of the whole code:
+ *
+ *  - plane strain in the (x, y) plane with unit thickness (forces in N/m,
+ *    energies in J/m), axisymmetric with x the radius, y the axis and z the
+ *    hoop direction (forces in N, energies in J, of the full body), or
+ *    three-dimensional (N, J);
+ *  - the vertical is y in all of them;
+ *  - SI units; angles in degrees in parameter files;
  *  - tension is positive, in stress and strain alike;
  *  - symmetric tensors are Mandel vectors, so that the scalar product of two
  *    vectors is the double contraction of the two tensors.
@@ -48,7 +51,8 @@ namespace geocone::GEOCONE_DIM
   constexpr unsigned int dim = GEOCONE_DIMENSION;
   static_assert(dim == 2 || dim == 3);
 
-  /** Number of Mandel components of the strain of a motion. */
+  /** Number of Mandel components of the strain in the dimension of the
+   *  scene. */
   constexpr int n_mandel = dim == 2 ? 3 : 6;
 
   /** Mandel vector of a symmetric tensor: (t11, t22, sqrt(2) t12) in the plane,
@@ -59,16 +63,16 @@ namespace geocone::GEOCONE_DIM
   using MandelMatrix =
     Eigen::Matrix<double, n_mandel, n_mandel, Eigen::RowMajor>;
 
-  /** All of a stress that can be other than zero. In the plane it has a direction
-   *  besides: (t11, t22, sqrt(2) t12, t33), 33 being along z, or around the axis of
-   *  an axisymmetric scene. In three dimensions it is the Mandel vector. */
+  /** Number of stress components that can be non-zero. In the plane there is
+   *  one more than in the Mandel vector: (t11, t22, sqrt(2) t12, t33), where 33
+   *  is the z or the hoop direction. In three dimensions the two agree. */
   constexpr int n_spatial = dim == 2 ? 4 : 6;
   using SpatialMandel     = Eigen::Matrix<double, n_spatial, 1>;
   using SpatialMandelMatrix =
     Eigen::Matrix<double, n_spatial, n_spatial, Eigen::RowMajor>;
 
-  /** Places in Mandel vectors of the normal components, and those of the shear ones
-   *  with the two directions that they are between. */
+  /** Indices of the normal components in Mandel vectors, and of the shear
+   *  components with their two directions. */
   constexpr int place_of_normal[3] = {0, 1, 3};
   struct ShearPlace
   {
@@ -77,10 +81,10 @@ namespace geocone::GEOCONE_DIM
   constexpr ShearPlace shears[3] = {{2, 0, 1}, {4, 1, 2}, {5, 2, 0}};
   constexpr int        n_shears  = dim == 2 ? 1 : 3;
 
-  /** The place of t_ij in all that is in the order of Mandel vectors. */
+  /** Index of t_ij in the order of Mandel vectors. */
   constexpr int place_of_component[3][3] = {{0, 2, 5}, {2, 1, 4}, {5, 4, 3}};
 
-  /** The sum of the normal components of a Mandel vector, of the plane or spatial. */
+  /** Trace of a Mandel vector, plane or spatial. */
   template <int n>
   double
   trace(const Eigen::Matrix<double, n, 1> &t)
@@ -91,7 +95,7 @@ namespace geocone::GEOCONE_DIM
       return t[0] + t[1] + t[3];
   }
 
-  /** The unit tensor as a Mandel vector, of the plane or spatial. */
+  /** The unit tensor as a Mandel vector, plane or spatial. */
   template <int n>
   Eigen::Matrix<double, n, 1>
   unit_tensor()
@@ -103,12 +107,12 @@ namespace geocone::GEOCONE_DIM
     return I;
   }
 
-  /** Rotations are about z, and in three dimensions about x and y, too; each moves
-   *  points in a plane, from its first axis to its second. */
+  /** Number of rotations: about z and, in three dimensions, about x and y. Each
+   *  turns its first axis towards its second. */
   constexpr unsigned int n_rotations             = dim == 2 ? 1 : 3;
   constexpr unsigned int plane_of_rotation[3][2] = {{0, 1}, {1, 2}, {2, 0}};
 
-  /** The axis of a rotation. */
+  /** Axis of a rotation. */
   inline std::string
   axis_of_rotation(const unsigned int rotation)
   {
@@ -116,14 +120,14 @@ namespace geocone::GEOCONE_DIM
     return std::string(1, "xyz"[3 - a - b]);
   }
 
-  /** The side of a square, or of a cube, of a volume (m). */
+  /** Side length of the square or cube of a given volume (m). */
   inline double
   length_of(const double volume)
   {
     return dim == 2 ? std::sqrt(volume) : std::cbrt(volume);
   }
 
-  /** Names of the coordinates, one by one and in texts. */
+  /** Names of the coordinates, singly and as a list for texts. */
   constexpr char        coordinate[3] = {'x', 'y', 'z'};
   constexpr const char *coordinates   = dim == 2 ? "x, y" : "x, y, z";
 
@@ -131,14 +135,14 @@ namespace geocone::GEOCONE_DIM
   constexpr const char *tensor_component[6] = {
     "xx", "yy", "xy", "zz", "yz", "zx"};
 
-  /** Whether one of these is a shear component, which has a factor of sqrt(2). */
+  /** Whether a component is a shear component, with the factor sqrt(2). */
   constexpr bool
   is_shear(const int component)
   {
     return component == 2 || component > 3;
   }
 
-  /** The Mandel vector of components in this order. */
+  /** Mandel vector of components in the order of tensor_component. */
   inline Mandel
   mandel_of_components(const std::array<double, n_mandel> &values)
   {
@@ -148,7 +152,7 @@ namespace geocone::GEOCONE_DIM
     return t;
   }
 
-  /** The components of a Mandel vector in this order. */
+  /** Components of a Mandel vector in the order of tensor_component. */
   inline std::array<double, n_mandel>
   components_of(const Mandel &t)
   {
@@ -158,7 +162,8 @@ namespace geocone::GEOCONE_DIM
     return values;
   }
 
-  /** The strain sym(l) of a gradient l_ij at dim i + j. */
+  /** Strain sym(l) of a velocity or displacement gradient, l_ij at dim i +
+   *  j. */
   inline Mandel
   symmetric_part(const std::array<double, dim * dim> &l)
   {
@@ -173,7 +178,7 @@ namespace geocone::GEOCONE_DIM
     return t;
   }
 
-  /** A tensor of three dimensions, and its Mandel vector. */
+  /** A three-dimensional tensor from its Mandel vector, and the inverse. */
   inline Eigen::Matrix3d
   spatial_tensor(const Eigen::Matrix<double, 6, 1> &t)
   {
@@ -196,7 +201,7 @@ namespace geocone::GEOCONE_DIM
     return t;
   }
 
-  /** The Mandel vector of a tensor in the plane. */
+  /** Mandel vector of a plane tensor. */
   inline Mandel
   in_plane(const double xx, const double yy, const double xy)
   {
@@ -207,7 +212,8 @@ namespace geocone::GEOCONE_DIM
     return t;
   }
 
-  /** A Mandel vector and what it leaves out; in three dimensions that is nothing. */
+  /** Spatial Mandel vector with a given zz component; @p zz is ignored in three
+   *  dimensions. */
   inline SpatialMandel
   extended(const Mandel &t, const double zz)
   {

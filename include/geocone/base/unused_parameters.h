@@ -12,14 +12,14 @@
 namespace geocone
 {
   /**
-   * A rule that a parameter is used only where another one has certain values. It is
-   * declared beside the parameter, as a constant outside of functions. A '*' stands for
-   * any name, the same in all paths of a rule.
+   * A rule that a parameter is used only if another one has certain values. It
+   * is declared next to the parameter, as a constant outside of functions. A
+   * '*' stands for any name, the same in all paths of a rule.
    */
   struct UsedWhere
   {
     /** @param values of the chooser; empty: any but none
-     *  @param other a parameter by which it is used as well, if that is set */
+     *  @param other a parameter that also activates it, if set */
     UsedWhere(const char                     *parameter,
               const char                     *chooser,
               const std::vector<std::string> &values,
@@ -31,9 +31,9 @@ namespace geocone
   };
 
   /**
-   * One line that names the parameters that are set, to other values than their
-   * defaults, and not used: by the method, the mesh, the law ... that other
-   * parameters choose. Empty if there are none. To be called after
+   * A warning line with the parameters that are set to other than their default
+   * values but not used by the method, the mesh, the law etc. selected by other
+   * parameters. Empty if there are none. To be called after
    * ParameterFile::parse().
    */
   std::string
