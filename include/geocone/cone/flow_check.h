@@ -14,27 +14,26 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * How well the end of a step obeys a law whose change of variable y maps its flow to
-   * the normals of its strength; zero if and only if it does. Of one point or the
-   * largest of many: numbers have their units, and what they are to be compared with
-   * stands beside them.
+   * Accuracy with which the end of a step satisfies a flow law whose change of
+   * variable y maps the flow to the normals of its yield surface; zero if and
+   * only if it is satisfied. For one point, or the maximum over many. The
+   * quantities have units; their reference scales are included.
    */
   struct FlowCheck
   {
     double natural_map = 0.; ///< |s - P_C(s - 2G y)| (Pa)
-    double violation =
-      0.; ///< by which s is beyond the strength solved for (Pa)
-    double dual          = 0.; ///< by which y is beyond all normals (-)
+    double violation = 0.; ///< violation of the yield function solved for (Pa)
+    double dual      = 0.; ///< violation of the dual cone by y (-)
     double complementary = 0.; ///< |<y, s - apex>| (J/m^3)
-    double excess        = 0.; ///< beyond the exact strength, without lag (Pa)
+    double excess        = 0.; ///< violation of the exact law, no lag (Pa)
     double exact_map     = 0.; ///< natural_map of the exact law (Pa)
 
-    double stress = 0.; ///< |s| (Pa)
-    double size   = 0.; ///< k, the strength where the normal stress is 0 (Pa)
-    double flow   = 0.; ///< |y| (-)
+    double stress     = 0.; ///< |s| (Pa)
+    double size       = 0.; ///< k, the strength at zero normal stress (Pa)
+    double flow       = 0.; ///< |y| (-)
     double compliance = 0.; ///< 1/2G (1/Pa)
 
-    /** All of them: what is found of many points or ranks is the largest of each. */
+    /** All numbers, reduced over points and ranks by the maximum of each. */
     static constexpr std::size_t n_numbers = 10;
     static constexpr std::array<double FlowCheck::*, n_numbers>
     numbers()
@@ -63,7 +62,8 @@ namespace geocone::GEOCONE_DIM
      * of the normal stress the strength alone is checked, and at Rankine's the plastic
      * strain, flow_at_cut_off().
      * @param solved,exact cones at the end of the step
-     * @param z,s less the plastic strain increment, and the stress, in their axes
+     * @param z,s negative plastic strain increment, and the stress, in cone
+     * axes
      */
     template <typename Vector>
     static FlowCheck
@@ -125,7 +125,7 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** A step of one point, with whole stresses and strains. */
+  /** A step of one point, with the full stress tensor and strain. */
   struct PointStep
   {
     SpatialMandel strain;    ///< its increment

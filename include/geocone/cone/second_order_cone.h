@@ -13,11 +13,11 @@ namespace geocone::GEOCONE_DIM
 {
   /**
    * Coordinates in which the yield surface is a circular cone: a vector x is
-   * split into x[0] = x.n along the axis n, which points to compression, and the
-   * tangential part x_t = x[1..]. In plane strain, for a Mandel vector,
+   * split into x[0] = x.n along the axis n, the direction of compression, and
+   * the tangential part x_t = x[1..]. In plane strain, for a Mandel vector,
    *   n = -(1, 1, 0)/sqrt2, t1 = (1, -1, 0)/sqrt2, t2 = (0, 0, 1);
-   * in three dimensions they are the spatial ones.
-   * The map is orthogonal: scalar products do not change.
+   * in three dimensions they are the rows of spatial_axes(). The map is
+   * orthogonal and thus preserves scalar products.
    */
   inline Mandel
   to_cone_axes(const Mandel &s);
@@ -25,8 +25,9 @@ namespace geocone::GEOCONE_DIM
   inline Mandel
   from_cone_axes(const Mandel &x);
 
-  /** Cone axes of spatial vectors by rows: n = -(1, 1, 0, 1)/sqrt3, then (1, -1, 0,
-   *  0)/sqrt2, (0, 0, 1, 0) and (1, 1, 0, -2)/sqrt6; further shears as they are. */
+  /** Cone axes of spatial vectors by rows: n = -(1, 1, 0, 1)/sqrt3, then (1,
+   *  -1, 0, 0)/sqrt2, (0, 0, 1, 0) and (1, 1, 0, -2)/sqrt6; further shears
+   *  unchanged. */
   inline const SpatialMandelMatrix &
   spatial_axes()
   {
@@ -64,7 +65,7 @@ namespace geocone::GEOCONE_DIM
     return s;
   }
 
-  /** A linear map given in cone axes, written in Mandel components. */
+  /** Transforms a linear map from cone axes to Mandel components. */
   inline MandelMatrix
   from_cone_axes(const MandelMatrix &C)
   {
@@ -77,26 +78,26 @@ namespace geocone::GEOCONE_DIM
     return result;
   }
 
-  /** In which part of the return map a point ended. */
+  /** Region of the return map in which a point ends. */
   enum class Mode : unsigned char
   {
     elastic, ///< inside the cone
     cone,    ///< on its smooth surface
-    apex     ///< at its tip
+    apex     ///< at its apex
   };
 
-  /** Of a cone that is not cut off. */
+  /** Cut-off of a cone without one. */
   constexpr double infinite_tension = std::numeric_limits<double>::infinity();
 
   /**
-   * The admissible set of a cone law and its flow, in cone axes:
+   * Admissible set of a cone law and its flow rule, in cone axes:
    *   C = { s : |s_t| <= a s_n + k },   a >= 0, k >= 0,
-   * with flow aperture b, 0 <= b <= a (b = a: associated). With
-   * z = -(plastic strain increment), mu = a - b and Psi(z) = z + mu |z_t| n,
-   * the law reads  K* contains Psi(z), orthogonal to s + (k/a) n in K, where
-   * K = {|x_t| <= a x_n} and K* = {a |y_t| <= y_n} (Guillet et al. 2025, eqs 22,
-   * 25-27, 85-91; signs and apertures as in doc/theory/cone.md). For a = 0 the set
-   * is the cylinder |s_t| <= k (Tresca); only the apex divides by a.
+   * with flow aperture b, 0 <= b <= a (b = a: associated). With z = -(plastic
+   * strain increment), mu = a - b and Psi(z) = z + mu |z_t| n, the law reads
+   * K* contains Psi(z), orthogonal to s + (k/a) n in K, where K = {|x_t| <= a
+   * x_n} and K* = {a |y_t| <= y_n} (Guillet et al. 2025, eqs 22, 25-27, 85-91;
+   * signs and apertures as in doc/theory/cone.md). For a = 0 the set is the
+   * cylinder |s_t| <= k (Tresca); only the apex divides by a.
    */
   struct FlowCone
   {
@@ -104,10 +105,10 @@ namespace geocone::GEOCONE_DIM
     double b = 0.; ///< aperture of the flow cone, e.g. sin(theta)
     double k = 0.; ///< radius of the yield surface at s_n = 0 (Pa)
 
-    /** Cut-off: s_n >= -tension also where the apex lies farther out (Pa). */
+    /** Cut-off s_n >= -tension (Pa), effective if it precedes the apex. */
     double tension = infinite_tension;
 
-    /** Linear hardening h (Pa): the radius k is that at t_n, and k + h |z_t| at the
+    /** Linear hardening h (Pa): the radius is k at t_n and k + h |z_t| at the
      *  end of the step. */
     double hardening = 0.;
 
@@ -172,13 +173,13 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * The cone with delayed friction: a part lambda of the strength's normal
-     * stress is that of t_n,
+     * The cone with delayed friction: a part lambda of the normal stress in the
+     * strength is that of t_n,
      *   |s_t| <= a ((1 - m) s_n + m s_n^n) + k,   m = lambda (a - b)/a,
      * with the aperture a - lambda (a - b) >= b, the same flow, and no more
-     * tension than before. lambda = 0 is the exact law; for associated flow
-     * nothing changes. The plastic work stays non-negative, for the radius of
-     * each cross-section does.
+     * tension than before. lambda = 0 is the exact law; associated laws do not
+     * change. The plastic work remains non-negative, because the radius of each
+     * cross-section does.
      */
     FlowCone
     delayed(const double lambda, const double s_n_at_start) const
@@ -203,7 +204,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * <y, s + (k/a) n>, written such that a = 0 is its limit for y in the
+     * <y, s + (k/a) n>, in a form that has the limit a = 0 for y on the
      * boundary of K* (there (k/a) y_n = k |y_t|).
      */
     template <typename V>
@@ -226,17 +227,16 @@ namespace geocone::GEOCONE_DIM
    *
    * Solution of the one-point problem
    *   s = t + D z with D = diag(K, 2G, ..., 2G),  z from the law of FlowCone
-   * for a trial value t, in closed form (doc/theory/laws.md):
-   * with T = |t_t|, f = T - a t_n - k, H = 2G + a b K + h, g = f/H = |z_t|,
-   * q = T - 2G g = a s_n + k + h g,
+   * for a trial value t, in closed form (doc/theory/laws.md): with T = |t_t|,
+   * f = T - a t_n - k, H = 2G + a b K + h, g = f/H = |z_t|, q = T - 2G g = a
+   * s_n + k + h g,
    *   f <= 0            : s = t                                   (elastic)
    *   q >= 0 or a = 0   : s_n = t_n + K b g, s_t = q t_t/T        (cone)
    *   otherwise         : s = (-(k + h T/2G)/a, 0)                (apex).
-   * Where a cut-off comes before the apex, states beyond it go to s_n = -tension,
-   * with s_t shortened to the radius there, that of the end of the step; they
-   * count as apex, too.
-   * For b = a this is the projection of t onto C in the metric of D^{-1}; with
-   * K = 2G it is the Euclidean projection P_C.
+   * If a cut-off precedes the apex, states beyond it are returned to
+   * s_n = -tension, with s_t shortened to the radius there at the end of the
+   * step; they count as apex states. For b = a this is the projection of t onto
+   * C in the metric of D^{-1}; with K = 2G it is the Euclidean projection P_C.
    *
    * @param[out] tangent an element of the generalised Jacobian ds/dt times D,
    * i.e. ds/de for t = s^n + D e; untouched if null
@@ -254,7 +254,7 @@ namespace geocone::GEOCONE_DIM
     const double  radius       = cone.a * t[0] + cone.k;
     const double  T2           = t.template tail<n_tangential>().squaredNorm();
     if (radius >= 0. && T2 <= radius * radius &&
-        t[0] >= -cone.tension) // most points: no root needed
+        t[0] >= -cone.tension) // most points: no square root
       {
         s = t;
         if (tangent != nullptr)
@@ -266,17 +266,17 @@ namespace geocone::GEOCONE_DIM
         return Mode::elastic;
       }
     const double T = std::sqrt(T2);
-    const double f = std::max(0., T - radius); // 0 where only cut off
+    const double f = std::max(0., T - radius); // 0 if only cut off
     const double H = two_G + cone.a * cone.b * K + cone.hardening;
     const double g = f / H;
-    // q = T - 2G g, written such that the cone is met to the last digit also
-    // where the trial value is many orders of magnitude larger. At the tip
-    // either form may be rounding of either sign: then it is the tip.
+    // q = T - 2G g, in the form that satisfies the cone within rounding even
+    // for trial values larger by many orders of magnitude. At the apex rounding
+    // makes the sign of either form arbitrary: the apex is returned then.
     const double s_n = t[0] + K * cone.b * g;
     const double q   = std::min(cone.a * s_n + cone.k + cone.hardening * g, T);
     if (s_n < -cone.tension)
       {
-        // Where it hardens, the radius grows by h (T - |s_t|)/2G.
+        // With hardening, the radius grows by h (T - |s_t|)/2G.
         const double r     = cone.hardening / two_G;
         const double limit = std::max(0., cone.k - cone.a * cone.tension);
         const double part  = T > limit ? (limit / T + r) / (1. + r) : 1.;
@@ -417,7 +417,7 @@ namespace geocone::GEOCONE_DIM
     return project(FlowCone{a, a, k}, x, jacobian);
   }
 
-  /** The tangential unit vector x_t/|x_t|, or zero. */
+  /** Tangential unit vector x_t/|x_t|, or zero. */
   inline Mandel
   tangential_direction(const Mandel &x)
   {

@@ -13,16 +13,16 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * return_map() of a cone that the plastic shear g = |z_t| of the step itself
-   * changes, in any way: s and z fulfil the law of cone_of(g). Of one cone for all g
-   * the return map has the shear f(g); g is the root of
+   * return_map() of a cone that depends, in any way, on the plastic shear
+   * g = |z_t| of the step itself: s and z satisfy the law of cone_of(g). The
+   * return map to a fixed cone_of(g) has the shear f(g); g is the root of
    *   f(g) - g = 0   in [0, T/2G],
-   * whose ends have f(0) >= 0 and f(T/2G) <= T/2G. It is the only one unless the soil
-   * softens faster than it is unloaded elastically. The tangent gains
+   * where f(0) >= 0 and f(T/2G) <= T/2G. It is unique unless the soil softens
+   * faster than it unloads elastically. The tangent is extended by
    *   ds/dg (df/de) / (1 - df/dg),
    * where ds/dg is a difference quotient of return_map() at fixed t.
    *
-   * @param cone_of the cone by g, without FlowCone::hardening
+   * @param cone_of the cone as a function of g, without FlowCone::hardening
    * @param[out] slip g
    */
   template <typename ConeOf>
@@ -54,7 +54,7 @@ namespace geocone::GEOCONE_DIM
     };
     const double most = FlowCone::tangential_norm(t) / two_G;
     const double last = difference(most);
-    if (last >= 0.) // at the tip
+    if (last >= 0.) // at the apex
       slip = most;
     else
       {
