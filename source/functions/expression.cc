@@ -17,7 +17,7 @@ namespace geocone::GEOCONE_DIM
 {
   namespace
   {
-    /** A formula whose values are finite numbers. */
+    /** A formula that throws if its value is not finite. */
     class FiniteFormula : public dealii::FunctionParser<dim>
     {
     public:

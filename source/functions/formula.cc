@@ -26,8 +26,8 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** The functions of formulas, with the numbers of their arguments; 0: one or more.
-     *  Those of the library that differ from run to run are not among them. */
+    /** The functions of formulas, with their number of arguments; 0: one or
+     *  more. The library's random functions are excluded. */
     const std::map<std::string, unsigned int> formula_functions = {
       {"abs", 1},  {"acos", 1},  {"acosh", 1}, {"asin", 1}, {"asinh", 1},
       {"atan", 1}, {"atan2", 2}, {"atanh", 1}, {"avg", 0},  {"ceil", 1},
@@ -41,7 +41,7 @@ namespace geocone::GEOCONE_DIM
       "write decimals with a point, e.g. -0.02: commas separate the arguments "
       "of a function";
 
-    /** Reads a formula from left to right, for check_formula(). */
+    /** Left-to-right parser of a formula, for check_formula(). */
     class FormulaReader
     {
     public:
@@ -83,7 +83,7 @@ namespace geocone::GEOCONE_DIM
                "' on");
       }
 
-      /** The next character that is not blank; 0 at the end. */
+      /** The next non-blank character; 0 at the end. */
       char
       next()
       {
@@ -93,7 +93,7 @@ namespace geocone::GEOCONE_DIM
         return place < text.size() ? text[place] : 0;
       }
 
-      /** Whether a word comes next, which then is passed. */
+      /** Consumes a word if it comes next. */
       bool
       take(const std::string &word)
       {
@@ -281,7 +281,7 @@ namespace geocone::GEOCONE_DIM
       const FormulaOf    variables;
       std::size_t        place   = 0;
       unsigned int       depth   = 0;
-      bool               divides = false; ///< the operator that was passed last
+      bool               divides = false; ///< the last operator consumed
     };
   } // namespace
 

@@ -18,10 +18,11 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Coordinates that differ by less than this part of all are one. */
+    /** Coordinates whose difference is below this fraction of the extent are
+     *  equal. */
     constexpr double same = 1e-9;
 
-    /** The different ones of a column of numbers, in order. */
+    /** Distinct values of a column of numbers, in order. */
     std::vector<double>
     places_of(const std::vector<std::array<double, 3>> &rows,
               const unsigned int                        column)
@@ -82,7 +83,8 @@ namespace geocone::GEOCONE_DIM
         ys = places_of(rows, 1);
         if (xs.size() < 2 || ys.size() < 2)
           throw RunError("it has no two different x, or no two different y");
-        // Scattered places would fill a grid of the square of their number.
+        // For scattered points the grid would grow with the square of their
+        // number.
         if (xs.size() > rows.size() / ys.size() + 1)
           throw RunError(format("its %zu rows have %zu different x and %zu "
                                 "different y: these places are no grid; "

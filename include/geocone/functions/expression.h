@@ -17,8 +17,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A scalar function of (x, y, t) given as text in muParser's language, with
-   * the constant pi; or, where files are allowed, "record FILE.csv", a Record.
+   * A scalar function of (x, y, t) given as a formula in muParser's language,
+   * with the constant pi, or, where files are allowed, as a Record "record
+   * FILE.csv".
    */
   class Expression
   {
@@ -26,8 +27,9 @@ namespace geocone::GEOCONE_DIM
     /**
      * @param text the formula
      * @param parameter name for messages
-     * @param folder what names of files are relative to; null: formulas only
-     * @throws InputError if the formula cannot be parsed, or the file not be read
+     * @param folder to which file names are relative; null: formulas only
+     * @throws InputError if the formula cannot be parsed or the file cannot be
+     * read
      */
     void
     prepare(const std::string &text,
@@ -37,15 +39,15 @@ namespace geocone::GEOCONE_DIM
     double
     value(const dealii::Point<dim> &x, const double t) const;
 
-    /** Whether it is the number 0. */
+    /** Whether the expression is the number 0. */
     bool
     is_zero() const
     {
       return number == 0.;
     }
 
-    /** When a record ends with a value that is not zero, which then stays (s); infinite
-     *  otherwise. */
+    /** End of a record (s) whose last value is not zero and is kept; otherwise
+     *  infinite. */
     double
     stays_from() const;
 

@@ -18,20 +18,20 @@ namespace geocone::GEOCONE_DIM
     time
   };
 
-  /** The formulas that are allowed, for messages. */
+  /** Syntax of admissible formulas, for messages. */
   std::string
   allowed_formula(const FormulaOf variables);
 
   /**
-   * Checks a formula by this grammar before muParser reads it, which takes more
-   * ("x = 3" assigns, "0,5" is a list whose last value counts, rand() differs from run
-   * to run) and prints lines of its own where it refuses:
+   * Checks a formula by this grammar before muParser reads it. muParser accepts
+   * more ("x = 3" assigns, "0,5" is a list whose last value counts, rand()
+   * differs from run to run) and prints messages of its own on errors:
    *   formula := operand {operator operand} ["?" formula ":" formula]
-   *   operand := ["+" | "-"] (number | name | function "(" formula {"," formula} ")" |
-   *              "(" formula ")")
-   * with the operators + - * / ^ < > <= >= == != & |, the names of the variables, pi,
-   * _pi and _e, and the functions that CONTRIBUTING.md lists.
-   * @throws InputError with where it goes wrong
+   *   operand := ["+" | "-"] (number | name |
+   *              function "(" formula {"," formula} ")" | "(" formula ")")
+   * with the operators + - * / ^ < > <= >= == != & |, the names of the
+   * variables, pi, _pi and _e, and the functions listed in CONTRIBUTING.md.
+   * @throws InputError with the position of the error
    */
   void
   check_formula(const std::string &text,

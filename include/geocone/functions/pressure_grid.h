@@ -14,39 +14,40 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Pore pressures on a rectangular grid from a .csv file with the columns x, y (m) and u
-   * (Pa, >= 0), such as programs of seepage write them: one row for each place of the
-   * grid, in any order. Between them u is bilinear, beyond them as at the border.
+   * Pore pressures on a rectangular grid, e.g. from a seepage program, read
+   * from a .csv file with the columns x, y (m) and u (Pa, >= 0): one row for
+   * each grid point, in any order. The pressure is bilinear between the points
+   * and constant beyond the boundary.
    */
   class PressureGrid
   {
   public:
-    /** @param text,parameter what the parameter file says, and its name, for messages
-     *  @throws InputError naming the line that cannot be understood, or what lacks */
+    /** @param text,parameter value and name of the parameter, for messages
+     *  @throws InputError naming the faulty line, or what is missing */
     PressureGrid(const std::string &file,
                  const std::string &text,
                  const std::string &parameter);
 
-    /** u (Pa). */
+    /** Pore pressure u (Pa). */
     double
     value(const dealii::Point<dim> &x) const;
 
-    /** (du/dx, du/dy), in three dimensions 0 along z (N/m^3). */
+    /** Gradient (du/dx, du/dy), in three dimensions 0 along z (N/m^3). */
     dealii::Tensor<1, dim>
     gradient(const dealii::Point<dim> &x) const;
 
-    /** Whether it reaches from one corner to the other one. */
+    /** Whether the grid covers the box between two corners. */
     bool
     covers(const dealii::Point<dim> &lower,
            const dealii::Point<dim> &upper) const;
 
-    /** From where to where, for messages. */
+    /** Coordinates of the corners, for messages. */
     std::string
     extent() const;
 
   private:
-    /** The interval of a coordinate, where in it a place is (0 to 1), and its length, or
-     *  0 where the place is beyond the grid. */
+    /** Interval of a coordinate, the relative position in it (0 to 1), and its
+     *  length, which is 0 beyond the grid. */
     struct At
     {
       std::size_t i;

@@ -10,18 +10,18 @@
 namespace geocone
 {
   /**
-   * A function of time from a .csv file: a first line with the names of two columns,
-   * t (s) and either v, the value, which is linear between the rows, or a, its
-   * derivative, which is linear between them: then the value is the integral of a from
-   * zero (an accelerogram as a velocity). Before the first row it is the value there,
-   * after the last one the value there.
+   * A function of time from a .csv file whose first line names two columns: t
+   * (s) and either v, the value, or a, its derivative, both piecewise linear.
+   * In the second case the value is the integral of a from zero (e.g. the
+   * velocity of an accelerogram). Constant before the first and after the last
+   * row.
    */
   class Record
   {
   public:
     /**
-     * @param text,parameter what the parameter file says, and its name, for messages
-     * @throws InputError naming the line that cannot be understood
+     * @param text,parameter value and name of the parameter, for messages
+     * @throws InputError naming the faulty line
      */
     Record(const std::string &file,
            const std::string &text,
@@ -30,7 +30,7 @@ namespace geocone
     double
     value(const double t) const;
 
-    /** The time of the last row (s). */
+    /** Time of the last row (s). */
     double
     end() const
     {
