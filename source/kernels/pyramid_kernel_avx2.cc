@@ -1,7 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Compiled for AVX2 and FMA where the compiler can; see CMakeLists.txt.
+// Compiled for AVX2 and FMA if the compiler supports them; see CMakeLists.txt.
 #if defined(__AVX2__) && defined(__FMA__)
 #include <geocone/kernels/pyramid_kernel.templates.h>
 

@@ -40,7 +40,7 @@ namespace geocone::GEOCONE_DIM
           const double plus = value(p, q), minus = value(p, -q);
           const double A = (plus + minus - 2. * f) / (2. * q * q);
           const double B = (plus - minus) / (2. * q);
-          // At both ends of p the roots meet, up to rounding.
+          // At both ends of p the roots coincide, within rounding.
           const double D = B * B - 4. * A * f;
           if (!(D >= -1e-9 * (B * B + std::abs(4. * A * f))))
             continue;

@@ -18,7 +18,7 @@ namespace geocone
       return (x[0] + x[1] + x[2]) * (1. / 3.);
     }
 
-    /** x + y I; whole vectors are added, which stay in registers. */
+    /** x + y I; complete vectors are added, so that they stay in registers. */
     template <typename V>
     V
     plus_isotropic(const V &x, const double y)
@@ -35,7 +35,7 @@ namespace geocone
     }
 
     /**
-     * cos t of Lode's angle t, 0 in triaxial extension and 60 degrees in
+     * cos t of the Lode angle t, 0 in triaxial extension and 60 degrees in
      * triaxial compression, of a deviator with the norm r.
      */
     double
@@ -61,7 +61,7 @@ namespace geocone
     }
 
     /** Largest root of a x^2 + b x + c = 0 with a < 0 <= c, without
-     *  cancellation; a = 0 is allowed where b < 0. */
+     *  cancellation; a = 0 is allowed if b < 0. */
     double
     positive_root(const double a, const double b, const double c)
     {
@@ -203,7 +203,7 @@ namespace geocone
     if (c.cbeta > 0.)
       {
         const double norm_s = s.norm();
-        // On the axis there is no direction to turn to.
+        // On the axis the direction is undefined.
         if (norm_s > 1e-12 * std::abs(p))
           {
             r.eta_b  = critical_ratio(s, norm_s, r.lode);
@@ -220,14 +220,14 @@ namespace geocone
     r.h_pc =
       (y.pcb + y.Rb * c.pe / (1. - c.xi)) / (c.lambda - c.kappa) * r.trace_m +
       y.pcb / y.Rb * r.h_Rb;
-    // Soil that has come apart would lose all size, and could not carry the
-    // least load when it is compressed again.
+    // Otherwise pcb of soil that has lost all contact would vanish, and the
+    // soil could not carry any load when recompressed.
     if (y.pcb <= c.smallest_size)
       r.h_pc = std::max(r.h_pc, 0.);
     const double growth = r.h_pc / y.pcb;
 
-    // The similarity centre goes to st, and with the surface. What turns with
-    // beta is p, or ph = p + xi pcb, by the reading of (24).
+    // The similarity centre moves to st, and with the surface. In (24) beta
+    // multiplies p or, by another reading, ph = p + xi pcb.
     const double offset = c.rotates_with_ph ? c.xi * y.pcb : 0.;
     const double half   = (0.5 - c.xi) * y.pcb;
     const Vector centre =
@@ -236,8 +236,8 @@ namespace geocone
     const Vector to_st = c.ca * r.norm_m * (r.st - y.a);
     r.h_a              = to_st + growth * y.a + (pa + offset) * r.h_beta;
 
-    // f is homogeneous in (sigma, a, pcb), and the rotation leaves it as it is,
-    // so that df = 0 gives H with few terms.
+    // f is homogeneous in (sigma, a, pcb) and invariant under the rotation, so
+    // that df = 0 gives H with few terms.
     r.H = r.N.dot(growth * y.stress + (p + offset) * r.h_beta +
                   (1. - R) * to_st + (r.U * r.norm_m * over) * d);
     r.N_D_m =
@@ -296,7 +296,7 @@ namespace geocone
     const double B1     = 2. * c.slope * f.sa.dot(se) +
                       volume * (2. * (f.pa + c.xi * y.pcb) - y.pcb);
 
-    // Where R is least, dA + R dB = 0 with R the root of A + B R + C R^2.
+    // Minimum of R: dA + R dB = 0 with R the root of A + B R + C R^2.
     double u = 0., least = R;
     if (A1 + B1 * R < 0.)
       {
@@ -306,7 +306,7 @@ namespace geocone
                               std::max(0., f.A + A1 * foot / 2.));
         u                 = std::max(0., foot - B1 * least / (2. * A2));
       }
-    // Where R comes back to Rmin, if it is less there.
+    // Return of R to Rmin, if the minimum is below it.
     if (least < c.Rmin)
       {
         const double b    = A1 + B1 * c.Rmin;
@@ -365,7 +365,7 @@ namespace geocone
     Quadratic f; ///< at the end
     double    R;
     double    error2;   ///< square of the error
-    bool      possible; ///< nothing in it is impossible or not a number
+    bool      possible; ///< finite and admissible
     double    plastic_strain;
   };
 
@@ -411,9 +411,9 @@ namespace geocone
           square(result.R - trial_R)})
       {
         result.error2 = std::max(result.error2, error2);
-        sum += error2; // not a number if one of them is not
+        sum += error2; // NaN if one of them is
       }
-    // Trial stages may be far out, where nothing makes sense.
+    // Trial stages can lie far outside, where the rates are meaningless.
     result.possible = first.stable && second.stable && std::isfinite(sum) &&
                       mean(trial.stress) + c.pe > 0. && pressure > 0. &&
                       trial.pcb > 0. && end.pcb > 0.;
@@ -448,12 +448,13 @@ namespace geocone
             continue;
           }
 
-        // A sliver before the end would cost as much as a substep.
+        // A tiny last substep would cost as much as a full one.
         const bool    last  = size >= left * (1. - 1e-12);
         const double  part  = last ? left : size;
         const Substep next  = substep(y, R, part * strain);
         const double  error = std::sqrt(next.error2);
-        // States may start above R = 1, by limit() or by force; not go further.
+        // States may start above R = 1, by limit() or by force, but must not go
+        // further.
         const bool good =
           next.possible && next.R <= std::max(1.01, R) && error <= c.tolerance;
         if (!good && part > c.smallest_substep * (1. + 1e-9))
@@ -484,7 +485,7 @@ namespace geocone
             if (f.pa + f.dp + c.pe >= c.lowest_pressure)
               continue;
           }
-        else // nothing but the elastic response is left
+        else // only the elastic response is left
           y.stress += elastic_length(mean(y.stress), part * strain) *
                       elastic_direction(part * strain);
         limit(y, report);

@@ -12,11 +12,11 @@ namespace geocone::GEOCONE_DIM
 {
   /**
    * An explicit step of a linear elastic material with a cone, for a block of
-   * points: return_map() of the turned stress plus D e, free of branches. With
+   * points: return_map() of the rotated stress plus D e, without branches. With
    * the mean m = (s_xx + s_yy)/2, the half difference d = (s_xx - s_yy)/2 and
-   * tau = sqrt(d^2 + s_xy^2), the cone is tau <= -a m + k/sqrt2. In three dimensions
-   * it is the same with m = tr(s)/3, tau = |dev s|/sqrt3 and k/sqrt3.
-   * A cut-off of the cone in tension is not looked at.
+   * tau = sqrt(d^2 + s_xy^2), the cone is tau <= -a m + k/sqrt2. In three
+   * dimensions m = tr(s)/3, tau = |dev s|/sqrt3, and k/sqrt3 replaces k/sqrt2.
+   * A tension cut-off of the cone is ignored.
    */
   void
   advance_cone(const FlowCone   &cone,
@@ -24,11 +24,12 @@ namespace geocone::GEOCONE_DIM
                const PointBlock &block);
 
   /**
-   * The same with friction that remembers (MohrCoulomb): the cone of each point is
-   * cone.delayed(part, p), with its cut-off, and p becomes part p + (1 - part) s_n.
+   * The same for friction with memory (MohrCoulomb): the cone of each point is
+   * cone.delayed(part, p), with its cut-off, and p becomes part p + (1 - part)
+   * s_n.
    * @param cone with a > 0
    * @param part lambda
-   * @param place that of p (Pa) in the history
+   * @param place index of p (Pa) in the history
    */
   void
   advance_cone(const FlowCone    &cone,

@@ -10,7 +10,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** The numbers of advance_cone(), in d dimensions. */
+  /** Constants of advance_cone(), in d dimensions. */
   struct ConeNumbers
   {
     double a, b;
@@ -20,19 +20,20 @@ namespace geocone::GEOCONE_DIM
     double two_G;  ///< (Pa)
     double wave_modulus;
 
-    /** @name Of friction with memory */
+    /** @name Friction with memory */
     /** @{ */
     double   part  = 0.; ///< lambda of the step
-    unsigned place = 0;  ///< of p in the history; 0: no memory
+    unsigned place = 0;  ///< index of p in the history; 0: no memory
     /** @} */
   };
 
   /**
-   * The mean stress m and the other components d_i of several points, turned by the
-   * spin, with what the strain increment adds: m to m + K/d trace, d_i to d_i + 2 G
-   * part_i strain_i. The work of the strain is that of m on the trace and of the d_i on
-   * the strain_i; tau^2 = |s_t|^2/d is the sum of weight_i d_i^2. In the plane d is
-   * ((s_xx - s_yy)/2, s_xy), in space the deviator in the order of tensor_component.
+   * Mean stress m and the other components d_i of several points, rotated by
+   * the spin, with the strain increment: m increases by K/d trace, d_i by 2 G
+   * part_i strain_i. The work of the strain is that of m on the trace and of
+   * the d_i on the strain_i; tau^2 = |s_t|^2/d is the sum of weight_i d_i^2. In
+   * the plane d is ((s_xx - s_yy)/2, s_xy), in space the deviator in the order
+   * of tensor_component.
    */
   template <typename P>
   struct TurnedStress
@@ -45,7 +46,7 @@ namespace geocone::GEOCONE_DIM
 
     P m, trace, d[n], strain[n];
 
-    /** Those of the points p, ... of a block. */
+    /** Stresses and strains of the points p, ... of a block. */
     TurnedStress(const PointBlock &block, const unsigned int p)
     {
       if constexpr (dim == 2)
@@ -57,7 +58,7 @@ namespace geocone::GEOCONE_DIM
           strain[0] = xx - yy;
           strain[1] = xy + yx;
 
-          // Turned by the Cayley transform, tan(angle/2) = spin/2.
+          // Rotation by the Cayley transform, tan(angle/2) = spin/2.
           const P t = quarter * (yx - xy), t2 = t * t;
           const P q = one + t2, per_q2 = one / (q * q);
           const P cos2 = (one - t2 * (P(6.) - t2)) * per_q2;
@@ -127,20 +128,20 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** advance_cone() for one architecture, with or without memory; see there. */
+  /** advance_cone() for one architecture, with or without memory. */
   template <typename Arch, bool remembers>
   void
   advance_cone_block(const ConeNumbers &cone, const PointBlock &block)
   {
     using P = Pack<Arch>;
-    // With memory: a and the radius are those of the delayed cone.
+    // With memory: aperture and radius of the delayed cone.
     const double     lagging  = remembers ? cone.part * (cone.a - cone.b) : 0.;
     const double     aperture = cone.a - lagging;
     double *const    memory   = remembers ? block.history[cone.place] : nullptr;
     const P          one(1.), half(0.5), zero(0.), tiny(1e-300);
     const P          a(aperture), b(cone.b), k(cone.radius), apex(cone.apex);
     constexpr double root = dim == 2 ? sqrt2 : 1.73205080756887729353;
-    // s_n = -sqrt2 m, of which lambda mu/sqrt2 counts for the radius.
+    // s_n = -sqrt2 m, of which lambda mu/sqrt2 contributes to the radius.
     const P least(-root * cone.apex), part_of_p(lagging / root),
       part(cone.part), kept(root * (1. - cone.part));
     const P K(cone.K), G2(cone.two_G), K_part(cone.K / dim);
@@ -162,7 +163,7 @@ namespace geocone::GEOCONE_DIM
           radius = k + part_of_p * max(P::load(memory + p), least);
         P       f = tau - (radius - a * mt);
         const P g = max(f, zero) * per_H;
-        // On the smooth part; beyond it, at the apex.
+        // Smooth part; the apex follows below.
         const P tau_1 = tau - G2 * g;
         P       m1, tau_2;
         if constexpr (remembers)
@@ -202,7 +203,7 @@ namespace geocone::GEOCONE_DIM
       }
   }
 
-  /** The one that the numbers ask for. */
+  /** Selects the version with or without memory. */
   template <typename Arch>
   void
   advance_cone_block(const ConeNumbers &cone, const PointBlock &block)

@@ -36,22 +36,22 @@ namespace geocone::GEOCONE_DIM
       return two_G * (3. * lambda + two_G) / (2. * lambda + two_G);
     }
 
-    /** dim times the bulk modulus of motions of the space, dim lambda + 2G: the
-     *  stiffness along the cone's axis (Pa). */
+    /** Dimension times the bulk modulus for strains in that dimension, dim
+     *  lambda + 2G: the stiffness along the cone's axis (Pa). */
     double
     normal_stiffness() const
     {
       return dim * lambda + two_G;
     }
 
-    /** The same of all three directions, 3 lambda + 2G (Pa). */
+    /** Three times the bulk modulus, 3 lambda + 2G (Pa). */
     double
     spatial_normal_stiffness() const
     {
       return 3. * lambda + two_G;
     }
 
-    /** lambda tr(e) I + 2G e. @param strain of the plane, or spatial */
+    /** Stress lambda tr(e) I + 2G e. @param strain plane or spatial */
     template <int n>
     Eigen::Matrix<double, n, 1>
     stress(const Eigen::Matrix<double, n, 1> &strain) const
@@ -59,7 +59,7 @@ namespace geocone::GEOCONE_DIM
       return two_G * strain + (lambda * trace(strain)) * unit_tensor<n>();
     }
 
-    /** S s: the elastic strain of a stress, of the plane or spatial. */
+    /** Elastic strain of a plane or spatial stress. */
     template <int n>
     Eigen::Matrix<double, n, 1>
     strain(const Eigen::Matrix<double, n, 1> &stress) const
@@ -70,7 +70,7 @@ namespace geocone::GEOCONE_DIM
              two_G;
     }
 
-    /** D of stress(), as a matrix (Pa). */
+    /** Stiffness D of stress(), as a matrix (Pa). */
     template <int n = n_mandel>
     Eigen::Matrix<double, n, n, Eigen::RowMajor>
     stiffness() const

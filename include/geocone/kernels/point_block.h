@@ -11,53 +11,55 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A block of points of one material that an explicit step updates in place:
-   * a structure of arrays, the same index for one point. Tensor components
-   * (no Mandel factors), tension positive, SI units.
+   * A block of points of one material that an explicit step updates in place: a
+   * structure of arrays, with the same index for all quantities of a point.
+   * Tensor components (no Mandel factors), tension positive, SI units.
    *
-   * The arrays may be read and written up to the next multiple of
-   * PointBlock::lanes: what lies beyond the last point are copies of it without
+   * The arrays are read and written up to the next multiple of
+   * PointBlock::lanes; entries beyond the last point are copies of it without
    * mass. They need not be aligned.
    */
   struct PointBlock
   {
-    /** Points that a kernel may update at once. */
+    /** Points that a kernel updates at once. */
     static constexpr unsigned int lanes = 4;
 
-    /** Points per block, at most; scratch arrays of so many stay in cache. */
+    /** Maximum number of points per block; scratch arrays of this size stay in
+     *  cache. */
     static constexpr unsigned int capacity = 64;
 
     unsigned int n_points = 0;
 
-    /** dt grad v, the increment of the displacement gradient: dt dv_i/dx_j at
-     *  dim i + j. */
+    /** Increment of the displacement gradient dt grad v: dt dv_i/dx_j at dim
+     *  i + j. */
     std::array<const double *, dim *dim> l = {};
 
     /** @name State, updated in place: stress (Pa) in the order of
-     *  tensor_component, in the plane without zz; history, and the integral of the
-     *  norm of the plastic strain rate */
+     *  tensor_component, in the plane without zz; history; and the integral of
+     *  the norm of the plastic strain rate */
     /** @{ */
     std::array<double *, n_mandel> s       = {};
     double *const                 *history = nullptr; ///< n_history() arrays
     double                        *plastic_strain = nullptr;
     /** @} */
 
-    /** @name Answers */
+    /** @name Results */
     /** @{ */
     /** Stress work per volume (Pa): strain increment times the mean of the
-     *  stresses before (rotated) and after. */
+     *  stresses before (rotated) and after the step. */
     double *work = nullptr;
 
-    /** Modulus M of the elastic pressure wave, c = sqrt(M/rho), after (Pa). */
+    /** Modulus M of the elastic pressure wave after the step, c = sqrt(M/rho)
+     *  (Pa). */
     double *wave_modulus = nullptr;
     /** @} */
 
-    double step = 0.; ///< dt (s), for laws that depend on time
+    double step = 0.; ///< dt (s), for rate-dependent laws
 
-    /** Strain increments out of the plane, of axisymmetric scenes; null: none. */
+    /** Out-of-plane strain increments of axisymmetric scenes; null: none. */
     const double *l_zz = nullptr;
 
-    /** @name Those of a point */
+    /** @name Values of one point */
     /** @{ */
     std::array<double, dim * dim>
     gradient(const unsigned int p) const
@@ -85,13 +87,13 @@ namespace geocone::GEOCONE_DIM
     /** @} */
   };
 
-  /** What laws count while they work; sums and extremes over all points. */
+  /** Statistics of constitutive updates; sums and extremes over all points. */
   struct LawCounts
   {
     unsigned long long updates  = 0; ///< points times steps
     unsigned long long substeps = 0; ///< of laws with error control
-    unsigned long long forced   = 0; ///< substeps accepted against the control
-    unsigned long long limited  = 0; ///< states kept from losing all stiffness
+    unsigned long long forced   = 0; ///< accepted despite their error
+    unsigned long long limited  = 0; ///< states limited to keep a stiffness
     unsigned int       most     = 0; ///< substeps of one point in one step
 
     /** For checkpoints; Row: StateRow. */

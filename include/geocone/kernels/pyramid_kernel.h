@@ -8,7 +8,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** The numbers of advance_pyramid(). */
+  /** Constants of advance_pyramid(). */
   struct PyramidNumbers
   {
     double sine; ///< sin(phi) of f_ij = s_i - s_j + (s_i + s_j) sine - size
@@ -17,23 +17,25 @@ namespace geocone::GEOCONE_DIM
 
     double lambda, two_G; ///< (Pa)
 
-    /** @name What is a point's own, by places in the history; no_place: nothing */
+    /** @name Variables of a point, by their index in the history; no_place:
+     *  none */
     /** @{ */
     static constexpr unsigned int no_place = -1;
-    unsigned int memory  = no_place; ///< the p that friction remembers (Pa)
+    unsigned int memory  = no_place; ///< p of friction with memory (Pa)
     double       part    = 0.;       ///< lambda of the step
-    double       lagging = 0.;       ///< of sine, the part that p has
+    double       lagging = 0.;       ///< part of sine that acts on p
     unsigned int growth  = no_place; ///< of the cohesion (Pa)
     double       size_per_cohesion = 0.;
     /** @} */
   };
 
   /**
-   * An explicit step of a linear elastic material with Mohr-Coulomb's law of all
-   * principal stresses, for a block of points: the return map of SpatialMohrCoulomb of
-   * the turned stress plus D e, four points at once. Principal stresses are found by
-   * Jacobi's rotations, which lose nothing where two of them are equal; where all four
-   * are within the round cone in the pyramid, none are.
+   * An explicit step of a linear elastic material with the three-dimensional
+   * Mohr-Coulomb law, for a block of points: the return map of
+   * SpatialMohrCoulomb for the rotated stress plus D e, four points at once.
+   * Principal stresses are computed by Jacobi rotations, which are accurate for
+   * equal ones as well; they are skipped if all four points lie within the cone
+   * inscribed in the pyramid.
    */
   void
   advance_pyramid(const PyramidNumbers &pyramid, const PointBlock &block);

@@ -10,13 +10,14 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Principal values in falling order, and what stands for their directions n: the
+  /** Principal values in decreasing order, and their directions n: the
    *  components of n n in the plane, those of n in three dimensions. */
   template <typename P>
   class PrincipalAxes
   {
   public:
-    /** Of a symmetric tensor, by its components in the order of tensor_component. */
+    /** Principal axes of a symmetric tensor, by its components in the order of
+     *  tensor_component. */
     explicit PrincipalAxes(const std::array<P, n_spatial> &s)
     {
       if constexpr (dim == 2)
@@ -28,7 +29,7 @@ namespace geocone::GEOCONE_DIM
       sort(0, 1);
     }
 
-    /** The tensor with other values y in the same directions. */
+    /** The tensor with other principal values y in the same directions. */
     std::array<P, n_spatial>
     tensor(const P (&y)[3]) const
     {
@@ -52,14 +53,14 @@ namespace geocone::GEOCONE_DIM
 
     P axis[3][n_axis];
 
-    /** z is one of them. */
+    /** Principal axes in plane strain, where z is one of them. */
     void
     find_in_plane(const std::array<P, n_spatial> &s)
     {
       const P half(0.5), zero(0.), one(1.);
       const P mean = half * (s[0] + s[1]), difference = half * (s[0] - s[1]);
       const P radius = sqrt(difference * difference + s[2] * s[2]);
-      // Any axes will do where both are equal.
+      // If both values are equal, any axes are principal.
       const P per_radius = one / max(radius, P(1e-300));
       const P cos2 = where_greater(radius, zero, difference * per_radius, one);
       const P sin2 = s[2] * per_radius;
@@ -79,11 +80,12 @@ namespace geocone::GEOCONE_DIM
       axis[2][3] = one;
     }
 
-    /** By Jacobi's rotations, of which each makes one component vanish. */
+    /** Principal axes by Jacobi rotations, each of which annihilates one
+     *  component. */
     void
     find_by_rotations(const std::array<P, n_spatial> &s)
     {
-      // Between the two other directions.
+      // The shear component between the two other directions.
       P off[3], size(0.);
       for (int i = 0; i < 3; ++i)
         {
@@ -94,7 +96,7 @@ namespace geocone::GEOCONE_DIM
           for (int d = 0; d < 3; ++d)
             axis[i][d] = P(d == i ? 1. : 0.);
         }
-      // Squares of what is beyond rounding; four or five sweeps do.
+      // Squares below rounding; four or five sweeps suffice.
       const P    negligible = P(1e-33) * size;
       const auto is_done    = [&] {
         const P left = off[0] * off[0] + off[1] * off[1] + off[2] * off[2];
@@ -105,13 +107,13 @@ namespace geocone::GEOCONE_DIM
           rotate((k + 1) % 3, (k + 2) % 3, k, off);
     }
 
-    /** Turns i and j about k so that off[k] vanishes. */
+    /** Rotates i and j about k so that off[k] vanishes. */
     void
     rotate(const int i, const int j, const int k, P (&off)[3])
     {
       const P zero(0.), one(1.);
       const P apart = value[j] - value[i], twice = off[k] + off[k];
-      // The tangent of the smaller one of the two angles.
+      // Tangent of the smaller of the two angles.
       const P t =
         where_greater(zero, apart, zero - twice, twice) /
         max(abs(apart) + sqrt(apart * apart + twice * twice), P(1e-300));
@@ -119,7 +121,7 @@ namespace geocone::GEOCONE_DIM
       value[i] = value[i] - t * off[k];
       value[j] = value[j] + t * off[k];
       off[k]   = zero;
-      // The one of i and k is at j, and that of j and k at i.
+      // The component of i and k is stored at j, that of j and k at i.
       turn(c, sine, off[j], off[i]);
       for (int d = 0; d < 3; ++d)
         turn(c, sine, axis[i][d], axis[j][d]);
@@ -148,7 +150,8 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** The return map of SpatialMohrCoulomb in principal stresses, of several points. */
+  /** Return map of SpatialMohrCoulomb in principal stresses, for several
+   *  points. */
   template <typename P>
   class PyramidReturn
   {
@@ -161,7 +164,8 @@ namespace geocone::GEOCONE_DIM
     {
       const double lambda = pyramid.lambda, two_G = pyramid.two_G;
       const double f[2] = {1. + pyramid.sine, pyramid.sine - 1.};
-      // D g_ij: with g_i at i, g_j at j, and for the third one the same as lambda tr g.
+      // D g_ij: with g_i at i, g_j at j, and lambda tr g in the third
+      // direction.
       const double third = 2. * lambda * pyramid.flow;
       const double D[2]  = {third + two_G * (1. + pyramid.flow),
                             third + two_G * (pyramid.flow - 1.)};
@@ -170,7 +174,7 @@ namespace geocone::GEOCONE_DIM
       Dg[0] = Dg_13[0] = P(D[0]);
       Dg[1] = Dg_13[2] = P(D[1]);
       Dg_13[1] = Dg_third = P(third);
-      // The edges: f_13 of D g_12 and D g_23, as f_12 and f_23 of D g_13.
+      // The edges: f_13 of D g_12 and D g_23, equal to f_12 and f_23 of D g_13.
       const double cross[2] = {f[0] * D[0] + f[1] * third,
                                f[0] * third + f[1] * D[1]};
       for (int e = 0; e < 2; ++e)
@@ -181,8 +185,8 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** @param t trial stresses in order, of which f_13 = f
-     *  @param[out] s where they return to, if f > 0 */
+    /** @param t ordered trial stresses, with f_13 = f
+     *  @param[out] s returned stresses, if f > 0 */
     void
     operator()(const P (&t)[3],
                const P &f,
@@ -208,7 +212,7 @@ namespace geocone::GEOCONE_DIM
                          more_gamma * (i == e       ? Dg[0]
                                        : i == e + 1 ? Dg[1]
                                                     : Dg_third);
-          // Equal to the last digit.
+          // Exactly equal, despite rounding.
           const P mean   = half * (edge[e][1 - e] + edge[e][2 - e]);
           edge[e][1 - e] = edge[e][2 - e] = mean;
         }
@@ -231,15 +235,15 @@ namespace geocone::GEOCONE_DIM
     P own[2], other[2]; ///< of the inverse of F' D G
   };
 
-  /** The stress of several points, turned by the spin, and the strain with shears
+  /** Stresses of several points, rotated by the spin, and strains with shears
    *  gamma_ij = 2 e_ij. */
   template <typename P>
   struct TurnedTensors
   {
     std::array<P, n_spatial> s, strain;
 
-    /** Those of the points p, ... of a block. @param nu for s_zz in the plane, see
-     *  Material */
+    /** Stresses and strains of the points p, ... of a block. @param nu for s_zz
+     *  in the plane, see Material */
     TurnedTensors(const PointBlock &block, const unsigned int p, const P &nu)
     {
       std::array<P, dim * dim> l;
@@ -268,7 +272,7 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** advance_pyramid() for one architecture; see there. */
+  /** advance_pyramid() for one architecture. */
   template <typename Arch>
   void
   advance_pyramid_block(const PyramidNumbers &pyramid, const PointBlock &block)
@@ -286,7 +290,7 @@ namespace geocone::GEOCONE_DIM
                  (pyramid.two_G * (3. * pyramid.lambda + pyramid.two_G)));
     const P wave_modulus(pyramid.lambda + pyramid.two_G);
     const P twice_lagging(2. * pyramid.lagging);
-    // Of its size, the stress at the apex of a pyramid.
+    // Apex stress of a pyramid, per size.
     const auto apex_of_size = [](const double sine) {
       return sine > 0. ? P(0.5 / sine) : P(1e100);
     };
@@ -308,7 +312,7 @@ namespace geocone::GEOCONE_DIM
           trial[i] = s[i] + (is_shear(i) ? half * (two_G * strain[i])
                                          : pressed + two_G * strain[i]);
 
-        // The strength of each point.
+        // Strength of each point.
         P size(pyramid.size);
         if (growth != nullptr)
           size += P(pyramid.size_per_cohesion) * P::load(growth + p);
@@ -316,7 +320,7 @@ namespace geocone::GEOCONE_DIM
           size = size - twice_lagging *
                           min(zero - P::load(memory + p), exact_apex * size);
 
-        // Within the round cone nothing is looked for.
+        // Points within the inscribed cone are elastic.
         const P mean = third * (trial[0] + trial[1] + trial[3]);
         P       squares(0.);
         for (int i = 0; i < n_spatial; ++i)

@@ -12,8 +12,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The rotation of a spin increment w = (l_yx - l_xy)/2 by Cayley's transform,
-   * tan(angle/2) = w/2: orthogonal exactly, so that invariants stay.
+   * Rotation of a spin increment w = (l_yx - l_xy)/2 by the Cayley transform,
+   * tan(angle/2) = w/2: exactly orthogonal, so that invariants are preserved.
    * @tparam T a number, or several at once
    */
   template <typename T>
@@ -32,7 +32,7 @@ namespace geocone::GEOCONE_DIM
       sin2             = two * sine * cosine;
     }
 
-    /** Turns the in-plane components xx, yy, xy of a symmetric tensor. */
+    /** Rotates the in-plane components xx, yy, xy of a symmetric tensor. */
     void
     turn(std::array<T, 3> &s) const
     {
@@ -50,7 +50,8 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * The same in three dimensions: with half the axial vector g of the spin increment,
+   * The same in three dimensions: with half the axial vector g of the spin
+   * increment,
    *   Q = c 1 + s (g g' + [g x]),  s = 2/(1 + g.g),  c = 1 - s g.g.
    */
   template <typename T>
@@ -78,7 +79,7 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Turns the components xx, yy, xy, zz, yz, zx of a symmetric tensor. */
+    /** Rotates the components xx, yy, xy, zz, yz, zx of a symmetric tensor. */
     void
     turn(std::array<T, 6> &s) const
     {

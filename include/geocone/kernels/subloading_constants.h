@@ -7,9 +7,9 @@
 namespace geocone
 {
   /**
-   * The constants of the subloading soil model of the STSM report by Pereira et
+   * Constants of the subloading soil model of the STSM report by Pereira et
    * al., called "the report"; numbers such as "(21)" are its equations. Any
-   * consistent unit of stress will do; defaults are in Pa. Compression is
+   * consistent unit of stress can be used; defaults are in Pa. Compression is
    * positive here.
    */
   struct SubloadingConstants
@@ -26,7 +26,7 @@ namespace geocone
     double cR     = 100.; ///< rate of the subloading ratio R (31) (-)
     double cbeta  = 0.;   ///< rate of rotational hardening (32) (-)
     double cb     = 0.;   ///< rate of the loss of structure (36) (-)
-    double Rbf    = 1.;   ///< structure ratio that remains (36) (-)
+    double Rbf    = 1.;   ///< residual structure ratio (36) (-)
     double ca     = 0.;   ///< rate of the similarity centre (38) (-)
 
     double patm  = 1e5;  ///< reference pressure of (32) (Pa)
@@ -37,12 +37,12 @@ namespace geocone
     bool rotates_with_ph = false;
 
     double tolerance        = 1e-4; ///< error per substep (STOL) (-)
-    double smallest_substep = 1e-4; ///< part of the increment (-)
-    double lowest_pressure  = 1.;   ///< p + pe is kept above it (Pa)
-    double smallest_size    = 1e3;  ///< pcb does not shrink below it (Pa)
+    double smallest_substep = 1e-4; ///< fraction of the increment
+    double lowest_pressure  = 1.;   ///< lower limit of p + pe (Pa)
+    double smallest_size    = 1e3;  ///< lower limit of pcb (Pa)
   };
 
-  /** What follows from them. */
+  /** Derived constants. */
   struct SubloadingNumbers : SubloadingConstants
   {
     SubloadingNumbers() = default;

@@ -12,7 +12,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Mandel vector, compression positive, of a tensor, tension positive. */
+  /** Mandel vector with compression positive, from a tensor with tension
+   *  positive. */
   template <int n>
   typename SubloadingModel<n>::Vector
   to_model(const Tensor6 &x)
@@ -23,7 +24,8 @@ namespace geocone::GEOCONE_DIM
     return y;
   }
 
-  /** @param sign -1 turns compression positive into tension positive. */
+  /** Tensor of a Mandel vector. @param sign -1 for the opposite sign
+   *  convention */
   template <int n>
   Tensor6
   from_model(const Eigen::Matrix<double, n, 1> &x, const double sign)

@@ -8,8 +8,9 @@
 
 namespace geocone
 {
-  /** States of the subloading model at four points, and strain increments: component
-   *  by component in the order of SubloadingState, compression positive. */
+  /** States of the subloading model at four points, and strain increments:
+   *  component by component in the order of SubloadingState, compression
+   *  positive. */
   template <int n>
   struct SubloadingLanes
   {
@@ -18,13 +19,14 @@ namespace geocone
     double stress[n][size], a[n][size], beta[n][size], pcb[size], Rb[size];
     double strain[n][size];
 
-    /** @name Answers */
+    /** @name Results */
     /** @{ */
     double plastic_strain[size]; ///< of the increment
-    bool   is_done[size];        ///< or else the state is as it was
+    bool   is_done[size];        ///< otherwise the state is unchanged
     /** @} */
 
-    /** @param y a SubloadingState; templates, for kernels that do not know it */
+    /** @param y a SubloadingState, a template argument for kernels without
+     *  it */
     template <typename State, typename Strain>
     void
     put(const State &y, const Strain &of_step, const int lane)
@@ -56,10 +58,11 @@ namespace geocone
   };
 
   /**
-   * Carries four points along their strain increments, each by one substep, where that
-   * is all that SubloadingModel::integrate() would do: where the point loads from the
-   * start, the error of the whole increment is within the tolerance, and nothing has to
-   * be limited. This is the rule in explicit steps. The others are left to it.
+   * Integrates four points over their strain increments in one substep each.
+   * This is done where SubloadingModel::integrate() would do the same: the
+   * point loads from the start, the error of the full increment is within the
+   * tolerance, and no limit is reached. In explicit steps this is the usual
+   * case. The other points are left to integrate().
    */
   void
   take_single_substeps(const SubloadingNumbers &, SubloadingLanes<4> &);

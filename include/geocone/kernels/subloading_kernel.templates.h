@@ -8,8 +8,8 @@
 #include <geocone/kernels/subloading_kernel.h>
 
 /*
- * SubloadingModel::substep() of several points at once, by the same formulas in the
- * same order; see there for what they are.
+ * SubloadingModel::substep() of several points at once, by the same formulas in
+ * the same order, which are explained there.
  */
 namespace geocone
 {
@@ -39,7 +39,7 @@ namespace geocone
       const P         R         = f.ratio();
       const P         volume    = strain[0] + strain[1] + strain[2];
       const P         is_loaded = loads(y, f, R, strain, volume);
-      // Zeros and ones: what is not a number is zero.
+      // Masks of zeros and ones; NaN counts as zero.
       P     is_done(0.), plastic_strain(0.);
       State end = y;
       if (is_loaded.largest() > 0.)
@@ -87,7 +87,7 @@ namespace geocone
       P      pcb, Rb;
     };
 
-    /** Of a x^2 + b x + c = 0, as the model's. */
+    /** Root of a x^2 + b x + c = 0, as in SubloadingModel. */
     static P
     positive_root(const P &a, const P &b, const P &c)
     {
@@ -123,7 +123,7 @@ namespace geocone
         to[i] = P::load(from[i]);
     }
 
-    /** Where it is good. */
+    /** Stores the lanes with good = 1. */
     static void
     store(const P &good, const P &end, double (&to)[4])
     {
@@ -143,7 +143,7 @@ namespace geocone
       store(good, end.Rb, lanes.Rb);
     }
 
-    /** 1 where a < b, and else 0. */
+    /** 1 if a < b, otherwise 0. */
     static P
     is_less(const P &a, const P &b)
     {
@@ -233,7 +233,7 @@ namespace geocone
       return f;
     }
 
-    /** 1 where R > Rmin and N:D:de > 0, and else 0. */
+    /** 1 if R > Rmin and N:D:de > 0, otherwise 0. */
     P
     loads(const State     &y,
           const Quadratic &f,
@@ -250,7 +250,7 @@ namespace geocone
       return is_less(P(c.Rmin), R) * is_less(P(0.), N_D_strain);
     }
 
-    /** 1 where the whole of the increment is one plastic substep, and else 0. */
+    /** 1 if the full increment is one plastic substep, otherwise 0. */
     P
     plastic_substep(const State  &y,
                     const P      &R,
@@ -290,8 +290,8 @@ namespace geocone
       return good * is_less(end_R, max(P(1.01), R));
     }
 
-    /** 1 where the whole of the increment is elastic, and else 0; see elastic_part()
-     *  of the model. */
+    /** 1 if the full increment is elastic, otherwise 0; see
+     *  SubloadingModel::elastic_part(). */
     P
     elastic_substep(const State     &y,
                     const Quadratic &f,
@@ -318,7 +318,7 @@ namespace geocone
       const P B1 = two * slope * dot(f.sa, se) + volume * (f.ph + f.ph - y.pcb);
       const P per_2A2 = half / A2;
 
-      // Where R is least, and where it comes back to Rmin.
+      // Position of the minimum of R, and of its return to Rmin.
       const P inward  = A1 + B1 * R;
       const P foot    = zero - A1 * per_2A2;
       const P nearest = positive_root(f.C - half * B1 * B1 * per_2A2,
@@ -500,7 +500,7 @@ namespace geocone
       return r;
     }
 
-    const SubloadingNumbers c; ///< a copy: stores cannot change it
+    const SubloadingNumbers c; ///< a copy, which stores cannot alias
   };
 } // namespace geocone
 

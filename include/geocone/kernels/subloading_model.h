@@ -11,8 +11,9 @@
 namespace geocone
 {
   /**
-   * A state. Vectors have n components: xx, yy, zz, sqrt2 xy, for n = 6 also
-   * sqrt2 yz, sqrt2 zx, so that scalar products are double contractions.
+   * State of a point. Vectors have n components: xx, yy, zz, sqrt2 xy, for
+   * n = 6 also sqrt2 yz, sqrt2 zx, so that scalar products are double
+   * contractions.
    */
   template <int n>
   struct SubloadingState
@@ -27,8 +28,8 @@ namespace geocone
   };
 
   /**
-   * One evaluation of the plastic rates at a state, for a strain increment de;
-   * h_x is dx/dLambda, and m = d gbar/d sy scales Lambda.
+   * Plastic rates at a state, for a strain increment de; h_x is dx/dLambda, and
+   * m = d gbar/d sy scales Lambda.
    */
   template <int n>
   struct SubloadingRates
@@ -49,18 +50,18 @@ namespace geocone
     double H          = 0.;           ///< plastic modulus
     double N_D_m      = 0.;           ///< N:D:m
     double N_D_strain = 0.;           ///< N:D:de
-    double d_lambda   = 0.;   ///< N:D:de/(N:D:m + H), 0 where it is negative
-    bool   stable     = true; ///< N:D:m + H > 0
-    /** The increments of the state for de. */
+    double d_lambda   = 0.;           ///< N:D:de/(N:D:m + H), 0 if negative
+    bool   stable     = true;         ///< N:D:m + H > 0
+    /** Increments of the state for de. */
     SubloadingState<n> increment;
   };
 
-  /** What an integration has cost. */
+  /** Statistics of an integration. */
   struct SubloadingReport
   {
     unsigned int substeps       = 0;     ///< plastic passes and elastic parts
-    unsigned int forced         = 0;     ///< of them, against the error control
-    bool         limited        = false; ///< p or pcb was kept from its limit
+    unsigned int forced         = 0;     ///< accepted in spite of their error
+    bool         limited        = false; ///< p or pcb reached its limit
     double       plastic_strain = 0.;    ///< integral of ||d eps_p|| (-)
   };
 
@@ -88,32 +89,32 @@ namespace geocone
     }
 
     /**
-     * R, the similarity ratio of the subloading surface through the stress: the
+     * Similarity ratio R of the subloading surface through the stress: the
      * positive root of fbar(a + (sigma - a)/R) = 0, (20), (21).
      */
     double
     ratio(const State &state) const;
 
-    /** fbar(S; beta, pcb) (21) (Pa^2), negative inside. */
+    /** Yield function fbar(S; beta, pcb) (21) (Pa^2), negative inside. */
     double
     yield_function(const Vector &S, const Vector &beta, const double pcb) const;
 
     /**
-     * The size pc of the yield surface with inclination beta that passes through
-     * the stress; not positive if there is none (Pa).
+     * Size pc of the yield surface with inclination beta through the stress;
+     * not positive if there is none (Pa).
      */
     double
     size_through(const Vector &stress, const Vector &beta) const;
 
-    /** The plastic rates at a state with the ratio R. */
+    /** Plastic rates at a state with the ratio R. */
     SubloadingRates<n>
     rates(const State &state, const double R, const Vector &strain) const;
 
-    /** Carries a state along a strain increment (compression positive). */
+    /** Integrates a state over a strain increment (compression positive). */
     SubloadingReport
     integrate(State &state, const Vector &strain) const;
 
-    /** K + 4G/3 at the pressure p (Pa). */
+    /** Wave modulus K + 4G/3 at the pressure p (Pa). */
     double
     wave_modulus(const double p) const
     {
@@ -128,7 +129,7 @@ namespace geocone
     }
 
   private:
-    /** fbar(a + x (sigma - a)) = C + B x + A x^2, and what it is made of. */
+    /** Coefficients of fbar(a + x (sigma - a)) = C + B x + A x^2. */
     struct Quadratic;
 
     Quadratic
@@ -149,8 +150,8 @@ namespace geocone
     double
     elastic_length(const double p, const Vector &strain) const;
 
-    /** Moves the stress to where the point loads; the part of the increment, 0
-     *  to 1, that this takes. */
+    /** Advances the stress elastically to the onset of plastic loading.
+     *  @return the part of the increment, 0 to 1, that this takes */
     double
     elastic_part(State           &state,
                  const Quadratic &f,
@@ -163,11 +164,11 @@ namespace geocone
     Substep
     substep(const State &state, const double R, const Vector &strain) const;
 
-    /** eta_beta,cs for the deviator s of norm norm_s, and h. */
+    /** Ratio eta_beta,cs of the deviator s with the norm norm_s, and h. */
     double
     critical_ratio(const Vector &s, const double norm_s, double &lode) const;
 
-    /** Keeps p + pe above the lowest pressure. */
+    /** Limits p + pe from below by the lowest pressure. */
     void
     limit(State &state, SubloadingReport &report) const;
 

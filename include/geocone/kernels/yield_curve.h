@@ -13,21 +13,21 @@ namespace geocone
   /** Components xx, yy, zz, xy, yz, zx of a tensor (no Mandel factors). */
   using Tensor6 = std::array<double, 6>;
 
-  /** A section of a yield surface in the plane of p and q, for pictures (Pa);
-   *  p compression positive. */
+  /** Section of a yield surface in the plane of p and q, for figures (Pa); p
+   *  compression positive. */
   using YieldCurve = std::vector<std::pair<double, double>>;
 
-  /** The plane of such a section: that of the hydrostatic axis and the deviator of a
-   *  stress. */
+  /** Plane of such a section, spanned by the hydrostatic axis and the deviator
+   *  of a stress. */
   struct SectionPlane
   {
     Tensor6 stress; ///< tension positive (Pa)
 
-    /** 0 to 2: q counts positive where this component is compressed more than the
-     *  others; else the deviator points to positive q. */
+    /** 0 to 2: q is positive if this component is more compressed than the
+     *  others; otherwise the deviator points to positive q. */
     unsigned int axis;
 
-    double largest_p; ///< how far open surfaces are drawn (Pa)
+    double largest_p; ///< limit of p for open surfaces (Pa)
   };
 } // namespace geocone
 
