@@ -94,7 +94,7 @@ namespace geocone::GEOCONE_DIM
                                  t,
                                  s,
                                  tangent);
-    // An elastic point keeps its trial stress to the last digit.
+    // Elastic points keep their trial stress exactly.
     stress = mode == Mode::elastic
                ? trial
                : SpatialMandel(spatial_axes().transpose() * s);

@@ -51,7 +51,7 @@ namespace geocone::GEOCONE_DIM
                        "automatic | a time >= 0 s",
                        "0 is the exact law; take a time in which what is "
                        "loaded moves by a thousandth of its length");
-    if (is_useful) // or else nothing is to be remembered
+    if (is_useful) // otherwise there is nothing to delay
       tau = *given;
   }
 
@@ -59,7 +59,8 @@ namespace geocone::GEOCONE_DIM
   FrictionMemory::is_hard(const double non_associativity,
                           const double aperture_left)
   {
-    // As strong as theta = 0 at phi = 12: less is easy without.
+    // As for theta = 0 and phi = 12; smaller differences converge without
+    // memory.
     constexpr double least = 0.2;
     return non_associativity > Material::hard_flow && aperture_left > least;
   }

@@ -171,7 +171,7 @@ namespace geocone::GEOCONE_DIM
   std::optional<FlowCone>
   Material::initial_cone() const
   {
-    if (is_spatial()) // none of these has a cone that changes
+    if (is_spatial()) // no hardening cone among them
       return flow_cone(nullptr);
     std::vector<double> history(n_history());
     initialise({}, 0., history.data());

@@ -31,8 +31,8 @@ namespace geocone::GEOCONE_DIM
 
     using List = std::vector<std::pair<std::string, MakeLaw>>;
 
-    /** The list of all laws: a new one is a new line here. In three dimensions
-     *  Mohr-Coulomb's law is the spatial one, and those of the plane are not there. */
+    /** All laws: a new law is a new line here. In three dimensions the spatial
+     *  law is the Mohr-Coulomb law, and the plane laws are missing. */
     List
     all_laws()
     {

@@ -26,7 +26,7 @@ namespace geocone::GEOCONE_DIM
       return std::sqrt(1.5) * s.norm();
     }
 
-    /** Takes the deviator of what it multiplies. */
+    /** Projection onto deviators. */
     SpatialMandelMatrix
     along_deviators()
     {
@@ -34,7 +34,7 @@ namespace geocone::GEOCONE_DIM
       return SpatialMandelMatrix::Identity() - I * I.transpose() / 3.;
     }
 
-    /** What a step starts from, and its strain. */
+    /** Initial state and strain of a step. */
     struct StrainStep
     {
       double        P_n, Pc_n; ///< (Pa)
@@ -50,8 +50,8 @@ namespace geocone::GEOCONE_DIM
       return x == 0. ? 1. : std::expm1(x) / x;
     }
 
-    /** Its derivative; by its series where the formula would be a difference of nearly
-     *  equal numbers. */
+    /** Derivative of mean_exponential(), by its series where the formula
+     *  cancels. */
     double
     mean_exponential_slope(const double x)
     {
@@ -64,10 +64,11 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Where a function changes its sign from - to +, to the last digits: Newton's
-     * method, with bisection where that leaves the bracket or takes long.
-     * @param evaluate gives value and slope
-     * @return not a number if a value is none
+     * Root of a function that changes sign from - to +, within rounding:
+     * Newton's method, with bisection if it leaves the bracket or converges
+     * slowly.
+     * @param evaluate returns value and slope
+     * @return NaN if a value is NaN
      */
     template <typename Function>
     double
@@ -187,7 +188,8 @@ namespace geocone::GEOCONE_DIM
     return P + q * q / (M * M * P);
   }
 
-  /** Primes in comments are derivatives; those by v are at fixed phi. */
+  /** Primes in comments are derivatives; those with respect to v are at fixed
+   *  phi. */
   struct ModifiedCamClay::Trial
   {
     Trial(const ModifiedCamClay &law, const StrainStep &step, const double phi)
@@ -234,7 +236,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * The solution, with plastic flow.
+     * Solution with plastic flow.
      * @param P,q of the elastic trial stress, q over M (Pa)
      */
     static Trial
@@ -243,8 +245,8 @@ namespace geocone::GEOCONE_DIM
             const double           P,
             const double           q)
     {
-      // The half of the ellipse to which plastic flow leads, and where on it the size
-      // would not change; from there on the trial stress is outside.
+      // The half of the ellipse to which plastic flow leads, bounded by the
+      // angle of constant size, beyond which the trial stress is outside.
       const double part      = P / step.Pc_n;
       const bool   contracts = part >= 0.5;
       const double unchanged = part < 1. ? 2. * std::acos(std::sqrt(part)) : 0.;
@@ -276,11 +278,12 @@ namespace geocone::GEOCONE_DIM
       return by_quotient() ? N / D : M * Pc * sine / 2. / q_t;
     }
 
-    /** ds/de. @param opens whether the pressure does not change */
+    /** Tangent ds/de. @param opens whether the pressure is constant */
     SpatialMandelMatrix
     tangent(const SpatialMandel &e, const bool opens) const
     {
-      // Gradients by the strain: v' = -I, and q_t' = q_t_G G' + normal.
+      // Gradients with respect to strain: v' = -I, and q_t' = q_t_G
+      // G' + normal.
       const double        rho = factor_of_t();
       const SpatialMandel I   = unit_tensor<n_spatial>();
       const SpatialMandel normal =

@@ -166,7 +166,7 @@ namespace geocone::GEOCONE_DIM
                 history[place_of_memory()], returned[0], increment.step.size);
             add_to_history(slip, history);
           }
-        // An elastic point keeps its trial stress to the last digit.
+        // Elastic points keep their trial stress exactly.
         const bool elastic = response.mode[p] == Mode::elastic;
         response.stress[p] = elastic ? trial : from_cone_axes(returned);
         if (linear)

@@ -12,9 +12,9 @@ namespace geocone::GEOCONE_DIM
 {
   namespace
   {
-    /** Principal values in falling order, and the Mandel vectors of their directions:
-     *  by columns first those n_i n_i, then sqrt(2) sym(n_i n_j) of each pair that can
-     *  turn into each other. */
+    /** Principal values in decreasing order, and the Mandel vectors of their
+     *  directions: first the columns n_i n_i, then sqrt(2) sym(n_i n_j) of each
+     *  pair that can rotate into each other. */
     template <int n>
     struct Spectrum
     {
@@ -23,7 +23,7 @@ namespace geocone::GEOCONE_DIM
       std::array<std::array<unsigned int, 2>, 3> pair = {};
     };
 
-    /** Of (xx, yy, sqrt2 xy, zz), where z is a principal direction. */
+    /** Spectrum of (xx, yy, sqrt2 xy, zz), where z is a principal direction. */
     [[maybe_unused]] Spectrum<4>
     spectrum(const Eigen::Vector4d &s)
     {
@@ -54,7 +54,7 @@ namespace geocone::GEOCONE_DIM
       return result;
     }
 
-    /** Of any tensor. */
+    /** Spectrum of a general tensor. */
     [[maybe_unused]] Spectrum<6>
     spectrum(const Eigen::Matrix<double, 6, 1> &s)
     {
@@ -76,11 +76,12 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * The derivative of an isotropic function y(x) of a tensor, by x times a factor: of a
-     * stress that returns from the trial stress x, by the strain.
+     * Derivative of an isotropic tensor function y(x), times a factor: of the
+     * returned stress with respect to strain, through the trial stress x.
      * @param at x
-     * @param y,C principal values of y there, and their derivatives, with the factor
-     * @param scale the factor, for what shears
+     * @param y,C principal values of y there, and their derivatives, with the
+     * factor
+     * @param scale the factor, for shear components
      */
     template <int n>
     Eigen::Matrix<double, n, n, Eigen::RowMajor>
@@ -94,7 +95,7 @@ namespace geocone::GEOCONE_DIM
       along.template topLeftCorner<3, 3>() = C;
       for (int k = 3; k < n; ++k)
         {
-          // Shear turns the directions: (y_a - y_b)/(x_a - x_b).
+          // Shear rotates the directions: (y_a - y_b)/(x_a - x_b).
           const auto [a, b]  = at.pair[k - 3];
           const double apart = at.value[a] - at.value[b];
           along(k, k) = std::abs(apart) > 1e-12 * (std::abs(at.value[a]) +
@@ -185,7 +186,8 @@ namespace geocone::GEOCONE_DIM
                                             const SpatialMandel &stress,
                                             const double        *history) const
   {
-    // The planes that flow have the same f, and g_ij = (1 + sin(theta), -1 + sin(theta)).
+    // Active planes have the same f, and g_ij = (1 + sin(theta),
+    // -1 + sin(theta)).
     const Principal e = spectrum(plastic_strain).value;
     const double    multipliers =
       std::max(e[0] / (1. + sin_theta), -e[2] / (1. - sin_theta));
@@ -211,7 +213,8 @@ namespace geocone::GEOCONE_DIM
     here.compliance = 1. / two_G;
     here.violation  = solved.yield_function(s);
     here.excess     = exact_here.yield_function(s);
-    // Normals have (1 - sin(phi)) plus >= (1 + sin(phi)) minus, with more at the apex.
+    // Normals satisfy (1 - sin(phi)) plus >= (1 + sin(phi)) minus, with
+    // inequality at the apex.
     here.dual =
       std::max(0., (1. + solved.sine) * y.minus - (1. - solved.sine) * y.plus);
     here.complementary =
@@ -281,7 +284,7 @@ namespace geocone::GEOCONE_DIM
       F.transpose() * trial - Eigen::Vector2d::Constant(strength.size);
     const Eigen::Vector2d gamma = inverse * over;
     stress                      = trial - DG * gamma;
-    // Equal to the last digit.
+    // Exactly equal, despite rounding.
     const unsigned int a = two_three ? 1 : 0, b = a + 1;
     stress[a] = stress[b] = (stress[a] + stress[b]) / 2.;
     if (stress[0] + stress[2] <= 2. * strength.apex())
@@ -340,7 +343,7 @@ namespace geocone::GEOCONE_DIM
       delayed(own_strength(extended(stress_n, 0.), history_n, step));
     SpatialMandelMatrix psi_slope, slope;
     SpatialMandel       projected;
-    // Psi is odd, and z is less the plastic strain.
+    // Psi is odd, and z is the negative plastic strain.
     const Normal y = normal_of(-extended(z, 0.), pyramid, &psi_slope);
     Projection   result;
     result.mode =
@@ -370,7 +373,7 @@ namespace geocone::GEOCONE_DIM
     Principal       s;
     PrincipalMatrix C;
     const Mode mode = return_principal(elastic, pyramid, flow, at.value, s, C);
-    // An elastic point keeps its trial stress to the last digit.
+    // Elastic points keep their trial stress exactly.
     if (mode == Mode::elastic)
       stress = trial;
     else

@@ -104,7 +104,7 @@ namespace geocone
   double
   StrainCurve::least_slope() const
   {
-    // That of an exponential curve is the one at strain 0.
+    // An exponential curve has its smallest slope at strain 0.
     double slope = 0.;
     for (std::size_t i = 1; i < points.size(); ++i)
       slope = std::min(slope,

@@ -15,7 +15,7 @@ namespace geocone::GEOCONE_DIM
   {
     using Constants = SubloadingConstants;
 
-    /** A number of the model as a parameter. */
+    /** A constant of the model as a parameter. */
     struct Constant
     {
       const char *name;
@@ -25,11 +25,11 @@ namespace geocone::GEOCONE_DIM
       const char *allowed;
       const char *remedy;
 
-      double Constants::*bound = nullptr; ///< whose value ends what is allowed
+      double Constants::*bound = nullptr; ///< constant that limits the range
     };
 
-    /** Apart from the tables, which have the order of the declarations and the checks:
-     *  M's bound, which is that of rotational hardening, follows its check. */
+    /** Not in the tables, which have the order of declarations and checks: the
+     *  bound of M depends on it and follows its check. */
     constexpr Constant rotational_hardening = {
       "Rotational hardening rate cbeta",
       &Constants::cbeta,
@@ -401,7 +401,7 @@ namespace geocone::GEOCONE_DIM
         y.pcb = through;
         R     = law.ratio(y);
       }
-    // a = 0 with xi = 0 is the limit that is allowed.
+    // a = 0 with xi = 0 is an admissible limit.
     const double inside = law.yield_function(y.a, y.beta, y.pcb);
     if (!(R <= 1. + 1e-9) ||
         !(inside < 0. || (inside == 0. && y.a.norm() == 0.)))

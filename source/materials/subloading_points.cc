@@ -1,9 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// A point of the subloading law: its state among the numbers that a run keeps of it, its
-// explicit steps, and what is shown of it. Parameters and initial states:
-// subloading.cc.
+// Points of the subloading law: their history, explicit steps and output.
+// Parameters and initial states: subloading.cc.
 #include <geocone/base/types.h>
 #include <geocone/kernels/spin.h>
 #include <geocone/kernels/subloading_curves.h>
@@ -20,7 +19,7 @@ namespace geocone::GEOCONE_DIM
     using Components = ConstitutiveLaw::Components;
     using Model      = SubloadingModel<n_spatial>;
 
-    /** Places in the history of a point; s_zz is there in the plane only. */
+    /** Indices in the history of a point; s_zz only in the plane. */
     enum
     {
       stress_zz,
@@ -30,19 +29,20 @@ namespace geocone::GEOCONE_DIM
       structure
     };
 
-    /** Names of the components in the order of the model, and where the motion has
-     *  each among its own; zz is not there in the plane. */
+    /** Names of the components in the order of the model, and their indices
+     *  among those of the strain; the plane has no zz. */
     constexpr const char *component[6] = {"xx", "yy", "zz", "xy", "yz", "zx"};
     constexpr int place_in_motion[6]   = {0, 1, dim == 2 ? -1 : 3, 2, 4, 5};
 
-    /** Of a component k of the model, in a Mandel vector. */
+    /** Mandel factor of component k of the model. */
     constexpr double
     factor(const int k)
     {
       return k < 3 ? 1. : sqrt2;
     }
 
-    /** A stress of the motion in that of the model, which keeps the others. */
+    /** Copies a stress of the scene to that of the model, without changing
+     *  other components. */
     void
     take_stress(const Components &s, Model::Vector &stress)
     {
@@ -61,7 +61,7 @@ namespace geocone::GEOCONE_DIM
       return s;
     }
 
-    /** The history h_k of a point, k = 0, 1, ..., as its state. */
+    /** State of a point from its history h_k, k = 0, 1, ... */
     template <typename History>
     SubloadingState<n_spatial>
     state_of(const Components &s, const History &h)
@@ -113,7 +113,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** The turned state and the strain increment of a point. */
+    /** Rotated state and strain increment of a point. */
     void
     begin(const PointBlock           &block,
           const unsigned int          i,
@@ -157,7 +157,7 @@ namespace geocone::GEOCONE_DIM
     Model::Vector              strain[n_lanes];
     for (unsigned int first = 0; first < block.n_points; first += n_lanes)
       {
-        // Lanes beyond the last point do as it does, and are not asked.
+        // Lanes beyond the last point copy it, and their results are ignored.
         const unsigned int n = std::min(n_lanes, block.n_points - first);
         for (unsigned int j = 0; j < n_lanes; ++j)
           {

@@ -19,17 +19,17 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * What every constitutive law can do: it has a density, and it carries points
-   * along in explicit steps (advance()). Laws of closed form, which implicit
-   * methods can use as well, derive from Material; laws with an integrator of
+   * Interface of all constitutive laws: a density and the explicit update of
+   * points (advance()). Laws with a closed-form return map, which implicit
+   * methods can also use, derive from Material; laws with an integrator of
    * their own derive from this class. Each law is one unit in this folder with
    * its own parameters, and one line in material_library.cc.
    */
   class ConstitutiveLaw : public dealii::ParameterAcceptor
   {
   public:
-    /** A whole stress, tension positive (Pa): xx, yy, zz, xy, which are all in
-     *  plane strain, and in three dimensions yz, zx. */
+    /** A full stress tensor, tension positive (Pa): xx, yy, zz, xy, and in
+     *  three dimensions yz, zx. */
     using Stress = std::array<double, n_spatial>;
 
     /** Stress components in the order of tensor_component, in the plane without
@@ -39,7 +39,7 @@ namespace geocone::GEOCONE_DIM
     /** @param section e.g. "Materials/soil" */
     explicit ConstitutiveLaw(const std::string &section);
 
-    /** Checks the parameters and computes what derives from them. */
+    /** Checks the parameters and computes derived constants. */
     virtual void
     prepare();
 
@@ -57,27 +57,29 @@ namespace geocone::GEOCONE_DIM
       return rho_saturated;
     }
 
-    /** Takes the densities from the unit weights of the file. @param g (m/s^2)
-     *  @throws InputError if there are any, and g is zero */
+    /** Computes the densities from given unit weights. @param g (m/s^2)
+     *  @throws InputError for given unit weights and zero gravity */
     void
     set_gravity(const double g);
 
-    /** K_w/n (Pa) of the fluid in the pores of soil that is undrained: the excess
-     *  pressure of a point grows by dp = -K_w/n tr(de). 0: drained. */
+    /** Bulk modulus K_w/n (Pa) of the pore fluid of undrained soil: the excess
+     *  pressure of a point increases by dp = -K_w/n tr(de). 0: drained. */
     double
     fluid_modulus() const
     {
       return pore_fluid;
     }
 
-    /** What the fluid stores at an excess pressure, per volume (J/m^3). */
+    /** Energy stored by the pore fluid at an excess pressure, per volume
+     *  (J/m^3). */
     double
     fluid_energy(const double pressure) const
     {
       return pore_fluid > 0. ? pressure * pressure / (2. * pore_fluid) : 0.;
     }
 
-    /** Horizontal over vertical effective stress that the file gives, or 0. */
+    /** Ratio of horizontal to vertical effective stress given in the file, or
+     *  0. */
     double
     given_k0() const
     {
@@ -86,8 +88,8 @@ namespace geocone::GEOCONE_DIM
 
     /**
      * K0 (-), the ratio of horizontal to vertical effective stress in level
-     * ground that has never been strained sideways, and which the law can bear
-     * at any depth. One is an isotropic state.
+     * ground without lateral strain, admissible at any depth. One is an
+     * isotropic state.
      */
     virtual double
     earth_pressure_at_rest() const
@@ -95,15 +97,15 @@ namespace geocone::GEOCONE_DIM
       return 1.;
     }
 
-    /** What Prandtl's load is that of in plane strain, of laws that have one. */
+    /** Strength parameters for Prandtl's load in plane strain, of laws that
+     *  have one. */
     virtual std::optional<FrictionalStrength>
     plane_strain_strength() const
     {
       return std::nullopt;
     }
 
-    /** Says that there will be strain out of the plane. @return whether the law
-     *  knows it */
+    /** Enables out-of-plane strain. @return whether the law supports it */
     virtual bool
     set_axisymmetric()
     {
@@ -114,37 +116,39 @@ namespace geocone::GEOCONE_DIM
     /** @{ */
 
     /**
-     * One step of all points of a block: turns stress and tensorial history by
-     * the exact rotation of the spin increment, then adds the response to the
-     * strain increment sym(dt grad v).
+     * One step of all points of a block: rotates stress and tensorial history
+     * by the spin increment exactly, then adds the response to the strain
+     * increment sym(dt grad v).
      */
     virtual void
     advance(const PointBlock &block, LawCounts &counts) const = 0;
 
-    /** Number of history variables of a point, which are the law's own affair. */
+    /** Number of history variables of a point; only the law interprets them. */
     virtual unsigned int
     n_history() const = 0;
 
     /**
-     * The history of a point that has this stress, by the parameters of the law.
-     * @param size in which strain localises there, that of a cell over the degree of
-     * its functions (m), for laws that soften; 0: of a lone point, which is uniform
+     * Initial history of a point with a given stress, by the parameters of the
+     * law.
+     * @param size in which strain localises: cell size over polynomial degree
+     * (m), for softening laws; 0: a single point with uniform strain
      * @param[out] history n_history() values
-     * @return what had to be changed for it, or nothing
-     * @throws InputError if the law cannot have this stress
+     * @return a note on values that had to be changed, or empty
+     * @throws InputError if the stress is not admissible
      */
     virtual std::string
     initialise(const Stress &stress,
                const double  size,
                double       *history) const = 0;
 
-    /** Sets what of the history depends on where a point begins, before initialise().
-     *  @throws InputError for a place where the law cannot be */
+    /** Sets the history variables that depend on the initial position, before
+     *  initialise(). @throws InputError at a position where the law is not
+     *  valid */
     virtual void
     take_place(const dealii::Point<dim> & /*place*/, double * /*history*/) const
     {}
 
-    /** The size that a point was given by initialise(), of laws that need it (m). */
+    /** Size given to initialise(), of laws that need it (m). */
     virtual double
     size(const double * /*history*/) const
     {
@@ -155,7 +159,7 @@ namespace geocone::GEOCONE_DIM
     virtual double
     stress_zz(const Components &stress, const double *history) const = 0;
 
-    /** All of the stress of a point. */
+    /** Full stress tensor of a point. */
     Stress
     whole(const Components &stress, const double *history) const;
 
@@ -163,7 +167,7 @@ namespace geocone::GEOCONE_DIM
     virtual double
     wave_modulus(const Stress &stress, const double *history) const = 0;
 
-    /** What can be shown of the state beyond the components of the stress. */
+    /** An output quantity of the state besides the stress components. */
     struct Shown
     {
       std::string name;  ///< of a field, e.g. "stress_zz"
@@ -172,8 +176,8 @@ namespace geocone::GEOCONE_DIM
     virtual std::vector<Shown>
     shown() const = 0;
 
-    /** Sections of the yield surfaces of a state, the outermost first; none where the
-     *  law does not tell them. */
+    /** Sections of the yield surfaces of a state, the outermost first; empty
+     *  for laws that do not provide them. */
     virtual std::vector<YieldCurve>
     yield_curves(const Components & /*stress*/,
                  const double * /*history*/,
@@ -182,7 +186,7 @@ namespace geocone::GEOCONE_DIM
       return {};
     }
 
-    /** The values for shown(). */
+    /** Values in the order of shown(). */
     virtual void
     show(const Components &stress,
          const double     *history,
@@ -190,11 +194,12 @@ namespace geocone::GEOCONE_DIM
     /** @} */
 
   protected:
-    /** "Materials/soil/NAME", for messages; without a name, of the section. */
+    /** Parameter name "Materials/soil/NAME", for messages; without a name, the
+     *  section. */
     std::string
     parameter(const std::string &name = "") const;
 
-    /** @throws InputError for a constant that is not as it must be */
+    /** @throws InputError for an inadmissible constant */
     void
     require(const bool         holds,
             const char        *name,
@@ -208,13 +213,13 @@ namespace geocone::GEOCONE_DIM
     double pore_fluid = 0., k0 = 0.;
   };
 
-  /** One of what a law can show, or not a number if it cannot. */
+  /** One output quantity of a law, or NaN if it has none of this name. */
   class ShownValue
   {
   public:
     ShownValue(const ConstitutiveLaw &law, const std::string &name);
 
-    /** As ConstitutiveLaw::show(). */
+    /** The value, see ConstitutiveLaw::show(). */
     double
     operator()(const ConstitutiveLaw::Components &stress,
                const double                      *history);
@@ -225,7 +230,7 @@ namespace geocone::GEOCONE_DIM
     std::size_t            place = 0;
   };
 
-  /** The components of a stress that is given as a Mandel vector (Pa). */
+  /** Stress components from a Mandel vector (Pa). */
   inline ConstitutiveLaw::Stress
   stress_of(const SpatialMandel &t)
   {
@@ -235,7 +240,7 @@ namespace geocone::GEOCONE_DIM
     return s;
   }
 
-  /** And back. */
+  /** Mandel vector from stress components, the inverse of stress_of(). */
   inline SpatialMandel
   spatial_of(const ConstitutiveLaw::Stress &s)
   {

@@ -11,21 +11,22 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The circular cone of all principal stresses (Drucker and Prager 1952),
+   * Circular cone in three-dimensional stress space (Drucker and Prager 1952),
    *   sqrt(J_2) + alpha I_1 <= kappa,  I_1 = tr s,
-   * with the flow of the same cone for the dilatancy angle. Along the axis n = -(1, 1,
-   * 0, 1)/sqrt3 and across it, it is the FlowCone
+   * with the flow rule of the cone for the dilatancy angle. In components along
+   * and across the axis n = -(1, 1, 0, 1)/sqrt3 it is the FlowCone
    *   |s_t| <= a s_n + k,   a = sqrt6 alpha,  k = sqrt2 kappa,
-   * with D = diag(3 lambda + 2G, 2G, 2G, 2G): return map, change of variable and
-   * natural map are those of the plane cone with one component more.
+   * with D = diag(3 lambda + 2G, 2G, 2G, 2G): return map, change of variable
+   * and natural map are those of the plane cone with one more component.
    *
-   * Its size is matched to Mohr-Coulomb's pyramid (s = sin, t = tan of the angle):
-   *   outer (its compression edges)    alpha = 2 s/(sqrt3 (3 - s)), kappa = 6 c
-   *     cos/(sqrt3 (3 - s))
-   *   inner (its tension edges)        alpha = 2 s/(sqrt3 (3 + s)), kappa = 6 c
-   *     cos/(sqrt3 (3 + s))
-   *   plane strain (associated flow)   alpha = t/sqrt(9 + 12 t^2), kappa = 3 c/sqrt(9
-   *     + 12 t^2).
+   * Its size is matched to the Mohr-Coulomb pyramid (s = sin, t = tan of the
+   * angle):
+   *   outer (compression edges)        alpha = 2 s/(sqrt3 (3 - s)),
+   *                                    kappa = 6 c cos/(sqrt3 (3 - s))
+   *   inner (extension edges)          alpha = 2 s/(sqrt3 (3 + s)),
+   *                                    kappa = 6 c cos/(sqrt3 (3 + s))
+   *   plane strain (associated flow)   alpha = t/sqrt(9 + 12 t^2),
+   *                                    kappa = 3 c/sqrt(9 + 12 t^2).
    */
   class DruckerPrager : public FrictionalSpatialLaw
   {
@@ -49,7 +50,7 @@ namespace geocone::GEOCONE_DIM
       return cone.b > 0.;
     }
 
-    /** In three dimensions it is a cone like any other. */
+    /** Cone in three dimensions; in the plane s_zz is part of the law. */
     std::optional<FlowCone>
     flow_cone(const double *history) const override
     {
@@ -88,7 +89,7 @@ namespace geocone::GEOCONE_DIM
                          const SpatialMandel &stress,
                          const OwnStrength   &own) const override;
 
-    /** s_n along the axis of the cone. */
+    /** Component s_n along the axis of the cone. */
     double
     normal_stress(const SpatialMandel &stress) const override
     {
@@ -112,14 +113,14 @@ namespace geocone::GEOCONE_DIM
                             {"outer", Match::outer},
                             {"inner", Match::inner}}};
 
-    /** The cone that a step solves for. */
+    /** Cone of a step, with delayed friction. */
     FlowCone
     cone_of(const OwnStrength &own) const
     {
       return cone_with(own.cohesion).delayed(own.part, own.normal);
     }
 
-    /** The cone where the cohesion is larger by so much (Pa). */
+    /** Cone for a cohesion increased by @p cohesion (Pa). */
     FlowCone
     cone_with(const double cohesion) const
     {
@@ -129,10 +130,10 @@ namespace geocone::GEOCONE_DIM
     }
 
     FlowCone cone;
-    double   k_per_cohesion = 0.; ///< of what the file gives (-)
+    double   k_per_cohesion = 0.; ///< dk/dc (-)
   };
 
-  /** von Mises' law sqrt(J_2) <= c: DruckerPrager with phi = theta = 0. */
+  /** von Mises law sqrt(J_2) <= c: DruckerPrager with phi = theta = 0. */
   class VonMises : public DruckerPrager
   {
   public:

@@ -12,33 +12,33 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The time tau in which the strength of a soil follows the normal stress on which it
-   * depends (doc/theory/friction_memory.md): a history variable p obeys
+   * Relaxation time tau in which the strength of a soil follows the normal
+   * stress (doc/theory/friction_memory.md): a history variable p obeys
    * dp/dt = (s_n - p)/tau, and an implicit step h has
    *   p = lambda p_n + (1 - lambda) s_n,   lambda = tau/(h + tau).
    */
   class FrictionMemory
   {
   public:
-    /** @param text what the file may leave out: "automatic", or a time */
+    /** @param text default: "automatic", or a time */
     explicit FrictionMemory(const std::string &text = "automatic")
       : text(text)
     {}
 
-    /** Name of its parameter. */
+    /** Name of the parameter. */
     static constexpr const char *entry = "Friction memory";
 
-    /** Declares its parameter. */
+    /** Declares the parameter. */
     void
     declare(dealii::ParameterAcceptor &section);
 
     /** Reads the time. @param section that declared it
-     *  @param is_useful whether there is friction without as much dilatancy
+     *  @param is_useful whether friction exceeds dilatancy
      *  @throws InputError */
     void
     prepare(const dealii::ParameterAcceptor &section, const bool is_useful);
 
-    /** Takes the scene's time where the file leaves it to it. */
+    /** Sets the time chosen by the scene, if the parameter is "automatic". */
     void
     set_automatic(const double time)
     {
@@ -53,14 +53,14 @@ namespace geocone::GEOCONE_DIM
       return tau;
     }
 
-    /** lambda of a step h (s). */
+    /** Weight lambda of the past in a step h (s). */
     double
     remembered(const double h) const
     {
       return tau > 0. ? tau / (h + tau) : 0.;
     }
 
-    /** p after a step. @param s_n at its end */
+    /** p at the end of a step. @param s_n at its end */
     double
     next(const double p, const double s_n, const double h) const
     {
@@ -68,7 +68,8 @@ namespace geocone::GEOCONE_DIM
       return part * p + (1. - part) * s_n;
     }
 
-    /** Whether automatic is worth it. @param non_associativity (a - b)/a
+    /** Whether "automatic" activates the memory. @param non_associativity
+     *  (a - b)/a
      *  @param aperture_left sin(phi) - sin(theta) */
     static bool
     is_hard(const double non_associativity, const double aperture_left);

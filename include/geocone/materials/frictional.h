@@ -112,7 +112,7 @@ namespace geocone::GEOCONE_DIM
       this->memory.declare(*this);
     }
 
-    /** For laws that fix phi = theta = 0 and do not declare the angles.
+    /** For laws with phi = theta = 0, which do not declare the angles.
      *  @param cohesion documentation of their parameter */
     Frictional(const std::string &section, const std::string &cohesion)
       : Remembering(section)
@@ -130,8 +130,8 @@ namespace geocone::GEOCONE_DIM
       return given.gradient != 0. || profile;
     }
 
-    /** By how much the cohesion of a point is more than c (Pa).
-     *  @param history of the point; null: where it is c */
+    /** Increase of the cohesion of a point above c (Pa).
+     *  @param history of the point; null: no increase */
     double
     grown_cohesion(const double *history) const
     {
@@ -139,7 +139,8 @@ namespace geocone::GEOCONE_DIM
                                                     : 0.;
     }
 
-    /** Place of that in the history, if the cohesion grows. */
+    /** Index of the increase in the history, for a cohesion that varies with
+     *  depth. */
     unsigned int
     place_of_growth() const
     {

@@ -22,16 +22,16 @@ namespace geocone
     double tension = std::numeric_limits<double>::infinity();
 
     double gradient = 0.; ///< of the cohesion with depth (Pa/m)
-    double level    = 0.; ///< where it is c: y (m)
+    double level    = 0.; ///< y at which it is c (m)
 
-    /** By how much the cohesion at y is more than c (Pa). */
+    /** Increase of the cohesion at y above c (Pa). */
     double
     growth(const double y) const
     {
       return gradient * (level - y);
     }
 
-    /** Of clay: phi = theta = 0. */
+    /** Strength of clay: phi = theta = 0. */
     static FrictionalStrength
     without_friction()
     {
@@ -40,7 +40,7 @@ namespace geocone
       return clay;
     }
 
-    /** Declares its three parameters in the section of a law. */
+    /** Declares the three parameters in the section of a law. */
     void
     declare(dealii::ParameterAcceptor &law);
 
@@ -49,7 +49,7 @@ namespace geocone
     declare_cohesion(dealii::ParameterAcceptor &law,
                      const std::string         &documentation);
 
-    /** Declares how the cohesion grows with depth. */
+    /** Declares the variation of the cohesion with depth. */
     void
     declare_growth(dealii::ParameterAcceptor &law);
 
@@ -62,8 +62,9 @@ namespace geocone
     void
     prepare(const std::string &section);
 
-    /** c and tan(phi) divided by F; theta as phi where both are the same, and else what
-     *  it was, at most phi. F = 1: to the last digit what the file says. */
+    /** Strength with c and tan(phi) divided by F. theta equals phi for
+     *  associated flow; otherwise it is unchanged but at most phi. F = 1
+     *  returns the given values exactly. */
     FrictionalStrength
     reduced(const double F) const;
 

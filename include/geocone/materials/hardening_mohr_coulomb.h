@@ -10,23 +10,24 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * MohrCoulomb whose parameters change with the plastic shear strain kappa, the
-   * integral of |e_1 - e_2| = sqrt2 |z_t| over the plastic strain increments in the
-   * plane (-), which is a history variable:
+   * MohrCoulomb with parameters that depend on the plastic shear strain kappa,
+   * the integral of |e_1 - e_2| = sqrt2 |z_t| over the plastic strain
+   * increments in the plane (-), a history variable:
    *   c(kappa), phi(kappa), theta(kappa),
-   * either c = c_0 + H kappa, which the return map has in closed form (in cone axes k =
-   * k_n + h |z_t| with h = 2 H cos(phi)), or by a StrainCurve each, whose step is one
-   * scalar equation (return_map_varying()). The tip of the cone moves with
-   * them; opening there does not change them. The work that hardening stores counts as
-   * dissipated.
+   * either c = c_0 + H kappa, with a closed-form return map (in cone axes
+   * k = k_n + h |z_t| with h = 2 H cos(phi)), or one StrainCurve each, where a
+   * step is one scalar equation (return_map_varying()). The apex of the cone
+   * moves with them; plastic opening at the apex does not change them. The
+   * energy stored by hardening counts as dissipated.
    *
-   * Softening has no size of its own: all of it goes into one row of cells. Curves that
-   * fall therefore belong to a shear band of the thickness L, Softening length, and a
-   * point in a cell of the size l has
+   * Softening has no internal length: it localises in one row of cells.
+   * Softening curves therefore refer to a shear band of the thickness L,
+   * Softening length, and a point in a cell of the size l has
    *   d kappa = sqrt2 |dz_t| l/L,
-   * so that a band of one cell takes the same slip and energy on all meshes (Bazant and
-   * Oh 1983); l/L is the last history variable. Cells that are too large would have to
-   * soften faster than they are unloaded elastically: l |dc/dkappa| cos(phi) < L G.
+   * so that a band of one cell has the same slip and dissipation on all meshes
+   * (Bazant and Oh 1983); l/L is the last history variable. Cells that are too
+   * large would have to soften faster than they unload elastically: l
+   * |dc/dkappa| cos(phi) < L G.
    */
   class HardeningMohrCoulomb : public MohrCoulomb
   {
@@ -79,12 +80,12 @@ namespace geocone::GEOCONE_DIM
     std::optional<FlowCone>
     exact_end_cone(const double *history_n, const double slip) const override;
 
-    /** That of the curves where it is largest. */
+    /** The maximum over the curves. */
     double
     non_associativity() const override;
 
-    /** Not at the tip of a cone, which shear moves and tension does not; nor where soil
-     *  softens, as its tangent is not positive definite. */
+    /** False at the apex of a cone, which depends on shear but not on opening,
+     *  and for softening, where the tangent is not positive definite. */
     bool
     has_symmetric_tangent() const override;
 
@@ -99,14 +100,14 @@ namespace geocone::GEOCONE_DIM
     add_to_history(const double slip, double *history) const override;
 
   private:
-    /** Place of kappa in the history; l/L is the next. */
+    /** Index of kappa in the history; l/L is the next. */
     unsigned int
     plastic_shear() const
     {
       return MohrCoulomb::n_history();
     }
 
-    /** kappa after a step. */
+    /** kappa at the end of a step. */
     double
     sheared(const double *history_n, const double slip) const
     {
@@ -120,18 +121,18 @@ namespace geocone::GEOCONE_DIM
     double
     cohesion_at(const double kappa) const;
 
-    /** @throws InputError where the strength, as it changes, is none of a soil */
+    /** @throws InputError if a strength on the curves is not admissible */
     void
     check_curves() const;
 
-    /** Strains at which the parameters are checked: all that are given. */
+    /** Strains at which the parameters are checked: all given ones. */
     std::vector<double>
     places() const;
 
     std::string cohesion_text = "constant", friction_text = "constant",
                 dilatancy_text = "constant";
     StrainCurve cohesion_curve, friction_curve, dilatancy_curve;
-    bool        has_curves = false; ///< whether one of them is no constant
+    bool        has_curves = false; ///< whether one of them varies
     bool        softens    = false;
     double      modulus    = 0.;
     double      slope      = 0.; ///< h = dk/d|z_t| (Pa)

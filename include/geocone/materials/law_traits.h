@@ -9,24 +9,25 @@
 
 namespace geocone
 {
-  /** Properties of the laws of a scene on which its methods depend. */
+  /** Properties of the laws of a scene that methods depend on. */
   struct LawTraits
   {
     bool symmetric       = true;  ///< all tangents are symmetric
-    bool has_natural_map = true;  ///< all laws have one
-    bool spatial         = false; ///< a law is one of all principal stresses
-    bool can_yield       = false; ///< a law has a strength, and checks its flow
-    bool frictionless    = false; ///< laws yield, and all by cylinders (a = 0)
-    bool dilates         = false; ///< a law has a cone along which soil dilates
+    bool has_natural_map = true;  ///< all laws have a natural map
+    bool spatial         = false; ///< a law is three-dimensional
+    bool can_yield       = false; ///< a law can yield and checks its flow
+    bool frictionless    = false; ///< laws yield, all by cylinders (a = 0)
+    bool dilates         = false; ///< a law has a cone with dilatancy
     bool undrained       = false; ///< ConstitutiveLaw::fluid_modulus() > 0
-    /** The exact law of one is hard (Material::hard_flow), without a memory. */
+    /** Whether the exact law of a material without memory is hard
+     *  (Material::hard_flow). */
     bool has_hard_flow = false;
 
     double non_associativity = 0.; ///< greatest (a - b)/a, 0 to 1
-    /** Least relaxation time of friction with memory (s); infinite: there is none. */
+    /** Shortest relaxation time of friction with memory (s); infinite: none. */
     double friction_memory = std::numeric_limits<double>::infinity();
 
-    /** Whether friction of a law has a memory. */
+    /** Whether a law has friction with memory. */
     bool
     remembers() const
     {

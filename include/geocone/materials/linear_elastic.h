@@ -14,7 +14,8 @@ namespace geocone::GEOCONE_DIM
   public:
     using SpatialReturnMap::SpatialReturnMap;
 
-    /** In plane strain it is a law of the plane. */
+    /** A plane law unless axisymmetric: s_zz follows from the plane
+     *  stresses. */
     bool
     is_spatial() const override
     {
@@ -36,7 +37,7 @@ namespace geocone::GEOCONE_DIM
     void
     update(const Increment &increment, const Response &response) const override;
 
-    /** By the kernel of the cones, with one that is never reached. */
+    /** Update by the kernel of the cones, with a cone that is never reached. */
     void
     advance(const PointBlock &block, LawCounts &counts) const override;
 

@@ -16,37 +16,39 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** What the law of a step depends on besides the state of its points at t_n. */
+  /** Step data that the law depends on, besides the state of its points at
+   *  t_n. */
   struct StepLaw
   {
     double size = 0.; ///< h (s)
 
     /**
-     * Part of the normal stress on which strength depends that a solver takes from
-     * t_n: 0 is the law itself, 1 makes friction explicit
-     * (doc/theory/friction_memory.md). Laws without friction have no use for it.
+     * Part of the normal stress in the strength that a solver takes from t_n: 0
+     * is the exact law, 1 makes friction explicit
+     * (doc/theory/friction_memory.md). Laws without friction ignore it.
      */
     double friction_lag = 0.;
   };
 
-  /** What a batch of points asks of its material: the same index, one point. */
+  /** Input of a material update for a batch of points; equal indices belong to
+   *  the same point. */
   struct Increment
   {
     dealii::ArrayView<const Mandel> strain;   ///< strain increments of the step
     dealii::ArrayView<const Mandel> stress_n; ///< stress at t_n (Pa)
 
-    /** History at t_n: n_history numbers for each point, of which the law takes
-     *  the first ConstitutiveLaw::n_history(). */
+    /** History at t_n: n_history numbers for each point, the first
+     *  ConstitutiveLaw::n_history() of which belong to the law. */
     const double *history_n = nullptr;
     unsigned int  n_history = 0;
 
     StepLaw step;
 
-    /** Strain increments out of the plane, of axisymmetric scenes; null: none. */
+    /** Out-of-plane strain increments of axisymmetric scenes; null: none. */
     const double *strain_zz = nullptr;
   };
 
-  /** What a tangent has besides the plane's, where there is strain out of it (Pa). */
+  /** Out-of-plane part of a tangent (Pa). */
   struct OutOfPlaneTangent
   {
     Mandel by_zz; ///< ds/de_zz
@@ -54,8 +56,8 @@ namespace geocone::GEOCONE_DIM
     double zz;    ///< ds_zz/de_zz
   };
 
-  /** What the material answers. An empty `tangent` is not computed, nor is the
-   *  history if it is null, nor what is out of the plane. */
+  /** Result of a material update. An empty `tangent`, a null history and null
+   *  out-of-plane quantities are not computed. */
   struct Response
   {
     dealii::ArrayView<Mandel>       stress;  ///< stress at t_{n+1} (Pa)
@@ -63,7 +65,7 @@ namespace geocone::GEOCONE_DIM
     dealii::ArrayView<MandelMatrix> tangent; ///< ds/de, generalised (Pa)
     double *history = nullptr; ///< in: a copy of history_n; out: at t_{n+1}
 
-    /** @name Of laws that are spatial */
+    /** @name Spatial laws */
     /** @{ */
     double            *stress_zz  = nullptr; ///< at t_{n+1} (Pa)
     OutOfPlaneTangent *tangent_zz = nullptr; ///< with the tangent
@@ -71,16 +73,16 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * A constitutive law with a return map, which all methods can use: a pure function
-   * of a batch of strain increments and states at t_n, with isotropic elasticity,
-   * which is linear unless the law says otherwise (elasticity_at()). In plane scenes
-   * the out-of-plane stress is
+   * A constitutive law with a return map, for all methods: a pure function of a
+   * batch of strain increments and states at t_n, with isotropic elasticity,
+   * which is linear by default (elasticity_at()). In plane scenes the
+   * out-of-plane stress is
    *   s_zz = nu (s_xx + s_yy) + d,
-   * d (Pa) the first history variable, to which laws that harden add theirs. It is
-   * constant where plastic flow is in the plane; laws that are spatial change it.
+   * where d (Pa) is the first history variable, followed by those of hardening
+   * laws. It is constant for plastic flow in the plane; spatial laws change it.
    *
-   * Parameters of the base: density (kg/m^3), Young modulus (Pa) where it is constant,
-   * Poisson ratio.
+   * Parameters of the base: density (kg/m^3), Young modulus (Pa) if it is
+   * constant, Poisson ratio.
    */
   class Material : public ConstitutiveLaw
   {
@@ -88,24 +90,24 @@ namespace geocone::GEOCONE_DIM
     /** @param section e.g. "Materials/soil" */
     explicit Material(const std::string &section);
 
-    /** Checks the parameters and computes what derives from them. */
+    /** Checks the parameters and computes derived constants. */
     void
     prepare() override;
 
-    /** The law, for all points of the batch. */
+    /** Evaluates the law for all points of the batch. */
     virtual void
     update(const Increment &increment, const Response &response) const = 0;
 
     /**
-     * Jaky's 1 - a = 1 - sin(phi) where there is a cone, which lies in it: it
-     * bears K0 >= (1 - a)/(1 + a) - 2 c cos(phi)/((1 + a) |s_yy|), Rankine's
+     * Jaky's 1 - a = 1 - sin(phi) for cone laws, an admissible state: the cone
+     * sustains K0 >= (1 - a)/(1 + a) - 2 c cos(phi)/((1 + a) |s_yy|), Rankine's
      * active pressure. Otherwise nu/(1 - nu), uniaxial strain.
      */
     double
     earth_pressure_at_rest() const override;
 
-    /** An explicit step: by the cone's kernel if there is a cone, or else by
-     *  update() of the turned stress. */
+    /** An explicit step: by the cone kernel for cone laws, otherwise by
+     *  update() of the rotated stress. */
     void
     advance(const PointBlock &block, LawCounts &counts) const override;
 
@@ -150,7 +152,8 @@ namespace geocone::GEOCONE_DIM
       return (dim == 2 && is_spatial()) || n_history() > Material::n_history();
     }
 
-    /** Whether strength and flow are those of all stresses, s_zz with them. */
+    /** Whether strength and flow depend on all stress components, including
+     *  s_zz. */
     virtual bool
     is_spatial() const
     {
@@ -163,21 +166,22 @@ namespace geocone::GEOCONE_DIM
       return is_spatial();
     }
 
-    /** (s_xx, s_yy, s_xy, s_zz) of a stress in the plane. @param history of the point */
+    /** Full stress (s_xx, s_yy, s_xy, s_zz) in the plane. @param history of the
+     *  point */
     SpatialMandel
     whole_stress(const Mandel &stress, const double *history) const;
 
-    /** The elastic strain between two stresses. Laws of the plane have none along z,
-     *  and s_zz does no work. */
+    /** Elastic strain between two stresses. For plane laws it has no zz
+     *  component, and s_zz does no work. */
     virtual SpatialMandel
     elastic_strain(const SpatialMandel &from, const SpatialMandel &to) const;
 
-    /** By how much a stress is beyond the strength (Pa), negative within it; nothing
-     *  for laws without one. @param history of the point */
+    /** Violation of the yield condition (Pa), negative inside; no value for
+     *  laws without one. @param history of the point */
     virtual std::optional<double>
     overstress(const Mandel &stress, const double *history) const;
 
-    /** Whether steps change flow_cone(). */
+    /** Whether flow_cone() changes during steps. */
     virtual bool
     hardens() const
     {
@@ -185,9 +189,9 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * The cone of a cone law at t_n, by which solutions are checked independently
-     * of update(); nothing for laws without one.
-     * @param history of the point; null will do for laws that do not harden
+     * Cone of a cone law at t_n, by which solutions are checked independently
+     * of update(); no value for other laws.
+     * @param history of the point; null is allowed for laws without hardening
      */
     virtual std::optional<FlowCone>
     flow_cone(const double * /*history*/) const
@@ -195,15 +199,16 @@ namespace geocone::GEOCONE_DIM
       return std::nullopt;
     }
 
-    /** |s_t| <= a s_n + k with s_n = sqrt2 p, |s_t| = q/sqrt2, of flow_cone(). */
+    /** Line |s_t| <= a s_n + k of flow_cone() with s_n = sqrt2 p,
+     *  |s_t| = q/sqrt2. */
     std::vector<YieldCurve>
     yield_curves(const Components   &stress,
                  const double       *history,
                  const SectionPlane &plane) const override;
 
     /**
-     * The cone that a step solves for: flow_cone(), but for what of the normal
-     * stress is that of the past (FlowCone::delayed()).
+     * Cone that a step solves for: flow_cone() with the delayed part of the
+     * normal stress (FlowCone::delayed()).
      * @param stress_n,history_n of the point at t_n
      */
     virtual std::optional<FlowCone>
@@ -212,8 +217,8 @@ namespace geocone::GEOCONE_DIM
               const StepLaw &step) const;
 
     /**
-     * step_cone() at the end of a step with the plastic shear |z_t| = slip, and the
-     * same of flow_cone(). They harden no more.
+     * step_cone() and flow_cone() at the end of a step with the plastic shear
+     * |z_t| = slip, without further hardening.
      */
     virtual std::optional<FlowCone>
     end_cone(const Mandel  &stress_n,
@@ -223,25 +228,26 @@ namespace geocone::GEOCONE_DIM
     virtual std::optional<FlowCone>
     exact_end_cone(const double *history_n, const double slip) const;
 
-    /** How well the end of a step obeys the law, found independently of update(), by
-     *  flow_cone() if there is one; nothing for laws without a change of variable. */
+    /** Check of the flow law at the end of a step, independent of update(); by
+     *  flow_cone() for cone laws, no value for laws without a change of
+     *  variable. */
     virtual std::optional<FlowCheck>
     check_flow(const PointStep &point, const StepLaw &step) const;
 
     /** @name The law as a root of its natural map, see NaturalMap */
     /** @{ */
-    /** Whether it has one in this dimension: laws that are spatial change s_zz besides
-     *  what scenes in the plane solve for. */
+    /** Whether the law has a natural map in this dimension; spatial laws change
+     *  s_zz, which is not an unknown of plane scenes. */
     virtual bool
     has_natural_map() const
     {
       return !is_spatial();
     }
 
-    /** Of a law that is no cone, where s - rho Psi(z) is projected. */
+    /** Projection of s - rho Psi(z) for laws that are not cones. */
     struct Projection
     {
-      Mode         mode;      ///< where it lies
+      Mode         mode;      ///< region
       Mandel       stress;    ///< P_C (Pa)
       MandelMatrix slope;     ///< J of P_C
       MandelMatrix psi_slope; ///< Psi'
@@ -258,7 +264,7 @@ namespace geocone::GEOCONE_DIM
     }
     /** @} */
 
-    /** overstress() of laws that are spatial. @param history of the point */
+    /** overstress() of spatial laws. @param history of the point */
     virtual std::optional<double>
     yield_function(const SpatialMandel & /*stress*/,
                    const double * /*history*/) const
@@ -266,8 +272,9 @@ namespace geocone::GEOCONE_DIM
       return std::nullopt;
     }
 
-    /** Of laws that are spatial: the work per volume (J/m^3) by which plastic strain at a
-     *  stress takes more than the strength without memory would, or less.
+    /** For spatial laws, the work per volume (J/m^3) of plastic strain at a
+     *  stress in excess of that at the strength without memory; can be
+     *  negative.
      *  @param history of the point */
     virtual double
     power_beyond_strength(const SpatialMandel & /*plastic_strain*/,
@@ -277,41 +284,43 @@ namespace geocone::GEOCONE_DIM
       return 0.;
     }
 
-    /** The relaxation time tau of friction with memory (s); 0: none. */
+    /** Relaxation time tau of friction with memory (s); 0: none. */
     virtual double
     friction_memory() const
     {
       return 0.;
     }
 
-    /** Takes the scene's tau where the file leaves it to it (automatic) and the
-     *  exact law would be hard. */
+    /** Sets the scene's tau if the file has "automatic" and the exact law would
+     *  be hard. */
     virtual void
     set_friction_memory(const double /*tau*/)
     {}
 
-    /** That of a point that has not yielded. */
+    /** Cone of a point that has not yielded. */
     std::optional<FlowCone>
     initial_cone() const;
 
-    /** The stress that the strength of a point allows which is nearest to a stress
-     *  (Pa), which without a cone is itself. @param history of the point */
+    /** Admissible stress nearest to a stress (Pa), which is returned unchanged
+     *  by laws without a cone. @param history of the point */
     Mandel
     nearest_admissible(const Mandel &stress, const double *history) const;
 
-    /** Divides c and tan(phi) of the file by F, and limits theta to the reduced phi.
-     *  @throws InputError for a law with a strength of another kind */
+    /** Divides c and tan(phi) of the file by F, and limits theta to the reduced
+     *  phi.
+     *  @throws InputError for laws without such a strength */
     virtual void
     reduce_strength(const double F);
 
-    /** Whether the search for a factor of safety reduces the strength of this one. */
+    /** Whether the search for a factor of safety reduces the strength of this
+     *  material. */
     bool
     is_reduced() const
     {
       return reduced;
     }
 
-    /** How the k of flow_cone() grows with depth: by slope (level - y). */
+    /** Increase of the k of flow_cone() with depth: slope (level - y). */
     struct Growth
     {
       double slope = 0.; ///< (Pa/m)
@@ -337,19 +346,19 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Largest (a - b)/a for which the line search alone was seen to be enough
-     * on most meshes: theta >= phi/2 is (nearly) 1/2.
+     * Largest (a - b)/a for which the line search alone converged on most
+     * meshes; theta >= phi/2 corresponds to (nearly) 1/2.
      */
     static constexpr double hard_flow = 0.51;
 
     /**
-     * (a - b)/a between 0 (associated) and 1 (no dilatancy), a and b those of the
-     * cone before any hardening.
+     * (a - b)/a between 0 (associated) and 1 (no dilatancy), with a and b of
+     * the cone before any hardening.
      */
     virtual double
     non_associativity() const;
 
-    /** Whether soil that flows grows in volume. */
+    /** Whether plastic flow increases the volume. */
     virtual bool
     dilates() const
     {
@@ -364,17 +373,18 @@ namespace geocone::GEOCONE_DIM
       return non_associativity() == 0.;
     }
 
-    /** That of all states; of laws whose stiffness is that of the state, the one at
-     *  the pressure 100 kPa. */
+    /** Elasticity of all states; for a stress-dependent stiffness, that at the
+     *  pressure 100 kPa. */
     const Elasticity &
     elasticity() const
     {
       return elastic;
     }
 
-    /** @name Laws whose stiffness is that of the state */
+    /** @name Laws with a stress-dependent stiffness */
     /** @{ */
-    /** Of a stress, per volume (J/m^3). @param history of the point */
+    /** Elastic energy of a stress, per volume (J/m^3). @param history of the
+     *  point */
     virtual double
     elastic_energy(const Mandel &stress, const double *history) const;
 
@@ -385,7 +395,7 @@ namespace geocone::GEOCONE_DIM
       return elastic;
     }
 
-    /** Whether it is elasticity() always. */
+    /** Whether elasticity_at() is always elasticity(). */
     virtual bool
     has_constant_stiffness() const
     {
@@ -394,11 +404,11 @@ namespace geocone::GEOCONE_DIM
     /** @} */
 
   protected:
-    /** What gives the stiffness of a law. */
+    /** Source of the stiffness of a law. */
     enum class Stiffness
     {
       constant, ///< parameters
-      of_state  ///< elasticity_at(), by Poisson's ratio
+      of_state  ///< elasticity_at(), with Poisson's ratio
     };
     Material(const std::string &section, const Stiffness stiffness);
 
@@ -408,15 +418,16 @@ namespace geocone::GEOCONE_DIM
       return poisson_ratio;
     }
 
-    /** Of laws whose stiffness is that of the state, after prepare(). */
+    /** Sets elasticity() of laws with a stress-dependent stiffness, after
+     *  prepare(). */
     void
     set_elasticity(const Elasticity &elasticity)
     {
       elastic = elasticity;
     }
 
-    /** What a stress at the end of a step must be in: flow_cone(), but for laws
-     *  whose strength follows the stress. */
+    /** Cone that contains the stress at the end of a step: flow_cone(), except
+     *  for laws whose strength follows the stress. */
     virtual std::optional<FlowCone>
     strength(const double *history) const
     {

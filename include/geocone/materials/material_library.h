@@ -25,29 +25,29 @@ namespace geocone::GEOCONE_DIM
   add_law(const std::string &type, const MakeLaw make);
 
   /**
-   * Makes the material of a section, e.g. "Materials/soil".
+   * Creates the material of a section, e.g. "Materials/soil".
    * @param type a name of material_types()
-   * @throws InputError for an unknown type, with the list of those known
+   * @throws InputError for an unknown type, with the list of known types
    */
   std::unique_ptr<ConstitutiveLaw>
   make_material(const std::string &type, const std::string &section);
 
-  /** The names that make_material() knows. */
+  /** Names known to make_material(). */
   std::vector<std::string>
   material_types();
 
   /**
-   * The parameters of all laws, with the laws that have them, so that a file may
-   * keep those of another law than the one that it asks for. To be called before
+   * Parameters of all laws with the names of these laws, so that a file can
+   * keep parameters of laws other than the selected one. To be called before
    * anything is declared.
    */
   ParameterFile::OfOthers
   parameters_of_laws();
 
   /**
-   * The materials of a scene, in the order of "Materials/Names"; a material is
-   * known by its place in the list. A point belongs to the last material whose
-   * region contains it, or else to the first one.
+   * Materials of a scene, in the order of "Materials/Names"; a material is
+   * identified by its index in the list. A point belongs to the last material
+   * whose region contains it, otherwise to the first one.
    */
   class Materials : public NamedList<ConstitutiveLaw>
   {
@@ -57,7 +57,7 @@ namespace geocone::GEOCONE_DIM
     void
     prepare();
 
-    /** That scenes are around an axis. @throws InputError if a law is not spatial */
+    /** Enables axisymmetry. @throws InputError if a law is not spatial */
     void
     set_axisymmetric();
 
@@ -65,18 +65,19 @@ namespace geocone::GEOCONE_DIM
     void
     set_gravity(const double g);
 
-    /** Properties of the laws, of prepare() and later changes. */
+    /** Properties of the laws, after prepare() and later changes. */
     const LawTraits &
     traits() const
     {
       return found;
     }
 
-    /** Warnings about undrained soil that dilates. */
+    /** Warnings about undrained soil with dilatancy. */
     std::vector<std::string>
     warnings() const;
 
-    /** @throws InputError if there is undrained soil, with what knows none */
+    /** @throws InputError for undrained soil. @param what does not support
+     *  it */
     void
     refuse_undrained(const std::string &what, const std::string &remedy) const;
 
@@ -86,7 +87,7 @@ namespace geocone::GEOCONE_DIM
       return list.size();
     }
 
-    /** @name One of them, as any law, or as one in closed form */
+    /** @name Access to a material as any law, or as a law in closed form */
     /** @{ */
     const ConstitutiveLaw &
     law(const unsigned int i) const
@@ -114,7 +115,7 @@ namespace geocone::GEOCONE_DIM
       return names()[i];
     }
 
-    /** Gives tau (s) to those that leave it to the scene. */
+    /** Sets tau (s) of the laws that leave it to the scene. */
     void
     set_friction_memory(const double tau);
 
@@ -122,25 +123,26 @@ namespace geocone::GEOCONE_DIM
     void
     reduce_strength(const double F);
 
-    /** Its section as text, with numbers in place of what the scene has decided. */
+    /** Section of the materials as text, with the values chosen by the
+     *  scene. */
     std::string
     as_parameters() const;
 
-    /** Most history variables of a law, and after those, where there is undrained
-     *  soil, the excess pore pressure. */
+    /** Largest number of history variables of a law, plus one for the excess
+     *  pore pressure if there is undrained soil. */
     unsigned int
     n_history() const;
 
-    /** Names of all that any of the laws can show. */
+    /** Names of the output quantities of all laws. */
     std::vector<std::string>
     shown_names() const;
 
   private:
-    /** The traits of the laws as they are now. */
+    /** Present traits of the laws. */
     LawTraits
     gather() const;
 
-    using NamedList::list; // others take law() and operator[]
+    using NamedList::list; // hidden: use law() or operator[]
 
     LawTraits                     found;
     std::vector<std::string>      types;

@@ -12,27 +12,30 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Modified Cam-Clay (Roscoe and Burland 1968), a law with a cap, for all methods.
-   * With P = p + a and Pc = pc + a, p the mean pressure and a the attraction, the yield
-   * surface, of associated flow, is the ellipse
+   * Modified Cam-Clay (Roscoe and Burland 1968), a law with a cap, for all
+   * methods. With P = p + a and Pc = pc + a, p the mean pressure and a the
+   * attraction, the yield surface, with associated flow, is the ellipse
    *   f = q^2/M^2 + P (P - Pc) = 0,  q = sqrt(3/2) |dev s|,
-   * elasticity has the bulk modulus K = P/kappa and a constant Poisson ratio, and Pc
-   * grows with the compressive plastic volume strain w: dPc = Pc dw/(lambda - kappa).
-   * kappa and lambda are slopes of ln v over ln p, so that
+   * elasticity has the bulk modulus K = P/kappa and a constant Poisson ratio,
+   * and Pc increases with the compressive plastic volume strain w: dPc = Pc
+   * dw/(lambda - kappa). kappa and lambda are slopes of ln v over ln p, so that
    *   P = P_n exp(de/kappa),  Pc = Pc_n exp(dw/(lambda - kappa))
-   * are exact for any elastic volume strain de and any dw. Shear is integrated with the
-   * secant modulus of the step, G = g (P - P_n)/de (Borja 1991), which is exact where
-   * the elastic strain keeps its direction. Flow is that of the end of the step
-   * (backward Euler); isotropic compression is exact in one step.
+   * are exact for any elastic volume strain de and any dw. Shear is integrated
+   * with the secant modulus of the step, G = g (P - P_n)/de (Borja 1991), which
+   * is exact for a fixed direction of the elastic strain. The flow direction is
+   * that at the end of the step (backward Euler); isotropic compression is
+   * exact in one step.
    *
-   * On the yield surface P = Pc cos^2(phi/2) and q = M Pc sin(phi)/2. An angle phi has
-   * one dw, in closed form, and the step is one equation in phi that changes its sign
-   * between two known ends: there is a root for each strain increment, and Newton's
-   * method with bisection finds it. The tangent is that of the root. It is not
-   * symmetric, because the shear modulus follows the pressure.
+   * On the yield surface P = Pc cos^2(phi/2) and q = M Pc sin(phi)/2. An angle
+   * phi determines dw in closed form, and the step is one equation in phi that
+   * changes sign between two known bounds: it has a root for each strain
+   * increment, which is found by Newton's method with bisection. The tangent is
+   * exact for this root. It is not symmetric, because the shear modulus depends
+   * on the pressure.
    *
-   * Soil that is torn open keeps P = 1 Pa, however far it opens, and a surface that
-   * holds its stress (mode apex); closing it, it bears load at once.
+   * Soil in tension keeps P = 1 Pa, however far it opens, and a yield surface
+   * that contains its stress (mode apex); when it closes, it carries load at
+   * once.
    *
    * The history is Material's and pc (Pa).
    */
@@ -81,7 +84,7 @@ namespace geocone::GEOCONE_DIM
     std::optional<double>
     overstress(const Mandel &stress, const double *history) const override;
 
-    /** @throws InputError always: M and pc are no cohesion and friction */
+    /** @throws InputError always: M and pc are not cohesion and friction */
     void
     reduce_strength(const double F) override;
 
@@ -95,12 +98,13 @@ namespace geocone::GEOCONE_DIM
     elastic_strain(const SpatialMandel &from,
                    const SpatialMandel &to) const override;
 
-    /** kappa (p - a ln(1 + p/a)) + q^2/(6G): no law of constant nu stores energy
-     *  exactly; this is what isotropic compression and shear at a pressure store. */
+    /** kappa (p - a ln(1 + p/a)) + q^2/(6G), the energy stored by isotropic
+     *  compression and by shear at constant pressure. An exact stored energy
+     *  does not exist for constant nu. */
     double
     elastic_energy(const Mandel &stress, const double *history) const override;
 
-    /** @name Of the yield surface: M (-), a and pc (Pa) */
+    /** @name Yield surface: M (-), a and pc (Pa) */
     /** @{ */
     double
     critical_slope() const
@@ -139,10 +143,10 @@ namespace geocone::GEOCONE_DIM
             SpatialMandelMatrix *tangent) const override;
 
   private:
-    /** What a step has at an angle phi of its yield surface. */
+    /** State of a step for an angle phi on its yield surface. */
     struct Trial;
 
-    /** The elastic law from P_n over a volume strain x, compression positive. */
+    /** Elastic law from P_n over a volume strain x, compression positive. */
     struct Elastic
     {
       double P;     ///< P_n exp(x/kappa) (Pa)
@@ -166,7 +170,7 @@ namespace geocone::GEOCONE_DIM
       return a - trace(stress) / 3.;
     }
 
-    /** The size Pc of the surface through a stress, P + q^2/(M^2 P) (Pa). */
+    /** Size Pc of the yield surface through a stress, P + q^2/(M^2 P) (Pa). */
     double
     size_through(const SpatialMandel &stress) const;
 
@@ -176,7 +180,7 @@ namespace geocone::GEOCONE_DIM
       return SpatialLaw::n_history();
     }
 
-    static constexpr double lowest = 1.; ///< P is at least this (Pa)
+    static constexpr double lowest = 1.; ///< lower limit of P (Pa)
 
     double kappa    = 0.01;
     double lambda   = 0.08;

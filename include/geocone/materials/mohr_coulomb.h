@@ -13,20 +13,21 @@ namespace geocone::GEOCONE_DIM
    * Guillet et al. 2025 (appendix A):
    *   |s_t| <= sin(phi) s_n + sqrt2 c cos(phi),  flow aperture sin(theta),
    * with friction angle phi, dilatancy angle theta <= phi and cohesion c.
-   * phi = 0 is Tresca's cylinder, |s_t| <= sqrt2 c. Yielding is governed by the
+   * phi = 0 is Tresca's cylinder, |s_t| <= sqrt2 c. Yielding depends on the
    * in-plane stresses: the out-of-plane stress is assumed intermediate.
    * theta = phi is associated flow, theta = 0 flow without dilatancy. A tensile strength T
    * is Rankine's cut-off, sigma_1 <= T in the plane: |s_t| <= s_n + sqrt2 T.
    *
    * Friction with memory (doc/theory/friction_memory.md; Prakash and Clifton
-   * 1993 and Cochard and Rice 2000 for sliding): the strength follows the normal
-   * stress with the relaxation time tau, by the second history variable p (Pa),
+   * 1993 and Cochard and Rice 2000 for sliding): the strength follows the
+   * normal stress with the relaxation time tau, by the second history variable
+   * p (Pa),
    *   |s_t| <= b s_n + mu p + sqrt2 c cos(phi),   dp/dt = (s_n - p)/tau,
-   * a and b the apertures, mu = a - b. A step h has p = lambda p_n +
-   * (1 - lambda) s_n with lambda = tau/(h + tau): the cone with the aperture
-   * a - lambda mu and the same flow, FlowCone::delayed(lambda, p_n). A state that
-   * does not change has p = s_n, the exact strength; tau = 0 is the exact law. The
-   * plastic work is never negative, since p >= -k/a for ever.
+   * with the apertures a and b and mu = a - b. A step h has p = lambda
+   * p_n + (1 - lambda) s_n with lambda = tau/(h + tau): the cone with the
+   * aperture a - lambda mu and the same flow, FlowCone::delayed(lambda, p_n).
+   * In a steady state p = s_n, the exact strength; tau = 0 is the exact law.
+   * The plastic work is never negative, since p >= -k/a at all times.
    */
   class MohrCoulomb : public Frictional<Material>
   {
@@ -43,7 +44,7 @@ namespace geocone::GEOCONE_DIM
     void
     update(const Increment &increment, const Response &response) const override;
 
-    /** Exact, without memory. */
+    /** The exact cone, without memory. */
     std::optional<FlowCone>
     flow_cone(const double *history) const override;
 
@@ -100,7 +101,7 @@ namespace geocone::GEOCONE_DIM
       return given.theta;
     }
 
-    /** Of the cohesion with depth (Pa/m). */
+    /** Increase of the cohesion with depth (Pa/m). */
     double
     cohesion_gradient() const
     {
@@ -108,25 +109,26 @@ namespace geocone::GEOCONE_DIM
     }
 
   protected:
-    /** Whether the slip of a step changes its cone, by end_cone(), otherwise than by a
-     *  modulus. */
+    /** Whether the plastic shear of a step changes its cone by end_cone(),
+     *  other than by linear hardening. */
     virtual bool
     varies() const
     {
       return false;
     }
 
-    /** The history after a step, for laws that harden.
+    /** Updates the history of hardening laws after a step.
      *  @param slip |z_t| of the step (-) */
     virtual void
     add_to_history(const double /*slip*/, double * /*history*/) const
     {}
 
-    /** A cone of these parameters (Pa, degrees). */
+    /** Cone of given parameters (Pa, degrees). */
     static FlowCone
     cone_of(const double cohesion, const double phi, const double theta);
 
-    /** What a step takes of the past (step_cone()). @param exact flow_cone() */
+    /** Cone with the delayed part of a step (step_cone()). @param exact
+     *  flow_cone() */
     FlowCone
     with_memory(const FlowCone &exact,
                 const Mandel   &stress_n,
@@ -146,10 +148,10 @@ namespace geocone::GEOCONE_DIM
 
   private:
     FlowCone cone;
-    double   k_per_cohesion = 0.; ///< of what is left of it (-)
+    double   k_per_cohesion = 0.; ///< dk/dc after reduction (-)
 
     /**
-     * The one-point problem of a step, in cone axes.
+     * Solves the one-point problem of a step, in cone axes.
      * @param trial s_n + D e @param[out] slip |z_t| of the step (-)
      * @param[out] tangent ds/de, or null
      */

@@ -12,10 +12,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A law of the whole stress, for plane strain, axisymmetric scenes and three
-   * dimensions: laws answer four or six components.
-   * In plane strain flow along z is balanced by elastic strain, so that s_zz moves to
-   * where the flow rule wants it; the result then depends on it.
+   * A three-dimensional law, i.e. one of the full stress tensor ("spatial"),
+   * for plane strain, axisymmetric and three-dimensional scenes: four or six
+   * components. In plane strain the plastic strain along z is balanced by
+   * elastic strain, so that s_zz follows from the flow rule and affects the
+   * result.
    */
   class SpatialLaw : public Material
   {
@@ -36,9 +37,9 @@ namespace geocone::GEOCONE_DIM
 
   protected:
     /**
-     * s at t_{n+1}.
+     * Stress s at t_{n+1}.
      * @param history_n of the point
-     * @param[out] history what follows Material's in it, or null
+     * @param[out] history the variables after Material's, or null
      * @param[out] tangent ds/de, or null
      */
     virtual Mode
@@ -51,7 +52,7 @@ namespace geocone::GEOCONE_DIM
             SpatialMandelMatrix *tangent) const = 0;
   };
 
-  /** A spatial law of linear elasticity without internal variables. */
+  /** A spatial law with linear elasticity and without internal variables. */
   class SpatialReturnMap : public SpatialLaw
   {
   public:
@@ -65,12 +66,12 @@ namespace geocone::GEOCONE_DIM
     }
 
   protected:
-    /** What of its strength is a point's own: how much the cohesion has grown, and the
-     *  part lambda that is what it would be with the stress p; the other one is that
-     *  with the stress at the end of the step. */
+    /** Strength variables of a point: the increase of its cohesion, and the
+     *  weight lambda of the strength at the normal stress p of the past; the
+     *  remainder is that at the end of the step. */
     struct OwnStrength
     {
-      double cohesion = 0.; ///< more than that of the law (Pa)
+      double cohesion = 0.; ///< increase above that of the law (Pa)
       double part     = 0.; ///< lambda
       double normal = 0.; ///< p (Pa), as FrictionalSpatialLaw::normal_stress()
     };
@@ -83,15 +84,15 @@ namespace geocone::GEOCONE_DIM
       return {};
     }
 
-    /** Changes the history of a point by a step. */
+    /** Updates the history of a point after a step. */
     virtual void
     remember(const SpatialMandel & /*stress*/,
              const StepLaw & /*step*/,
              double * /*history*/) const
     {}
 
-    /** s at t_{n+1} from the trial stress s_n + D e. @param[out] tangent ds/de, or
-     *  null */
+    /** Stress s at t_{n+1} from the trial stress s_n + D e. @param[out] tangent
+     *  ds/de, or null */
     virtual Mode
     return_to_strength(const SpatialMandel &trial,
                        const OwnStrength   &own,
@@ -119,8 +120,9 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * A spatial law with cohesion, friction and dilatancy. Friction may remember the stress
-   * on which it depends (FrictionMemory), and the cohesion may grow with depth.
+   * A spatial law with cohesion, friction and dilatancy, optionally with
+   * friction with memory (FrictionMemory) and a cohesion that increases with
+   * depth.
    */
   class FrictionalSpatialLaw : public Frictional<SpatialReturnMap>
   {
@@ -142,11 +144,11 @@ namespace geocone::GEOCONE_DIM
     check_flow(const PointStep &point, const StepLaw &step) const override;
 
   protected:
-    /** The stress (Pa), positive in compression, on which strength depends. */
+    /** Normal stress in the strength (Pa), compression positive. */
     virtual double
     normal_stress(const SpatialMandel &stress) const = 0;
 
-    /** check_flow() by a plastic strain increment. */
+    /** check_flow() for a given plastic strain increment. */
     virtual FlowCheck
     check_plastic_strain(const SpatialMandel &plastic_strain,
                          const SpatialMandel &stress,
@@ -164,7 +166,7 @@ namespace geocone::GEOCONE_DIM
 
     using Frictional::Frictional;
 
-    /** Takes what the file gives, reduced by the factor F. */
+    /** Sets the strength of the file, reduced by the factor F. */
     virtual void
     set_strength(const double F) = 0;
 

@@ -13,19 +13,21 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Mohr-Coulomb's law of all principal stresses s_1 >= s_2 >= s_3: for each pair i < j
+   * Three-dimensional Mohr-Coulomb law, with s_1 >= s_2 >= s_3: for each pair
+   * i < j
    *   f_ij = s_i - s_j + (s_i + s_j) sin(phi) - 2 c cos(phi) <= 0,
-   * with the flow direction of the same pyramid for theta. In plane strain MohrCoulomb
-   * is its pair in the plane; this law also yields with s_zz, in edges of the pyramid
-   * where it becomes the largest or the smallest stress.
+   * with the flow directions of the same pyramid for theta. MohrCoulomb is its
+   * in-plane pair in plane strain; this law also yields on edges of the pyramid
+   * where s_zz is the largest or the smallest stress.
    *
-   * The return map in principal stresses: to the plane f_13; if that leaves the order
-   * of the stresses, to the edge f_13 = f_12 = 0 (s_2 = s_3) or f_13 = f_23 = 0 (s_1 =
-   * s_2); and if that does too, to the apex s_i = c cot(phi) (de Souza Neto, Peric and
-   * Owen 2008, section 8.2). All of it is linear in the trial stress, and so are its
-   * derivatives; directions turn as those of the trial stress. Friction that remembers
-   * (FrictionMemory) makes it another pyramid with the same flow: of s_1 + s_3, times
-   * sin(phi) - sin(theta), a part is -2 p.
+   * Return map in principal stresses: to the plane f_13; if the order of the
+   * stresses is violated, to the edge f_13 = f_12 = 0 (s_2 = s_3) or
+   * f_13 = f_23 = 0 (s_1 = s_2); if it is still violated, to the apex s_i = c
+   * cot(phi) (de Souza Neto, Peric and Owen 2008, section 8.2). All three are
+   * linear in the trial stress, and so are their derivatives; the principal
+   * directions are those of the trial stress. Friction with memory
+   * (FrictionMemory) leads to another pyramid with the same flow: a part of
+   * s_1 + s_3, times sin(phi) - sin(theta), is replaced by -2 p.
    */
   class SpatialMohrCoulomb : public FrictionalSpatialLaw
   {
@@ -49,7 +51,7 @@ namespace geocone::GEOCONE_DIM
       return sin_theta > 0.;
     }
 
-    /** By the kernel that takes several points at once. */
+    /** Update by the kernel for several points at once. */
     void
     advance(const PointBlock &block, LawCounts &counts) const override;
 
@@ -90,7 +92,7 @@ namespace geocone::GEOCONE_DIM
                          const SpatialMandel &stress,
                          const OwnStrength   &own) const override;
 
-    /** -(s_1 + s_3)/2, the normal stress in the plane of both. */
+    /** -(s_1 + s_3)/2, the in-plane normal stress of the two. */
     double
     normal_stress(const SpatialMandel &stress) const override;
 
@@ -104,7 +106,8 @@ namespace geocone::GEOCONE_DIM
     using Principal       = Eigen::Vector3d;
     using PrincipalMatrix = Eigen::Matrix3d;
 
-    /** f_ij = s_i - s_j + (s_i + s_j) sine - size, and the stress at the apex. */
+    /** Yield functions f_ij = s_i - s_j + (s_i + s_j) sine - size, and the apex
+     *  stress. */
     struct Pyramid
     {
       double sine, size; ///< 2 c cos(phi) (Pa)
@@ -116,7 +119,7 @@ namespace geocone::GEOCONE_DIM
                          : std::numeric_limits<double>::infinity();
       }
 
-      /** The largest f_ij, of stresses in order (Pa). */
+      /** The largest f_ij, for ordered stresses (Pa). */
       double
       yield_function(const Principal &s) const
       {
@@ -124,9 +127,10 @@ namespace geocone::GEOCONE_DIM
       }
 
       /**
-       * Whether a stress is within the largest round cone in the pyramid, which needs
-       * no principal stresses: f_13 <= 2 sqrt(J_2 (1 + sine^2/3)) + 2 p sine - size
-       * over all Lode angles, with p = tr(s)/3 and J_2 = |dev s|^2/2.
+       * Whether a stress is within the largest circular cone in the pyramid.
+       * This needs no principal stresses: f_13 <= 2 sqrt(J_2
+       * (1 + sine^2/3)) + 2 p sine - size over all Lode angles, with
+       * p = tr(s)/3 and J_2 = |dev s|^2/2.
        */
       bool
       holds_cone(const SpatialMandel &stress) const
@@ -138,19 +142,20 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
-    /** The pyramid where the cohesion is larger by so much (Pa). */
+    /** Pyramid for a cohesion increased by @p cohesion (Pa). */
     Pyramid
     pyramid_with(const double cohesion) const
     {
       return {exact.sine, exact.size + size_per_cohesion * cohesion};
     }
 
-    /** That with delayed friction: a part of the normal stress, on which strength
-     *  depends, is that of the past, as in FlowCone::delayed(). */
+    /** Pyramid with delayed friction: a part of the normal stress in the
+     *  strength is that of the past, as in FlowCone::delayed(). */
     Pyramid
     delayed(const OwnStrength &own) const;
 
-    /** A vector of principal directions, and the sums of its values of both signs. */
+    /** A vector in principal directions, and the sums of its positive and
+     *  negative values. */
     struct Normal
     {
       SpatialMandel whole;
@@ -158,19 +163,19 @@ namespace geocone::GEOCONE_DIM
     };
 
     /**
-     * The flow of the pyramid for theta is mapped to the normals of that for phi by
-     *   y_i = e_i (1 + sin(phi))/(1 + sin(theta))   where e_i > 0,
-     *   y_i = e_i (1 - sin(phi))/(1 - sin(theta))   where e_i < 0,
-     * of the principal values e_i of the plastic strain increment, in its own axes
-     * (doc/theory/laws.md): De Saxce's change of variable
-     * for the pyramid. @param[out] slope dy/de, or null
+     * Maps the flow of the pyramid for theta to the normals of that for phi by
+     *   y_i = e_i (1 + sin(phi))/(1 + sin(theta))   if e_i > 0,
+     *   y_i = e_i (1 - sin(phi))/(1 - sin(theta))   if e_i < 0,
+     * for the principal values e_i of the plastic strain increment, in its own
+     * axes (doc/theory/laws.md): de Saxce's change of variable for the pyramid.
+     * @param[out] slope dy/de, or null
      */
     Normal
     normal_of(const SpatialMandel &plastic_strain,
               const Pyramid       &pyramid,
               SpatialMandelMatrix *slope) const;
 
-    /** The one-point problem. @param flow the sine of its dilatancy angle
+    /** Solves the one-point problem. @param flow sine of the dilatancy angle
      *  @param[out] tangent ds/de, or null */
     static Mode
     return_to(const Elasticity    &elastic,
@@ -180,7 +185,8 @@ namespace geocone::GEOCONE_DIM
               SpatialMandel       &stress,
               SpatialMandelMatrix *tangent);
 
-    /** The projection onto a pyramid: its associated return map with the stiffness 1. */
+    /** Projection onto a pyramid: its associated return map with the stiffness
+     *  1. */
     static Mode
     project(const Pyramid       &pyramid,
             const SpatialMandel &x,
@@ -191,8 +197,8 @@ namespace geocone::GEOCONE_DIM
         Elasticity(1., 0.), pyramid, pyramid.sine, x, projected, slope);
     }
 
-    /** return_to() of stresses in order.
-     *  @param flow the sine of its dilatancy angle
+    /** return_to() for ordered principal stresses.
+     *  @param flow sine of the dilatancy angle
      *  @param[out] tangent ds/de of principal values */
     static Mode
     return_principal(const Elasticity &elastic,
@@ -204,10 +210,10 @@ namespace geocone::GEOCONE_DIM
 
     Pyramid exact             = {0., 0.}; ///< with sin(phi)
     double  sin_theta         = 0.;
-    double  size_per_cohesion = 0.; ///< of what the file gives (-)
+    double  size_per_cohesion = 0.; ///< d(size)/dc after reduction (-)
   };
 
-  /** Tresca's law of all principal stresses, s_1 - s_3 <= 2c. */
+  /** Three-dimensional Tresca law, s_1 - s_3 <= 2c. */
   class SpatialTresca : public SpatialMohrCoulomb
   {
   public:

@@ -11,11 +11,11 @@
 namespace geocone
 {
   /**
-   * How a parameter of a law changes with plastic strain from its initial value y_0,
-   * as text:
+   * Variation of a parameter with plastic strain from its initial value y_0, as
+   * text:
    *   constant                    y_0,
-   *   g_1: y_1, g_2: y_2, ...     linear from (0, y_0) to (g_1, y_1) and so on, and
-   *                               constant beyond the last,
+   *   g_1: y_1, g_2: y_2, ...     linear from (0, y_0) to (g_1, y_1) and so on,
+   *                               and constant beyond the last,
    *   exponential y_1, g_1        y_1 + (y_0 - y_1) exp(-g/g_1).
    */
   class StrainCurve
@@ -36,15 +36,16 @@ namespace geocone
       return points.size() == 1;
     }
 
-    /** The smallest and the largest value. */
+    /** Smallest and largest value. */
     std::pair<double, double>
     range() const;
 
-    /** The smallest derivative, negative where the curve falls. */
+    /** Smallest derivative, negative for decreasing curves. */
     double
     least_slope() const;
 
-    /** Where it changes: of an exponential curve some places. */
+    /** Strains at which the curve changes; for an exponential curve, some
+     *  samples. */
     std::vector<double>
     places() const;
 

@@ -14,14 +14,15 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The subloading soil model (SubloadingModel) as a law of explicit steps:
-   * anisotropy, cyclic behaviour, structure, non-associated flow; with its
-   * defaults it is Modified Cam Clay with a subloading surface. Its face turns
-   * the sign: tension is positive outside, compression in the model.
+   * The subloading soil model (SubloadingModel) as a law for explicit steps:
+   * anisotropy, cyclic behaviour, structure, non-associated flow; with default
+   * parameters it is Modified Cam-Clay with a subloading surface. Tension is
+   * positive in this interface, compression in the model.
    *
    * History of a point, components without Mandel factors: stress_zz, in the
-   * plane only; the similarity centre a (xx, yy, zz, xy, in three dimensions also
-   * yz, zx), tension positive; beta likewise; the size pcb; the structure ratio Rb.
+   * plane only; the similarity centre a (xx, yy, zz, xy, in three dimensions
+   * also yz, zx), tension positive; beta likewise; the size pcb; the structure
+   * ratio Rb.
    */
   class Subloading : public ConstitutiveLaw
   {
@@ -94,9 +95,9 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * The state that the parameters give to a stress (Pa): a = chi sigma, beta,
+     * Initial state of a stress (Pa) by the parameters: a = chi sigma, beta,
      * Rb, and pcb as given or by the overconsolidation ratio.
-     * @return what had to be changed for it, or nothing
+     * @return a note on values that had to be changed, or empty
      * @throws InputError if there is no such state
      */
     template <int n>
@@ -104,7 +105,7 @@ namespace geocone::GEOCONE_DIM
     initial_state(const typename SubloadingModel<n>::Vector &stress,
                   SubloadingState<n>                        &state) const;
 
-    /** The state of a point. @param stress tension positive */
+    /** State of a point. @param stress tension positive */
     SubloadingState<n_spatial>
     state(const Components &stress, const double *history) const;
     /** @} */
@@ -115,7 +116,7 @@ namespace geocone::GEOCONE_DIM
     void
     check_initial() const;
 
-    /** The pressure that beta is multiplied with. */
+    /** Pressure by which beta is multiplied. */
     enum class Rotation
     {
       p,

@@ -13,8 +13,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A law whose friction may remember the stress on which it depends, p (Pa): where it
-   * does, p is the history variable that follows those of the base class.
+   * A law whose friction can have a memory, i.e. whose strength follows the
+   * normal stress with a delay: the delayed stress p (Pa) is then the history
+   * variable after those of the base class.
    * @tparam Base Material, or a class derived from it
    */
   template <typename Base>
@@ -70,26 +71,27 @@ namespace geocone::GEOCONE_DIM
   protected:
     using Base::Base;
 
-    /** What p becomes where a stress does not change (Pa). */
+    /** Limit of p at constant stress (Pa). */
     virtual double
     remembered_stress(const Stress &stress) const = 0;
 
-    /** Place of p in the history, if there is a memory. */
+    /** Index of p in the history, if there is a memory. */
     unsigned int
     place_of_memory() const
     {
       return Base::n_history();
     }
 
-    /** What a step takes of the past: the part of it in the stress on which friction
-     *  depends, and that stress of the past (Pa). */
+    /** Weight of the past in the normal stress of a step, and that stress of
+     *  the past (Pa). */
     struct Past
     {
       double part, stress;
     };
 
-    /** A solver's lag takes more of the past, also where there is no memory.
-     *  @param s_n the stress of that kind where the step begins (Pa) */
+    /** Past of a step. A solver's lag increases its weight, also without a
+     *  memory.
+     *  @param s_n normal stress at the beginning of the step (Pa) */
     Past
     past_of(const StepLaw &step,
             const double  *history_n,
