@@ -31,8 +31,8 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Parts the mesh between bodies that touch; its new faces are sides by the name
-     *  of the contact. */
+    /** Splits the mesh between bodies in contact; the new faces are sides with
+     *  the name of the contact. */
     void
     part_bodies(const Contacts &contacts, CoarseMesh &mesh)
     {
@@ -82,7 +82,7 @@ namespace geocone::GEOCONE_DIM
     Expected expected;
     if (scene.geometry.shape == Geometry::Shape::file)
       {
-        // About 80 bytes for a cell and its part of the nodes, as text.
+        // About 80 bytes for a cell and its share of the nodes, as text.
         std::error_code error;
         const double    size =
           std::filesystem::file_size(scene.geometry.file, error);
@@ -235,7 +235,8 @@ namespace geocone::GEOCONE_DIM
   void
   BackgroundMesh::find_owners()
   {
-    // No cell is ever divided, so that each rank has all of them, in one order.
+    // Cells are never refined, so that each rank stores all of them in the same
+    // order.
     owners.assign(tria->n_active_cells(), 0);
     for (const auto &cell : own_cells())
       owners[cell->active_cell_index()] =
@@ -252,7 +253,7 @@ namespace geocone::GEOCONE_DIM
       [&](const Triangulation<dim>::cell_iterator &cell, const Status) {
         return weight(Cell(tria.get(), cell->level(), cell->index()));
       });
-    // Divides nothing, but parts anew.
+    // Repartitions without refinement.
     tria->execute_coarsening_and_refinement();
     connection.disconnect();
     find_owners();
@@ -277,7 +278,7 @@ namespace geocone::GEOCONE_DIM
         Point<dim> moved;
         for (unsigned int d = 0; d < dim; ++d)
           {
-            // The nearest line is the vertex's own.
+            // The nearest line belongs to the vertex.
             const std::vector<double> &from = lines[d];
             std::size_t                i =
               std::lower_bound(from.begin(), from.end(), x[d]) - from.begin();
@@ -324,7 +325,8 @@ namespace geocone::GEOCONE_DIM
         along[d] = cell->vertex(1 + d) - cell->vertex(0);
     else
       {
-        // Multilinear: the edges along each direction, by their places in the others.
+        // Multilinear: edges along each direction, by their position in the
+        // others.
         for (unsigned int d = 0; d < dim; ++d)
           for (unsigned int v = 0; v < (1U << dim); ++v)
             if ((v >> d) % 2 == 0)
@@ -352,8 +354,8 @@ namespace geocone::GEOCONE_DIM
       is_there[cell->active_cell_index()] = 1;
     Utilities::MPI::max(is_there, comm, is_there);
 
-    // Parts connected through faces, by union of the vertices of cells that share
-    // dim of them: cells that touch in less can still rotate.
+    // Parts connected through faces, by union of the vertices of cells with dim
+    // common vertices: cells with fewer can still rotate.
     std::vector<unsigned int> part(tria->n_active_cells());
     std::iota(part.begin(), part.end(), 0U);
     const auto root = [&](unsigned int i) {
@@ -415,7 +417,7 @@ namespace geocone::GEOCONE_DIM
             std::vector<Point<dim>> vertices;
             for (const unsigned int v : face->vertex_indices())
               vertices.push_back(face->vertex(v));
-            if (vertices.size() == 4) // which are numbered by rows
+            if (vertices.size() == 4) // numbered by rows
               std::swap(vertices[2], vertices[3]);
             const Point<dim> &a = vertices[0];
             Tensor<1, dim>    n;
@@ -439,7 +441,7 @@ namespace geocone::GEOCONE_DIM
     Point<dim> unit;
     if (simplicial)
       {
-        // Affine; inside where no barycentric coordinate is negative.
+        // Affine; inside if no barycentric coordinate is negative.
         unit += inverse_jacobian(cell, unit) * (x - cell->vertex(0));
         double smallest = 1., sum = 0.;
         for (unsigned int d = 0; d < dim; ++d)

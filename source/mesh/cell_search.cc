@@ -48,7 +48,7 @@ namespace geocone::GEOCONE_DIM
                    const Cell        &hint,
                    const unsigned int layer) const
   {
-    // Also keeps what is not a number from the search by boxes.
+    // Also excludes NaN from the search by boxes.
     if (!(x.norm_square() < std::numeric_limits<double>::max()))
       return std::nullopt;
     if (hint.state() == IteratorState::valid)
@@ -61,7 +61,7 @@ namespace geocone::GEOCONE_DIM
           if (const auto unit = mesh.unit_point(cells[neighbours[i]], x))
             return Place{cells[neighbours[i]], *unit};
       }
-    // Boxes a little larger, for places on the border of the mesh.
+    // Slightly enlarged boxes, for points on the boundary of the mesh.
     Point<dim> lower = x, upper = x;
     for (unsigned int d = 0; d < dim; ++d)
       {

@@ -39,8 +39,8 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** A face, by its sorted vertices, which neighbours share; as its cell has it; and
-     *  the cell. */
+    /** A face by its sorted vertices, which neighbours share, in the order of
+     *  its cell, and the cell. */
     struct FaceOfCell
     {
       CoarseMesh::Face sorted, face;
@@ -53,7 +53,8 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
-    /** Of all cells: those of neighbours stand side by side. */
+    /** Faces of all cells; those shared by neighbours are adjacent in the
+     *  list. */
     std::vector<FaceOfCell>
     all_faces(const CoarseMesh &mesh)
     {
@@ -81,7 +82,7 @@ namespace geocone::GEOCONE_DIM
       return faces;
     }
 
-    /** The pieces of a mesh at each vertex: the cells that are joined by faces through
+    /** Pieces of a mesh at each vertex: cells connected by faces that contain
      *  it. */
     class VertexPieces
     {
@@ -95,7 +96,7 @@ namespace geocone::GEOCONE_DIM
         std::iota(leader.begin(), leader.end(), 0U);
       }
 
-      /** The number of the piece of a cell at a vertex, less than size(). */
+      /** Number of the piece of a cell at a vertex, less than size(). */
       unsigned int
       of(const unsigned int vertex, const unsigned int cell)
       {
@@ -184,7 +185,7 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int c = 0; c < cells.size(); ++c)
       for (unsigned int &v : cells[c].vertices)
         v = vertex_of(v, c);
-    // Sides that were there go with their cells.
+    // Existing sides stay with their cells.
     std::map<Face, unsigned int> cell_of;
     for (const FaceOfCell &at : faces)
       cell_of[at.sorted] = at.cell;

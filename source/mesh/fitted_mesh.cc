@@ -15,7 +15,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** The side of a polygon on which x lies (the nearest one). */
+    /** The side of a polygon nearest to x. */
     types::boundary_id
     nearest_side(const Polygon &outline, const Point<dim> &x)
     {
@@ -67,7 +67,7 @@ namespace geocone::GEOCONE_DIM
           {
             lines = scene.water.lines(domain.get_boundary_points().first,
                                       domain.get_boundary_points().second);
-            // What a stage removes is removed by cells.
+            // Stages remove complete cells.
             for (const auto &stage : scene.loading.list)
               if (const Polygon &polygon = stage->removed_polygon;
                   !polygon.empty())

@@ -17,9 +17,9 @@
 #include <optional>
 #include <set>
 
-// Everything that talks to gmsh. The library runs the scripts that it is given,
-// whatever their names are: it gets our own numbers, and a file only if the
-// parameter file says that it is a script to be run.
+// Interface to gmsh. The library executes scripts passed to it, whatever their
+// names: it receives numbers of ours only, and a file only if the parameter
+// file declares it as a script to be run.
 
 namespace geocone::GEOCONE_DIM
 {
@@ -27,14 +27,14 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** One gmsh session; gmsh keeps its model in global state. */
+    /** A gmsh session; gmsh keeps its model in global state. */
     class Session
     {
     public:
       Session()
       {
-        // Without the files of options in the user's folders; and without those
-        // that its toolkit would write there.
+        // Ignores option files in the user's folders, and prevents gmsh's
+        // toolkit from writing there.
         if (const char *home = std::getenv("HOME"))
           user_home = home;
         setenv("HOME", "/dev/null", 1);
@@ -49,7 +49,7 @@ namespace geocone::GEOCONE_DIM
           }
         catch (...)
           {
-            // There is nothing left to be freed.
+            // Nothing is left to be freed.
           }
         if (user_home)
           setenv("HOME", user_home->c_str(), 1);
@@ -63,7 +63,7 @@ namespace geocone::GEOCONE_DIM
 
     /**
      * Calls gmsh, whose errors are texts, numbers or exceptions.
-     * @throws InputError in their place
+     * @throws InputError instead
      */
     template <typename Function>
     auto
@@ -105,7 +105,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * What the first rank makes, or the InputError that it throws, on all
+     * Distributes the result of the first rank, or its InputError, to all
      * ranks. Collective.
      */
     template <typename Function>
@@ -146,8 +146,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Copies the present gmsh model. @p chosen: the surfaces or volumes to take, all if
-     * empty.
+     * Copies the present gmsh model. @p chosen: surfaces or volumes to copy,
+     * all if empty.
      */
     MshData
     copy_model(const std::set<int> &chosen, const std::string &what)
@@ -209,7 +209,7 @@ namespace geocone::GEOCONE_DIM
       return data;
     }
 
-    /** Runs a geo script, meshes what it makes, and copies the mesh. */
+    /** Runs a geo script, meshes its geometry, and copies the mesh. */
     MshData
     run_script(const std::string &file_name, const std::string &what)
     {
@@ -223,7 +223,8 @@ namespace geocone::GEOCONE_DIM
                            types, elements, nodes, dim);
                          if (types.empty())
                            gmsh::model::mesh::generate(dim);
-                         // As gmsh saves a mesh: if some surfaces or volumes are physical, these only.
+                         // Like gmsh when saving: if there are physical
+                         // surfaces or volumes, these only.
                          std::set<int>    physical;
                          gmsh::vectorpair entities;
                          gmsh::model::getEntities(entities, dim);
@@ -234,7 +235,7 @@ namespace geocone::GEOCONE_DIM
                        });
     }
 
-    /** The data of a .msh file, or of a script if that may be run. */
+    /** Data of a .msh file, or of a script if scripts are allowed. */
     MshData
     data_of_file(const Geometry &geometry, const std::string &what)
     {
@@ -289,7 +290,7 @@ namespace geocone::GEOCONE_DIM
       gmsh::option::setNumber("Mesh.MeshSizeMax", largest);
     }
 
-    /** Sizes as gmsh's background field, by a view that is data. */
+    /** Sets sizes as gmsh's background field, by a view of data. */
     void
     set_sizes(const CellSizes &sizes)
     {
@@ -318,21 +319,22 @@ namespace geocone::GEOCONE_DIM
       limit_sizes(smallest, largest);
     }
 
-    /** The cell size, or the sizes around the grading points (MeshParameters). */
+    /** Sets the cell size, or the sizes around the grading points
+     *  (MeshParameters). */
     void
     set_sizes(const MeshParameters &parameters)
     {
       if (parameters.grading_points.empty())
         {
-          // A cell is no larger than the domain.
+          // Cells are not larger than the domain.
           double extent = 0.;
           for (const Point<dim> &x : parameters.outline)
             extent = std::max(extent, x.distance(parameters.outline[0]));
           const double size = std::min(parameters.cell_size, extent);
           return limit_sizes(size, size);
         }
-      // One field per point, by formula: the options of gmsh's distance
-      // fields have changed names between versions.
+      // One field per point, by a formula: the options of gmsh's distance
+      // fields have different names in different versions.
       std::vector<double> fields;
       for (const Point<dim> &x : parameters.grading_points)
         {
@@ -353,7 +355,7 @@ namespace geocone::GEOCONE_DIM
       limit_sizes(parameters.smallest, parameters.largest);
     }
 
-    /** A plane surface, or in three dimensions a box. @return its tag */
+    /** Adds a plane surface, or in three dimensions a box. @return its tag */
     int
     add_body(const Polygon &polygon)
     {
@@ -372,9 +374,10 @@ namespace geocone::GEOCONE_DIM
       return occ::addPlaneSurface({occ::addCurveLoop(lines)});
     }
 
-    /** The domain, fragmented by the borders of the body and the materials, by lines of
-     *  which it takes what is inside, and by the grading points, which so become edges
-     *  and vertices of the mesh. @return the tags of its pieces */
+    /** Adds the domain, fragmented by the boundaries of the body and the
+     *  materials, by lines (their parts inside) and by the grading points,
+     *  which become edges and vertices of the mesh. @return the tags of its
+     *  pieces */
     std::set<int>
     add_domain(const MeshParameters &parameters,
                const Regions        &regions,
@@ -413,7 +416,7 @@ namespace geocone::GEOCONE_DIM
       return tags;
     }
 
-    /** The mesh of the domain by gmsh, from numbers only. @param sizes or null */
+    /** Meshes the domain by gmsh, from numbers only. @param sizes or null */
     MshData
     mesh_domain(const MeshParameters &parameters,
                 const Regions        &regions,
@@ -433,8 +436,8 @@ namespace geocone::GEOCONE_DIM
       if (parameters.cells == MeshParameters::Cells::quadrilaterals)
         {
           gmsh::option::setNumber("Mesh.RecombineAll", 1);
-          // Recombined triangles, then each cell cut in four (or three): only
-          // quadrilaterals remain.
+          // Recombined triangles, then each cell split into four (or three):
+          // only quadrilaterals remain.
           gmsh::option::setNumber("Mesh.RecombinationAlgorithm", 1);
           gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 1);
         }

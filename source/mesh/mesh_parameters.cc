@@ -196,7 +196,7 @@ namespace geocone::GEOCONE_DIM
     positive("Smallest size", smallest);
     positive("Largest size", largest);
     positive("Size ratio", size_ratio);
-    if (algorithm == 8) // gmsh 4.8 crashes, whatever the domain
+    if (algorithm == 8) // gmsh 4.8 crashes for any domain
       throw InputError("Mesh/Gmsh algorithm",
                        algorithm,
                        "1 to 7, 9, 11: gmsh's frontal algorithm for "
@@ -299,7 +299,7 @@ namespace geocone::GEOCONE_DIM
                     : diagonals == Diagonals::crossed ? 4.
                                                       : 2.);
       }
-    // Their unknowns are counted in 32 bits.
+    // Unknowns have 32-bit indices.
     constexpr double most_cells = 1e8;
     if (!(n_cells <= most_cells))
       throw InputError(entry,

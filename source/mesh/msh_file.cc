@@ -17,7 +17,7 @@ namespace geocone::GEOCONE_DIM
 {
   namespace
   {
-    // Five million nodes in ASCII; the solvers end long before.
+    // Five million nodes in ASCII, far beyond the limit of the solvers.
     constexpr std::uintmax_t largest_msh_file = 512ULL << 20;
 
     /** Reads one file, section by section. */
@@ -143,7 +143,7 @@ namespace geocone::GEOCONE_DIM
           }
       }
 
-      /** Version 4.1: which points, curves, ... are in which groups. */
+      /** Version 4.1: groups of points, curves, ... */
       void
       entities()
       {
@@ -182,7 +182,7 @@ namespace geocone::GEOCONE_DIM
             }
       }
 
-      /** The number of a physical group; its sign is an orientation. */
+      /** Number of a physical group; its sign is an orientation. */
       int
       group_number()
       {
@@ -380,8 +380,8 @@ namespace geocone::GEOCONE_DIM
       }
 
       /**
-       * Version 2.2 holds an element once for each physical group that it is
-       * in: the copies become one element with several groups.
+       * Merges the copies of an element in version 2.2, one for each of its
+       * physical groups, into one element with several groups.
        */
       void
       merge_copies()

@@ -26,8 +26,8 @@ namespace geocone::GEOCONE_DIM
     signed_area(const std::vector<Point<dim>>   &points,
                 const std::vector<unsigned int> &around)
     {
-      // From the first point: far from the origin, products of coordinates
-      // would lose the area in their rounding.
+      // Relative to the first point: far from the origin, the area would be
+      // lost in the rounding of products of coordinates.
       double area = 0.;
       for (std::size_t i = 1; i + 1 < around.size(); ++i)
         {
@@ -40,7 +40,7 @@ namespace geocone::GEOCONE_DIM
       return area;
     }
 
-    /** The smallest signed area of a corner: negative where not convex. */
+    /** Smallest signed area of a corner: negative if not convex. */
     double
     worst_corner(const std::vector<Point<dim>>   &points,
                  const std::vector<unsigned int> &around)
@@ -61,7 +61,7 @@ namespace geocone::GEOCONE_DIM
       return "(" + text_of_place(x) + ")";
     }
 
-    /** Six times the volume of the tetrahedron of four vertices, with its sign. */
+    /** Six times the signed volume of the tetrahedron of four vertices. */
     double
     sixfold_volume(const std::vector<Point<dim>> &points,
                    const std::array<unsigned, 4> &v)
@@ -73,15 +73,15 @@ namespace geocone::GEOCONE_DIM
       return dealii::cross_product_3d(edge[0], edge[1]) * edge[2];
     }
 
-    /** The smallest of the corners of a tetrahedron or a hexahedron, in gmsh's
-     *  order: negative where it is inverted or not convex there. */
+    /** Smallest volume at the corners of a tetrahedron or a hexahedron, in
+     *  gmsh's order: negative if it is inverted or not convex there. */
     double
     worst_corner_of_solid(const std::vector<Point<dim>>   &points,
                           const std::vector<unsigned int> &v)
     {
       if (v.size() == 4)
         return sixfold_volume(points, {{v[0], v[1], v[2], v[3]}});
-      // Of each corner its neighbours, turning to the left seen from within.
+      // Neighbours of each corner, counterclockwise as seen from inside.
       static constexpr unsigned int corners[8][4] = {{0, 1, 3, 4},
                                                      {1, 2, 0, 5},
                                                      {2, 3, 1, 6},
@@ -98,7 +98,7 @@ namespace geocone::GEOCONE_DIM
       return worst;
     }
 
-    /** The other orientation. */
+    /** Reverses the orientation. */
     void
     turn_round(std::vector<unsigned int> &v)
     {
@@ -111,7 +111,7 @@ namespace geocone::GEOCONE_DIM
           std::swap(v[i], v[i + 4]);
     }
 
-    /** Which vertices belong to bodies that touch, and need not be joined. */
+    /** Vertices of bodies in contact, which need not be shared. */
     class ApartVertices
     {
     public:
@@ -143,7 +143,8 @@ namespace geocone::GEOCONE_DIM
       std::vector<std::set<unsigned int>> materials; ///< at a vertex
     };
 
-    /** In three dimensions: vertices at one place, which leave a gap between cells. */
+    /** In three dimensions: coincident vertices, which leave a gap between
+     *  cells. */
     void
     check_double_nodes(const CoarseMesh    &mesh,
                        const std::string   &what,
@@ -173,7 +174,7 @@ namespace geocone::GEOCONE_DIM
               "Mesh.RemoveDuplicateNodes");
     }
 
-    /** Each edge must be passed once in each direction at most. */
+    /** Each edge must occur at most once in each direction. */
     void
     check_overlap(const std::vector<Point<dim>>                &points,
                   const std::vector<std::vector<unsigned int>> &around,
@@ -193,7 +194,7 @@ namespace geocone::GEOCONE_DIM
                          "cells that are there twice, or mesh anew");
     }
 
-    /** The shortest edge against the largest coordinate. */
+    /** Compares the shortest edge with the largest coordinate. */
     void
     check_resolution(const std::vector<Point<dim>>                &points,
                      const std::vector<std::vector<unsigned int>> &around,
@@ -224,8 +225,8 @@ namespace geocone::GEOCONE_DIM
           }
     }
 
-    /** A vertex in the middle of another cell's edge leaves a gap there, unless they
-     *  belong to bodies that touch. */
+    /** A vertex inside another cell's edge leaves a gap there, unless the cells
+     *  belong to bodies in contact. */
     void
     check_hanging_nodes(const CoarseMesh  &mesh,
                         const std::string &what,
@@ -274,7 +275,7 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Physical curves by number and by name, each meaning one curve. */
+    /** Physical curves by number and by name, both unique. */
     void
     set_sides(const MshData &data, const std::string &what, CoarseMesh &mesh)
     {
@@ -303,7 +304,7 @@ namespace geocone::GEOCONE_DIM
                                            : "'" + name->second + "'";
     }
 
-    /** There must be cells, and not too many for deal.II's numbers. */
+    /** Requires cells, and not more than deal.II's indices allow. */
     void
     check_amount(const MshData &data, const std::string &what)
     {
@@ -328,7 +329,7 @@ namespace geocone::GEOCONE_DIM
 
     using Elements = std::vector<const MshData::Element *>;
 
-    /** The cells by surface, and the triangles of a surface come first. */
+    /** Cells by surface, with the triangles of a surface first. */
     Elements
     in_order_of_gmsh(const std::vector<MshData::Element> &cells)
     {
@@ -343,7 +344,7 @@ namespace geocone::GEOCONE_DIM
       return order;
     }
 
-    /** Which vertices the nodes are: only those of cells, there may be others. */
+    /** Vertex numbers of nodes; nodes without cells have none. */
     class VertexNumbers
     {
     public:
@@ -368,7 +369,7 @@ namespace geocone::GEOCONE_DIM
             largest = std::max(largest, std::abs(x));
       }
 
-      /** The vertices of a cell; where its nodes are new, so are these.
+      /** Vertices of a cell; new nodes obtain new vertices.
        *  @throws InputError if a node is missing or not in the plane */
       std::vector<unsigned int>
       of_cell(const MshData::Element &cell, std::vector<Point<dim>> &points)
@@ -387,7 +388,7 @@ namespace geocone::GEOCONE_DIM
         return vertices;
       }
 
-      /** The vertices of a face, or none if one of its nodes is of no cell.
+      /** Vertices of a face, or none if one of its nodes belongs to no cell.
        *  @throws InputError if a node is missing */
       std::optional<CoarseMesh::Face>
       of_face(const MshData::Element &element) const
@@ -444,7 +445,7 @@ namespace geocone::GEOCONE_DIM
       double largest = 0.; ///< coordinate
     };
 
-    /** A mesh may be oriented clockwise as a whole; single cells may not. */
+    /** All cells can be clockwise, single cells cannot. */
     void
     orient(const std::vector<Point<dim>>          &points,
            const Elements                         &cells,
@@ -470,8 +471,8 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Makes cells, with their vertices in deal.II's order, which is lexicographic but
-     *  for simplices, and the last material that fills them, as everywhere. */
+    /** Adds cells with their vertices in deal.II's order, lexicographic except
+     *  for simplices, and the last material whose region contains them. */
     void
     add_cells(const Elements                               &cells,
               const std::vector<std::vector<unsigned int>> &around,
@@ -502,7 +503,7 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Faces, by their sorted vertices, with a physical group that they are in. */
+    /** Faces by their sorted vertices, with one of their physical groups. */
     using FaceGroups = std::vector<std::pair<CoarseMesh::Face, int>>;
 
     FaceGroups
@@ -518,7 +519,7 @@ namespace geocone::GEOCONE_DIM
       return groups;
     }
 
-    /** Gives outer faces the numbers of their physical groups, one for each. */
+    /** Assigns the numbers of physical groups to outer faces, one to each. */
     void
     set_boundary(const FaceGroups  &groups,
                  const MshData     &data,

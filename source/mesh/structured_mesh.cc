@@ -26,7 +26,8 @@ namespace geocone::GEOCONE_DIM
       return x;
     }
 
-    /** An interval between two grading points, or one and the border. */
+    /** An interval between two grading points, or between one and the
+     *  boundary. */
     struct Piece
     {
       double left, right;
@@ -62,7 +63,7 @@ namespace geocone::GEOCONE_DIM
 
     /**
      * Sizes from a fine end over a length: smallest, smallest x growth, ... up
-     * to largest, scaled together so that they fill the length.
+     * to largest, scaled together to fill the length.
      */
     std::vector<double>
     growing_sizes(const double length, const MeshParameters &parameters)
@@ -111,7 +112,7 @@ namespace geocone::GEOCONE_DIM
       return x;
     }
 
-    /** The number of sizes that growing_sizes() gives, in closed form. */
+    /** Number of sizes of growing_sizes(), in closed form. */
     double
     number_of_sizes(const double length, const MeshParameters &parameters)
     {
@@ -119,7 +120,7 @@ namespace geocone::GEOCONE_DIM
       const double d = parameters.growth - 1., log_growth = std::log1p(d);
       const double k    = std::ceil(std::log(l / s) / log_growth);
       const double grow = s * (std::expm1(k * log_growth) / d);
-      // The same relative tolerance as there.
+      // The same relative tolerance as in growing_sizes().
       const double L = length * (1. - 1e-9);
       return std::max(1.,
                       grow >= L ? std::ceil(std::log1p(L * d / s) / log_growth)
@@ -136,7 +137,7 @@ namespace geocone::GEOCONE_DIM
       return x;
     }
 
-    /** The lowest and the highest corner of the domain. */
+    /** Lowest and highest corner of the domain. */
     std::pair<Point<dim>, Point<dim>>
     corners(const MeshParameters &parameters)
     {
@@ -243,7 +244,7 @@ namespace geocone::GEOCONE_DIM
           }
         return mesh;
       }
-    // Triangles, of the plane.
+    // Triangles in the plane.
     const unsigned int nx = n_cells[0], ny = n_cells[1];
     const bool         crossed =
       parameters.diagonals == MeshParameters::Diagonals::crossed;

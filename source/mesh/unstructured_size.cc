@@ -13,8 +13,8 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Integrates 1/h^2 over triangles, 1/h^3 over boxes, by parts in which h hardly
-     *  varies. */
+    /** Integrates 1/h^2 over triangles, 1/h^3 over boxes, divided into parts
+     *  with almost constant h. */
     class IntegralOfSizes
     {
     public:
@@ -22,7 +22,7 @@ namespace geocone::GEOCONE_DIM
         : parameters(parameters)
       {}
 
-      /** The integral, with the sign of the triangle's orientation. */
+      /** The integral over a triangle, with the sign of its orientation. */
       double
       over(const std::array<Point<dim>, 3> &corners, const int depth = 60) const
       {
@@ -43,7 +43,7 @@ namespace geocone::GEOCONE_DIM
                over({{ca, bc, c}}, depth - 1) + over({{ab, bc, ca}}, depth - 1);
       }
 
-      /** Of 1/h^3 over a box. */
+      /** The integral of 1/h^3 over a box. */
       double
       over_box(const std::array<Point<dim>, 2> &corners,
                const int                        depth = 20) const
@@ -74,7 +74,7 @@ namespace geocone::GEOCONE_DIM
       }
 
     private:
-      /** From the nearest grading point (m). */
+      /** Distance to the nearest grading point (m). */
       double
       distance(const Point<dim> &x) const
       {
@@ -84,8 +84,8 @@ namespace geocone::GEOCONE_DIM
         return nearest;
       }
 
-      /** Whether the size hardly varies in a ball: it is monotonic in the distance,
-       *  which changes by the radius. */
+      /** Whether the size is almost constant in a ball: it is monotonic in the
+       *  distance, which changes by the radius. */
       bool
       is_even(const Point<dim> &centre, const double radius) const
       {
@@ -112,7 +112,7 @@ namespace geocone::GEOCONE_DIM
   {
     const Polygon        &outline = parameters.outline;
     const IntegralOfSizes integral(parameters);
-    if (dim == 3) // a regular tetrahedron of edge h has the volume h^3/6 sqrt2
+    if (dim == 3) // volume h^3/6 sqrt2 of a regular tetrahedron with edge h
       return std::max(
         6., 6. * sqrt2 * integral.over_box({{outline[0], outline[1]}}));
     double sum = 0.;

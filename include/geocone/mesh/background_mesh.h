@@ -30,37 +30,39 @@ namespace geocone::GEOCONE_DIM
    * The triangulation, distributed over the ranks, with its mapping, material
    * ids (indices into Scene::materials) and side ids.
    *
-   * Quadrilaterals and hexahedra live on parallel::distributed::Triangulation (p4est);
-   * simplices, which p4est does not know, on parallel::shared::Triangulation,
-   * where every rank stores the whole mesh and owns a part of it.
+   * Quadrilaterals and hexahedra use parallel::distributed::Triangulation
+   * (p4est); simplices, which p4est does not support, use
+   * parallel::shared::Triangulation, where every rank stores the complete mesh
+   * and owns a part of it.
    *
-   * Bodies of particles that touch each other have a layer each: the same mesh once
-   * more, in the same place, so that the particles of each body move nodes of their
-   * own. This is stored on parallel::shared::Triangulation, too.
+   * Particle bodies in contact have one layer each: a copy of the mesh at the
+   * same position, so that the particles of each body move nodes of their own.
+   * Such meshes also use parallel::shared::Triangulation.
    */
   class BackgroundMesh : public dealii::ParameterAcceptor
   {
   public:
     BackgroundMesh(const MPI_Comm comm);
 
-    /** What a mesh will be, as far as parameters tell. */
+    /** Expected size of the mesh, as far as the parameters determine it. */
     struct Expected
     {
       double n_cells;
       std::array<double, dim>
-                  intervals; ///< of a grid; else their product counts
-      double      area;      ///< that the cells cover (m^2)
+                  intervals; ///< of a grid; otherwise only their product counts
+      double      area;      ///< of the cells (m^2)
       bool        is_simplicial, is_grid;
-      std::string parameter; ///< that the number comes from
+      std::string parameter; ///< that determines the number
     };
 
-    /** Without creating the mesh; of a file, from its size, or after prepare() from
-     *  what it held. @throws InputError as prepare() */
+    /** Estimates the mesh without creating it: for a file, from its size or,
+     *  after prepare(), from its content. @throws InputError as prepare() */
     Expected
     expect(const Scene &scene, const Method &method);
 
-    /** Of a mesh "from the bounds": who finds its sizes, which this room does not
-     *  know. To be called before prepare(). Collective. @throws InputError */
+    /** For a mesh "from the bounds": sets the function that computes its sizes
+     *  by a limit analysis, which this module does not include. To be called
+     *  before prepare(). Collective. @throws InputError */
     using SizesOf = std::function<CellSizes(const MeshParameters &)>;
     void
     take_sizes(const SizesOf &sizes_of,
@@ -72,16 +74,17 @@ namespace geocone::GEOCONE_DIM
     prepare(const Scene &scene, const Method &method);
 
     /**
-     * The lines of a uniform grid of rectangles, without creating the mesh;
-     * nothing if the mesh is another one. @throws InputError as prepare()
+     * Lines of a uniform grid of rectangles, without creating the mesh; empty
+     * for other meshes. @throws InputError as prepare()
      */
     std::array<std::vector<double>, dim>
     uniform_lines(const Scene &scene, const Method &method);
 
     using Cell = dealii::Triangulation<dim>::active_cell_iterator;
 
-    /** The side of a square, or of the half of one, with a cell's area, or of a cube or
-     *  a sixth of one with its volume (m). */
+    /** Side length of a square (in three dimensions, a cube) with the cell's
+     *  area or volume; for simplices, twice the area or six times the volume
+     *  (m). */
     static double
     size_of(const Cell &cell)
     {
@@ -90,7 +93,7 @@ namespace geocone::GEOCONE_DIM
       return length_of(cell->measure() * parts);
     }
 
-    /** The cells of this rank, one after another. */
+    /** Iterates over the cells of this rank. */
     auto
     own_cells() const
     {
@@ -99,43 +102,46 @@ namespace geocone::GEOCONE_DIM
         dealii::IteratorFilters::LocallyOwnedCell());
     }
 
-    /** The rank that has each cell, also of those of other ranks, by the active
-     *  cell index. */
+    /** Rank of each cell, including those of other ranks, by active cell
+     *  index. */
     const std::vector<unsigned int> &
     owner_of_cell() const
     {
       return owners;
     }
 
-    /** Parts the cells anew between the ranks, so that the sums of their weights are
-     *  about equal. @param weight > 0 of a cell that this rank has. Collective. */
+    /** Redistributes the cells over the ranks, so that the sums of their
+     *  weights are about equal. @param weight > 0 of a cell of this rank.
+     *  Collective. */
     void
     repartition(const std::function<unsigned int(const Cell &)> &weight);
 
-    /** Whether a cell, of this rank or beside it, is one of those that the ranks give,
-     *  each of its own; by the active cell index. Collective. */
+    /** Whether a cell, owned or ghost, is in the union of the lists that the
+     *  ranks pass, each with its own cells; by active cell index.
+     *  Collective. */
     std::vector<bool>
     is_among(const std::vector<Cell> &cells) const;
 
-    /** Whether x is the radius of a round body. */
+    /** Whether the scene is axisymmetric, with x the radius. */
     bool
     is_axisymmetric() const
     {
       return symmetry == Geometry::Symmetry::axisymmetric;
     }
 
-    /** Geometry::measure() */
+    /** See Geometry::measure(). */
     double
     measure(const dealii::Point<dim> &x) const
     {
       return Geometry::measure(symmetry, x);
     }
 
-    /** Part of a cell's size by which a point may lie outside of it. */
+    /** Distance outside of a cell, relative to its size, up to which a point
+     *  counts as inside. */
     static constexpr double tolerance = 1e-8;
 
-    /** Unit coordinates of x in a cell, or nothing if it is neither there nor on
-     *  the border, but for the tolerance. */
+    /** Unit coordinates of x in a cell; no value if it is outside by more than
+     *  the tolerance. */
     std::optional<dealii::Point<dim>>
     unit_point(const Cell &cell, const dealii::Point<dim> &x) const;
 
@@ -146,37 +152,39 @@ namespace geocone::GEOCONE_DIM
       return lines;
     }
 
-    /** Moves the lines of a tensor grid, of which there are as many as before. */
+    /** Moves the lines of a tensor grid, whose number must not change. */
     void
     move_grid(const std::array<std::vector<double>, dim> &to);
 
-    /** The column and the row of a cell of a tensor grid. */
+    /** Column and row of a cell of a tensor grid. */
     std::array<unsigned int, dim>
     place_in_grid(const Cell &cell) const;
 
-    /** Whether it is parted between bodies that touch: each rank knows all of it. */
+    /** Whether the mesh is split between bodies in contact; each rank stores
+     *  all of it then. */
     bool
     is_parted() const
     {
       return parted;
     }
 
-    /** How many layers there are, one after another: of particles one for each body,
-     *  otherwise 1. */
+    /** Number of layers: one per body for particle bodies in contact, otherwise
+     *  1. */
     unsigned int
     n_layers() const
     {
       return layers;
     }
 
-    /** The layer of a cell, counted from 0. */
+    /** Layer of a cell, counted from 0. */
     unsigned int
     layer_of(const Cell &cell) const
     {
       return cell->active_cell_index() / (tria->n_active_cells() / layers);
     }
 
-    /** The cell in the same place of another layer; also of another rank. */
+    /** The cell at the same position in another layer; possibly of another
+     *  rank. */
     Cell
     twin(const Cell &cell, const unsigned int layer) const
     {
@@ -184,11 +192,11 @@ namespace geocone::GEOCONE_DIM
       return Cell(tria.get(), 0, cell->index() % n + int(layer) * n);
     }
 
-    /** The box of all vertices, of all ranks. */
+    /** Bounding box of all vertices, over all ranks. */
     dealii::BoundingBox<dim>
     bounding_box() const;
 
-    /** Its lowest coordinates. */
+    /** Lowest corner of the bounding box. */
     dealii::Point<dim>
     lower_corner() const
     {
@@ -218,28 +226,29 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * The side ids of a condition.
-     * @throws InputError for a name that no side has
+     * Side ids of a condition.
+     * @throws InputError for a name without a side
      */
     std::set<dealii::types::boundary_id>
     side_ids(const BoundaryCondition &condition) const;
 
-    /** The vertices of each face on the sides of a condition, of all ranks: in the plane
-     *  the body is on the left, in space they are counterclockwise as seen from outside.
-     *  Collective. @throws InputError for a name that no side has */
+    /** Vertices of each face on the sides of a condition, over all ranks: in
+     *  the plane with the body on the left, in space counterclockwise as seen
+     *  from outside. Collective. @throws InputError for a name without a
+     *  side */
     std::vector<std::vector<dealii::Point<dim>>>
     faces_of(const BoundaryCondition &condition) const;
 
     /**
-     * The connected part of the body (counted from 0) to which each vertex of
-     * the triangulation belongs; parts that share no edge are not connected.
-     * @param cells that there are of the body on this rank. Collective.
+     * Connected part of the body (counted from 0) of each vertex of the
+     * triangulation; parts without a common edge are not connected.
+     * @param cells of the body on this rank. Collective.
      */
     std::vector<unsigned int>
     connected_parts(const std::vector<Cell> &cells) const;
 
   private:
-    /** Finds out which rank has which cell. Collective. */
+    /** Determines the owner of each cell. Collective. */
     void
     find_owners();
 

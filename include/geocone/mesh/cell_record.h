@@ -17,16 +17,16 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Which of the records of a checkpoint belong to which cell: cells have names
-   * (CellId) that do not depend on the number of ranks.
+   * Assignment of checkpoint records to cells, by cell names (CellId), which do
+   * not depend on the number of ranks.
    */
   class CellRecord
   {
   public:
-    /** To be filled. */
+    /** A table to be filled. */
     CellRecord() = default;
 
-    /** To be read. @throws RunError if it does not fit to the records */
+    /** A table to be read. @throws RunError if it does not match the records */
     CellRecord(const std::vector<double> &numbers, const std::size_t n_records)
     {
       std::size_t begin = 0;
@@ -44,7 +44,7 @@ namespace geocone::GEOCONE_DIM
                        "records than it holds");
     }
 
-    /** The next n records are of this cell. */
+    /** Assigns the next n records to this cell. */
     void
     add(const BackgroundMesh::Cell &cell, const std::size_t n)
     {
@@ -59,7 +59,7 @@ namespace geocone::GEOCONE_DIM
       return ranges.count(cell->id().to_binary<dim>()) > 0;
     }
 
-    /** The records of a cell. @throws RunError if it is not known */
+    /** Range of the records of a cell. @throws RunError for an unknown cell */
     std::pair<std::size_t, std::size_t>
     range(const BackgroundMesh::Cell &cell) const
     {
@@ -69,7 +69,7 @@ namespace geocone::GEOCONE_DIM
       return found->second;
     }
 
-    std::vector<double> numbers; ///< five for each cell: its name, and n
+    std::vector<double> numbers; ///< five per cell: its name, and n
 
   private:
     using Name = dealii::CellId::binary_type;

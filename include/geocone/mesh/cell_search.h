@@ -14,16 +14,16 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The search for the cell of a place, in meshes of triangles and of
-   * quadrilaterals. It looks among the cells of all ranks: each rank knows them
-   * all, so that a place is found however far it is from where it was before.
+   * Search for the cell that contains a point. It covers the cells of all
+   * ranks, which each rank stores, so that points are found however far they
+   * have moved.
    */
   class CellSearch
   {
   public:
     using Cell = BackgroundMesh::Cell;
 
-    /** A cell, and the unit coordinates of the place there. */
+    /** A cell, and the unit coordinates of the point in it. */
     struct Place
     {
       Cell               cell;
@@ -33,24 +33,25 @@ namespace geocone::GEOCONE_DIM
     explicit CellSearch(const BackgroundMesh &mesh);
 
     /**
-     * The place of x: first in the cell @p hint, then in those that share a vertex
-     * with it, then everywhere in a layer of the mesh, where a place on the border of
-     * cells belongs to the cell of the lowest rank and index, whichever rank asks.
-     * @return nothing outside of the mesh, or if x is not a number
+     * Locates x: first in the cell @p hint, then in those that share a vertex
+     * with it, then in a complete layer of the mesh. There, points on cell
+     * boundaries belong to the cell of the lowest rank and index, for whichever
+     * rank searches.
+     * @return no value outside of the mesh, or if x is NaN
      */
     std::optional<Place>
     find(const dealii::Point<dim> &x,
          const Cell               &hint  = Cell(),
          const unsigned int        layer = 0) const;
 
-    /** The cell with an index, which all ranks use for the same cell. */
+    /** Cell of an index, the same on all ranks. */
     Cell
     cell(const unsigned int active_cell_index) const
     {
       return cells[active_cell_index];
     }
 
-    /** The rank that has a cell. */
+    /** Rank of a cell. */
     unsigned int
     owner(const Cell &cell) const
     {
@@ -63,7 +64,7 @@ namespace geocone::GEOCONE_DIM
       return mesh.is_simplicial();
     }
 
-    /** The shortest distance of two vertices of a cell. */
+    /** Shortest distance between two vertices of a cell. */
     double
     smallest_cell() const
     {
@@ -74,8 +75,8 @@ namespace geocone::GEOCONE_DIM
     const BackgroundMesh               &mesh;
     const dealii::GridTools::Cache<dim> cache;
     std::vector<Cell>                   cells;
-    /** Those that share a vertex with a cell: of cell c, the part of
-     *  neighbours from first_neighbour[c] on. */
+    /** Cells that share a vertex with a cell: those of cell c start at
+     *  neighbours[first_neighbour[c]]. */
     std::vector<unsigned int> first_neighbour, neighbours;
     double                    smallest;
   };

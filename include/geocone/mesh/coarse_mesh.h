@@ -21,8 +21,9 @@ namespace geocone::GEOCONE_DIM
   /** Vertices, cells with material ids, and boundary faces with side ids. */
   struct CoarseMesh
   {
-    /** The vertices of a face: of an edge in the plane, where they rise; of a triangle,
-     *  after which comes no_vertex, or a quadrilateral, in the order of its cell. */
+    /** Vertices of a face: of an edge in the plane, in increasing order; of a
+     *  triangle, followed by no_vertex, or of a quadrilateral, in the order of
+     *  its cell. */
     using Face = std::array<unsigned int, dim == 2 ? 2 : 4>;
     static constexpr unsigned int no_vertex = -1;
 
@@ -31,10 +32,10 @@ namespace geocone::GEOCONE_DIM
     dealii::SubCellData                               boundary;
     std::map<std::string, dealii::types::boundary_id> sides;
 
-    /** Coordinates of the grid lines, if it is a tensor grid; or empty. */
+    /** Coordinates of the grid lines of a tensor grid; otherwise empty. */
     std::array<std::vector<double>, dim> grid;
 
-    /** Whether there are triangles or tetrahedra. */
+    /** Whether the mesh has triangles or tetrahedra. */
     bool
     has_simplices() const;
 
@@ -42,11 +43,11 @@ namespace geocone::GEOCONE_DIM
     dealii::Point<dim>
     centre(const dealii::CellData<dim> &cell) const;
 
-    /** The same face, whatever its vertices begin with: in rising order. */
+    /** A face in canonical form, with its vertices in increasing order. */
     static Face
     sorted(Face face);
 
-    /** The faces that belong to one cell only. */
+    /** Faces of one cell only. */
     std::vector<Face>
     outer_faces() const;
 
@@ -55,19 +56,19 @@ namespace geocone::GEOCONE_DIM
     centre(const Face &face) const;
 
     /**
-     * Parts the mesh along the faces between cells of materials that are apart: each
-     * piece of what meets at a vertex there gets a vertex of its own.
-     * @return these faces, as both sides have them
+     * Splits the mesh along the faces between cells of materials that are
+     * apart. At each vertex there, every piece of the mesh obtains a vertex of
+     * its own.
+     * @return these faces, from both sides
      */
     std::vector<Face>
     part(const std::function<bool(unsigned int, unsigned int)> &are_apart);
 
-    /** The mesh so many times, one after another, in the same place: no copy shares
-     *  vertices with another. */
+    /** Repeats the mesh at the same position; copies share no vertices. */
     void
     repeat(const unsigned int times);
 
-    /** Gives a boundary face the number of a side. */
+    /** Assigns a side number to a boundary face. */
     void
     add_boundary(const Face &face, const dealii::types::boundary_id side);
   };

@@ -10,7 +10,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** @throws InputError if a material that must have a part of the body has no cell
+  /** @throws InputError if a material that must occupy a region has no cell
    *  @param n_cells by material, of all ranks */
   void
   refuse_empty_regions(const Scene                     &scene,

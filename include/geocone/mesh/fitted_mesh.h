@@ -14,12 +14,12 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The mesh of a scene, with the materials of its cells and the sides of its
+   * Mesh of a scene, with the materials of its cells and the sides of its
    * boundary. Collective.
    * @param parameters prepared for the scene and the method
-   * @param sizes instead of those of the parameters; then gmsh makes the mesh
-   * @param parts_bodies whether it may be parted where bodies touch, as it is not for
-   * particles
+   * @param sizes replace those of the parameters; gmsh then makes the mesh
+   * @param parts_bodies whether to split it between bodies in contact (not for
+   * particles)
    * @throws InputError
    */
   CoarseMesh
@@ -30,10 +30,10 @@ namespace geocone::GEOCONE_DIM
               const bool            parts_bodies = true);
 
   /**
-   * The numbers of the sides of a condition.
+   * Side numbers of a condition.
    * @param sides their names
-   * @param all all that the boundary has, for "all"
-   * @throws InputError for a name that no side has
+   * @param all numbers of the complete boundary, for "all"
+   * @throws InputError for a name without a side
    */
   std::set<dealii::types::boundary_id>
   side_ids(const BoundaryCondition                                 &condition,

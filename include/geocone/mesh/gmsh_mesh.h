@@ -14,16 +14,16 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The number of cells to be expected of an unstructured mesh with the size
-   * field h: triangles are nearly equilateral, so that there are
-   *   4/sqrt(3) times the integral of 1/h^2 over the domain
-   * of them; each pair of triangles becomes four quadrilaterals. Within a factor
-   * of 2 of what gmsh makes, unless edges of materials force small cells.
+   * Expected number of cells of an unstructured mesh with the size field h:
+   * triangles are nearly equilateral, so that their number is
+   *   4/sqrt(3) times the integral of 1/h^2 over the domain;
+   * each pair of triangles becomes four quadrilaterals. Within a factor of 2 of
+   * gmsh's number, unless edges of materials force small cells.
    */
   double
   unstructured_size(const MeshParameters &parameters);
 
-  /** Straight lines on which a mesh is to have edges, where they cross it. */
+  /** Straight lines that become edges of the mesh, as far as they lie in it. */
   using MeshLines = std::vector<std::array<dealii::Point<dim>, 2>>;
 
   /** Unstructured mesh of a box or polygon, by gmsh. Collective. */
@@ -33,7 +33,7 @@ namespace geocone::GEOCONE_DIM
                     const MeshLines      &lines,
                     const MPI_Comm        comm);
 
-  /** Sizes that an unstructured mesh is to have, linear on triangles that cover
+  /** Prescribed sizes of an unstructured mesh, linear on triangles that cover
    *  the domain (m). */
   struct CellSizes
   {
@@ -41,7 +41,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<std::array<double, 3>>             sizes; ///< at the corners
   };
 
-  /** As unstructured_mesh(), with these sizes. Collective. */
+  /** As unstructured_mesh(), with prescribed sizes. Collective. */
   CoarseMesh
   mesh_with_sizes(const MeshParameters &parameters,
                   const Regions        &regions,
@@ -50,10 +50,10 @@ namespace geocone::GEOCONE_DIM
                   const MPI_Comm        comm);
 
   /**
-   * The mesh of a .msh file (see msh_file.h), or of a geo script if the geometry
-   * says that it may be run. Collective: the first rank reads or runs it.
-   * @param contacts along which bodies may have nodes of their own, or null
-   * @throws InputError if it is neither, or no mesh of ours
+   * Mesh of a .msh file (see msh_file.h), or of a geo script if the geometry
+   * allows scripts. Collective: the first rank reads or runs it.
+   * @param contacts along which bodies can have nodes of their own, or null
+   * @throws InputError if it is neither, or the mesh is not supported
    */
   CoarseMesh
   mesh_of_file(const Geometry &geometry,

@@ -16,16 +16,18 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * How the domain is cut into cells:
-   *  - uniform: squares of about the cell size, or triangles cut from them;
-   *  - graded: a tensor grid whose cells grow from the grading points' rows and
-   *    columns, or triangles cut from it;
-   *  - unstructured: by gmsh, with the size
-   *      h(x) = max(smallest, min(largest, ratio x distance to the nearest
-   *      grading point)),
-   *    and with the grading points and the borders of the materials in it.
+   * Mesh type, cell sizes and shapes:
+   *
+   *  - uniform: squares of about the cell size, or triangles obtained by
+   *    dividing them;
+   *  - graded: a tensor grid whose cells grow from the rows and columns of the
+   *    grading points, or triangles obtained by dividing them;
+   *  - unstructured: by gmsh, with the grading points and the boundaries of the
+   *    materials in the mesh, and with the size h(x) = max(smallest,
+   *    min(largest, ratio x distance to the nearest grading point)).
+   *
    * The mesh of the finite element method fits the body. The background mesh of
-   * the material point method is a box around it, whose sides are bottom, right,
+   * the material point method is a box around it with the sides bottom, right,
    * top, left.
    */
   class MeshParameters : public dealii::ParameterAcceptor
@@ -39,7 +41,7 @@ namespace geocone::GEOCONE_DIM
     /** The domain to be meshed: the body, or the box around it. */
     Polygon outline;
 
-    /** Whether it is the body. */
+    /** Whether the domain is the body. */
     bool fits_body = true;
 
     /** A polygon in the box on which unstructured meshes have edges, or empty. */
@@ -50,7 +52,7 @@ namespace geocone::GEOCONE_DIM
       uniform,
       graded,
       unstructured,
-      from_bounds ///< unstructured, with sizes that a limit analysis finds
+      from_bounds ///< unstructured, with sizes from a limit analysis
     };
     Choice<Type> type = {{{"uniform", Type::uniform},
                           {"graded", Type::graded},
@@ -95,27 +97,29 @@ namespace geocone::GEOCONE_DIM
     unsigned int                    number     = 1500; ///< from the bounds
 
   private:
-    /** @throws InputError where cells cannot be sized by strict bounds */
+    /** @throws InputError if sizes cannot be computed from strict bounds */
     void
     check_mesh_from_bounds(const Geometry &geometry,
                            const Method   &method) const;
 
-    /** Chooses the shape of cells that is left open. @throws InputError */
+    /** Chooses the cell shape if it is automatic. @throws InputError */
     void
     choose_cells(const Geometry &geometry, const Method &method);
 
-    /** @throws InputError for sizes and other numbers out of their range */
+    /** @throws InputError for sizes and other numbers out of range */
     void
     check_numbers() const;
 
-    /** @throws InputError if grading points lack, or are not in the domain */
+    /** @throws InputError if grading points are missing or outside of the
+     *  domain */
     void
     check_grading_points(const Geometry &geometry) const;
 
     void
     choose_outline(const Geometry &geometry, const Method &method);
 
-    /** @throws InputError for sizes that numbers or memory cannot hold */
+    /** @throws InputError for sizes beyond the range of indices or the
+     *  memory */
     void
     check_sizes() const;
 

@@ -13,8 +13,8 @@
 namespace geocone
 {
   /**
-   * Where the continuum lives: at quadrature points of a mesh that fits the body
-   * (finite element method), or at particles that move through a background
+   * Discretisation of the continuum: quadrature points of a mesh that fits the
+   * body (finite element method), or particles that move through a background
    * mesh (material point method).
    */
   class Method : public dealii::ParameterAcceptor
@@ -28,7 +28,7 @@ namespace geocone
       return kind != Kind::fem;
     }
 
-    /** Whether time is stepped explicitly. */
+    /** Whether time integration is explicit. */
     bool
     is_explicit() const
     {

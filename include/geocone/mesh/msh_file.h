@@ -22,14 +22,14 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Nodes, elements and physical groups in gmsh's terms, as they are in a .msh
-   * file or in a model of the gmsh library. Only linear elements: lines, triangles and
-   * quadrilaterals, and in three dimensions tetrahedra and hexahedra, too. Cells are
-   * those of the dimension of the scene, faces those of one less.
+   * Nodes, elements and physical groups in gmsh's terms, from a .msh file or a
+   * model of the gmsh library. Only linear elements are supported: lines,
+   * triangles and quadrilaterals, and in three dimensions tetrahedra and
+   * hexahedra. Cells have the dimension of the scene, faces one less.
    */
   struct MshData
   {
-    /** gmsh's numbers of the types of elements that a mesh consists of. */
+    /** gmsh's numbers of the supported element types. */
     enum Type
     {
       line          = 1,
@@ -57,11 +57,11 @@ namespace geocone::GEOCONE_DIM
     {
       std::uint64_t tag;
       int           type;
-      /** The curve, surface or volume that the element belongs to. */
+      /** The curve, surface or volume of the element. */
       int entity;
       /** Index into #group_lists. */
       unsigned int groups;
-      /** Tags of the nodes, zero after the last one. */
+      /** Tags of the nodes, followed by zeros. */
       std::array<std::uint64_t, 8> nodes;
 
       template <class Archive>
@@ -73,8 +73,7 @@ namespace geocone::GEOCONE_DIM
     };
 
     /**
-     * The index of a list of physical groups in #group_lists, to which it is
-     * added if it is new.
+     * Index of a list of physical groups in #group_lists; new lists are added.
      */
     unsigned int
     index_of_groups(const std::vector<int> &groups);
@@ -82,13 +81,13 @@ namespace geocone::GEOCONE_DIM
     std::vector<Node>    nodes;
     std::vector<Element> cells, faces;
 
-    /** Numbers (> 0) of the physical groups that an element is in. */
+    /** Lists of physical groups (numbers > 0) of elements. */
     std::vector<std::vector<int>> group_lists = {{}};
 
     /** The physical groups of faces: curves, or surfaces. */
     std::set<int> face_groups;
 
-    /** Their names by their numbers, and those of groups of cells. */
+    /** Their names by number, and those of groups of cells. */
     std::map<int, std::string> face_names, cell_names;
 
     template <class Archive>
@@ -103,24 +102,23 @@ namespace geocone::GEOCONE_DIM
     std::map<std::vector<int>, unsigned int> place_of_list = {{{}, 0}};
   };
 
-  /** How a damaged file is mended. */
+  /** Remedy for a damaged file. */
   inline const std::string msh_remedy =
     "write it anew, e.g.: gmsh OLD.msh -save -format msh41 -o NEW.msh";
 
-  /** Names in gmsh of the faces of cells, and of parts that cells fill. */
+  /** gmsh's words for the faces of cells, and for regions of cells. */
   const std::string face_word = dim == 2 ? "curve" : "surface";
   const std::string cell_word = dim == 2 ? "surface" : "volume";
 
-  /** The number of nodes of an element of one of MshData's types, and its
-   *  dimension. */
+  /** Number of nodes of an element type of MshData, and its dimension. */
   unsigned int
   n_nodes_of_type(const int type);
   int
   dimension_of_type(const int type);
 
   /**
-   * @throws InputError if elements of gmsh's @p type cannot be in a mesh; @p
-   * what names the mesh, and @p element, which may be empty, the element
+   * @throws InputError if elements of gmsh's @p type are not supported; @p what
+   * names the mesh, and @p element, which can be empty, the element
    */
   void
   check_element_type(const int          type,
@@ -128,29 +126,29 @@ namespace geocone::GEOCONE_DIM
                      const std::string &element);
 
   /**
-   * Whether a text begins as a .msh file does: with the section MeshFormat, or
-   * with comments before it.
+   * Whether a text begins like a .msh file: with the section MeshFormat,
+   * possibly after comments.
    */
   bool
   begins_as_msh(const std::string &text);
 
   /**
-   * The content of a regular file, which may be binary.
-   * @throws InputError if it is something else, cannot be read, or is larger
-   * than 512 MB: meshes of five million nodes are smaller
+   * Content of a regular file, possibly binary.
+   * @throws InputError if it is not a regular file, cannot be read, or exceeds
+   * 512 MB, the size of meshes with five million nodes
    */
   std::string
   content_of_file(const std::string &file_name, const std::string &what);
 
   /**
-   * Reads the text of a .msh file of version 2.2 or 4.1, ASCII or binary in
-   * either byte order. It is read as data: nothing in it is executed. Memory is
-   * bounded by a multiple of the length of the text, whatever numbers it holds.
-   * Sections that say nothing of nodes and elements are skipped.
-   * @param what what errors call it
-   * @throws InputError with the line (of a binary file: the byte) if the text is
-   * of another version, damaged, or inconsistent, or holds other elements than
-   * MshData's types
+   * Parses a .msh file of version 2.2 or 4.1, ASCII or binary in either byte
+   * order. It is data: nothing in it is executed. Memory is bounded by a
+   * multiple of the length of the text, whatever numbers it contains. Sections
+   * without nodes and elements are skipped.
+   * @param what name of the mesh in error messages
+   * @throws InputError with the line (of a binary file: the byte) if the text
+   * has another version, is damaged or inconsistent, or contains elements other
+   * than MshData's types
    */
   MshData
   parse_msh(const std::string &text, const std::string &what);

@@ -14,14 +14,14 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The mesh of the cells: vertices in the order in which the cells use them,
-   * cells in the order of their surfaces, and of each surface first the
-   * triangles; the edges of physical curves are the sides.
-   * @param contacts between bodies, which may have nodes of their own where they touch,
-   * or null for none
-   * @throws InputError if nodes are missing, not finite, not in the plane z = 0,
-   * or too close together for their coordinates; if there are no cells, or some
-   * are inverted, overlap, or have hanging nodes
+   * Mesh of the cells of a .msh file: vertices in the order of their use by the
+   * cells, cells in the order of their surfaces, with the triangles of each
+   * surface first; the edges of physical curves are the sides.
+   * @param contacts between bodies that can have nodes of their own, or null
+   * for none
+   * @throws InputError if nodes are missing, not finite, not in the plane
+   * z = 0, or too close together for their coordinates; if there are no cells,
+   * or some are inverted, overlap, or have hanging nodes
    */
   CoarseMesh
   coarse_mesh(const MshData     &data,

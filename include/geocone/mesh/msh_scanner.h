@@ -18,11 +18,11 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** What can be read, for messages. */
+  /** Supported versions, for messages. */
   inline const std::string msh_versions =
     "gmsh's .msh files of version 2.2 or 4.1, ASCII or binary";
 
-  /** What separates words. */
+  /** Whether a character separates words. */
   inline bool
   is_msh_space(const char c)
   {
@@ -30,7 +30,7 @@ namespace geocone::GEOCONE_DIM
            c == '\f';
   }
 
-  /** A part of a file as it can be shown on any screen. */
+  /** A part of a file in printable form. */
   inline std::string
   shown_part(const std::string &text)
   {
@@ -42,9 +42,9 @@ namespace geocone::GEOCONE_DIM
   }
 
   /**
-   * Goes through the text of a .msh file: its words, and its numbers as text or as
-   * bytes; what they mean is not known here. Every number is checked against its
-   * range when it is read; nothing is allocated.
+   * Tokeniser of a .msh file: words, and numbers as text or as bytes, without
+   * their meaning. Every number is checked against its range when it is read;
+   * nothing is allocated.
    */
   class MshScanner
   {
@@ -54,7 +54,7 @@ namespace geocone::GEOCONE_DIM
       , what(what)
     {}
 
-    /** Binary numbers from here on; @p swapped: of the other byte order. */
+    /** Switches to binary numbers; @p swapped: of the other byte order. */
     void
     set_binary(const bool is_swapped)
     {
@@ -110,12 +110,12 @@ namespace geocone::GEOCONE_DIM
       position              = end == std::string::npos ? text.size() : end + 1;
     }
 
-    /** Goes behind the line $EndNAME. */
+    /** Skips to the line after $EndNAME. */
     void
     skip_section(const std::string &name)
     {
       const std::string end = "\n$End" + name;
-      // The line of the header has ended before the section begins.
+      // The line break before the section belongs to the header.
       std::size_t at = text.find(end, position == 0 ? 0 : position - 1);
       for (; at != std::string::npos; at = text.find(end, at + 1))
         if (at + end.size() == text.size() ||
@@ -146,7 +146,7 @@ namespace geocone::GEOCONE_DIM
       position += end.size();
     }
 
-    /** An integer that is text in binary files, too. */
+    /** An integer that is text in binary files as well. */
     template <typename Integer>
     Integer
     integer_in_text(const char   *name,
@@ -163,7 +163,7 @@ namespace geocone::GEOCONE_DIM
       return value;
     }
 
-    /** An integer: int or std::uint64_t, which binary files hold as such. */
+    /** An integer: int or std::uint64_t, stored as such in binary files. */
     template <typename Integer>
     Integer
     integer(const char   *name,
@@ -193,7 +193,7 @@ namespace geocone::GEOCONE_DIM
             std::from_chars(token.data(), token.data() + token.size(), value);
           is_number = end.ptr == token.data() + token.size() &&
                       end.ec != std::errc::invalid_argument;
-          // Too small is zero, too large is infinite.
+          // Underflow is zero, overflow is infinite.
           if (is_number && end.ec == std::errc::result_out_of_range)
             value = std::strtod(token.c_str(), nullptr);
         }
@@ -204,7 +204,8 @@ namespace geocone::GEOCONE_DIM
       return value;
     }
 
-    /** @p n items of at least @p size bytes each must follow. */
+    /** @throws InputError unless @p n items of at least @p size bytes each can
+     *  follow. */
     void
     check_room(const std::uint64_t n,
                const std::uint64_t size,
@@ -231,7 +232,7 @@ namespace geocone::GEOCONE_DIM
                           std::numeric_limits<Integer>::max());
     }
 
-    /** The text between quotation marks on the rest of the line. */
+    /** The text between quotation marks in the rest of the line. */
     std::string
     quoted(const char *name)
     {

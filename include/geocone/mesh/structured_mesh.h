@@ -13,13 +13,13 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The numbers of intervals of a uniform or graded mesh of a box along x and y,
+   * Number of intervals of a uniform or graded mesh of a box in each direction,
    * without building it. Uniform: length / size, rounded, at least 1. Graded:
-   * over a length L from a fine end, sizes s, s g, s g^2, ... of which k =
-   * ceil(ln(l/s) / ln g) are smaller than the largest size l, sum up to
+   * over a length L from a fine end, the sizes s, s g, s g^2, ..., of which
+   * k = ceil(ln(l/s) / ln g) are smaller than the largest size l, sum up to
    *   S_n = s (g^n - 1)/(g - 1) for n <= k, and S_k + (n - k) l beyond;
-   * the number is the smallest n with S_n >= L. Rounding can make it differ from
-   * grid_lines() by one between two grading points.
+   * the number is the smallest n with S_n >= L. Between two grading points,
+   * rounding can make it differ from grid_lines() by one.
    */
   std::array<double, dim>
   grid_size(const MeshParameters &parameters);
