@@ -15,7 +15,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Twice the area of a triangle, > 0 where it goes round anticlockwise. */
+    /** Twice the area of a triangle, positive if counterclockwise. */
     double
     area(const Point<dim> &a, const Point<dim> &b, const Point<dim> &c)
     {
@@ -34,7 +34,7 @@ namespace geocone::GEOCONE_DIM
     if (points.size() < 3)
       return points;
     std::vector<Point<dim>> hull;
-    // Below from left to right, then above and back.
+    // Lower hull from left to right, then upper hull and back.
     for (unsigned int half = 0; half < 2; ++half)
       {
         const std::size_t first = hull.size();
@@ -53,11 +53,11 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Differences of points of two sets, at most dim + 1 of them. */
+    /** Differences of points of two sets, at most dim + 1. */
     using Simplex = std::vector<Tensor<1, dim>>;
 
-    /** Takes away the corners that the point of a simplex nearest to the origin does
-     *  not need. @return that point */
+    /** Removes the corners that are not needed for the point of a simplex
+     *  nearest to the origin. @return that point */
     Tensor<1, dim>
     reduce(Simplex &simplex)
     {
@@ -70,7 +70,7 @@ namespace geocone::GEOCONE_DIM
           for (unsigned int i = 0; i < simplex.size(); ++i)
             if (subset & (1u << i))
               corners.push_back(simplex[i]);
-          // The least |p_0 + sum_i t_i (p_i - p_0)|.
+          // Minimum of |p_0 + sum_i t_i (p_i - p_0)|.
           const unsigned int                          n = corners.size() - 1;
           Eigen::Matrix<double, dim, -1, 0, dim, dim> edges(dim, n);
           Eigen::Matrix<double, dim, 1>               start;
@@ -89,7 +89,7 @@ namespace geocone::GEOCONE_DIM
               t = factors.solve(-start);
             }
           if (n > 0 && (t.minCoeff() < 0. || t.sum() > 1.))
-            continue; // beyond a face, which is another subset
+            continue; // beyond a face, another subset
           const Eigen::Matrix<double, dim, 1> point = start + edges * t;
           if (point.norm() < least)
             {
@@ -103,7 +103,7 @@ namespace geocone::GEOCONE_DIM
       return nearest;
     }
 
-    /** The point of a set that is farthest along a direction. */
+    /** Farthest point of a set in a direction. */
     const Point<dim> &
     farthest(const std::vector<Point<dim>> &points, const Tensor<1, dim> &along)
     {

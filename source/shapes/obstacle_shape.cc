@@ -16,10 +16,10 @@ namespace geocone::GEOCONE_DIM
   {
     constexpr double infinity = std::numeric_limits<double>::infinity();
 
-    /** Directions that differ by less are one. */
+    /** Directions with a smaller difference are equal. */
     constexpr double same_direction = 1e-9;
 
-    /** A unit vector across a direction, which is of unit length. */
+    /** A unit vector normal to a unit vector. */
     dealii::Tensor<1, dim>
     some_normal_to(const dealii::Tensor<1, dim> &axis)
     {
@@ -103,7 +103,7 @@ namespace geocone::GEOCONE_DIM
         const Vector from = beyond_end * end + beyond_side * radial;
         return {from.norm(), from / from.norm(), true};
       }
-    // Of the end and the mantle what is bare, and nearer.
+    // The nearer of the uncovered parts of end and lateral surface.
     const auto is_bare = [&](const Vector &n, const Vector &to_foot) {
       const double inset =
         std::min(cover.margin, std::min(radius, half_height));
@@ -210,7 +210,7 @@ namespace geocone::GEOCONE_DIM
   {
     if constexpr (dim == 3)
       {
-        // The plane of each three vertices that has all others on one side.
+        // The plane of any three vertices with all others on one side.
         const double                    tolerance = 1e-9 * width();
         const std::size_t               n         = vertices.size();
         std::set<std::set<std::size_t>> known;
@@ -240,7 +240,7 @@ namespace geocone::GEOCONE_DIM
                   continue;
                 if (most > tolerance)
                   N *= -1.;
-                // Round its middle.
+                // Counterclockwise about the midpoint.
                 std::vector<Point> around;
                 Point              middle;
                 for (const std::size_t l : in_plane)
@@ -309,7 +309,7 @@ namespace geocone::GEOCONE_DIM
       if (const double past = end.beyond(at) + by; past > 0.)
         at -= past * end.outward;
     for (const End &end : ends)
-      if (end.beyond(at) > -by / 2.) // it is narrower
+      if (end.beyond(at) > -by / 2.) // the side is narrower
         return middle;
     return at;
   }
@@ -337,7 +337,7 @@ namespace geocone::GEOCONE_DIM
                     const Vector &approach,
                     const Cover  &cover) const
   {
-    // Inside and on the border the nearest side, outside it or an end.
+    // Inside and on the boundary, the nearest side; outside, a side or an end.
     const double tolerance = 1e-9 * width();
     double       outmost   = -infinity;
     Nearest      best{-infinity, {}}, border{infinity, {}};
@@ -349,7 +349,8 @@ namespace geocone::GEOCONE_DIM
         const Point foot = side.nearest(x, tolerance, is_end);
         if (cover.covers && side.is_covered(foot, cover))
           {
-            // What is deep inside is pushed out through what is bare of the side.
+            // Deep inside, points are pushed out through the uncovered part of
+            // the side.
             if (distance > -cover.margin)
               continue;
             distance = -std::hypot(distance, side.way_to_bare(foot, cover));
@@ -442,7 +443,7 @@ namespace geocone::GEOCONE_DIM
   {
     constexpr unsigned int n     = dim == 2 ? 64 : 32; // around
     constexpr unsigned int rings = dim == 2 ? 1 : n / 2;
-    // A place on the boundary; of a disc ring 0 is its middle.
+    // A point on the boundary; for a disc, ring 0 is its centre.
     const auto at = [&](const unsigned int i, const unsigned int ring) {
       const double angle = 2. * pi * (i % n) / n;
       Point        x     = middle;

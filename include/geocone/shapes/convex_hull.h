@@ -13,15 +13,17 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** The corners of the convex hull of points of the plane, anticlockwise: fewer than
-   *  three where these are on a line (Andrew 1979). Of the first two coordinates. */
+  /** Corners of the convex hull of points in the plane of the first two
+   *  coordinates, counterclockwise; fewer than three if the points are
+   *  collinear (Andrew 1979). */
   std::vector<dealii::Point<dim>>
   convex_hull(std::vector<dealii::Point<dim>> points);
 
   /**
-   * The unit vector along the shortest way from the convex hull of some points to that of
-   * others: the normal of the plane that parts them with the greatest margin (Gilbert,
-   * Johnson and Keerthi 1988). Zero where they meet, or where there are no points.
+   * Unit vector along the shortest connection from the convex hull of some
+   * points to that of others: the normal of the separating plane with the
+   * greatest margin (Gilbert, Johnson and Keerthi 1988). Zero if the hulls
+   * intersect or there are no points.
    */
   dealii::Tensor<1, dim>
   way_between(const std::vector<dealii::Point<dim>> &from,

@@ -10,8 +10,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** The normal on the right of the way from a to b, of its length: outward where the
-   *  body is on the left. */
+  /** Normal to the right of the edge from a to b, with the length of the edge:
+   *  outward if the body is on the left. */
   inline dealii::Tensor<1, dim>
   edge_normal(const dealii::Point<dim> &a, const dealii::Point<dim> &b)
   {

@@ -14,7 +14,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** The convex shape of an obstacle, in its own frame. */
+  /** Convex shape of an obstacle, in its own frame. */
   class ObstacleShape
   {
   public:
@@ -23,56 +23,56 @@ namespace geocone::GEOCONE_DIM
 
     virtual ~ObstacleShape() = default;
 
-    /** What of the boundary is nearest to a place. */
+    /** Nearest point of the boundary. */
     struct Nearest
     {
-      double distance; ///< negative inside (m); infinite: nothing is bare
+      double distance; ///< negative inside (m); infinite if all is covered
       Vector normal;   ///< outward, unit length
-      bool   is_edge = false; ///< where sides end
+      bool   is_edge = false; ///< where flat sides end
     };
 
-    /** The others that hide parts of the boundary. */
+    /** Other obstacles that cover parts of the boundary. */
     struct Cover
     {
-      /** Whether a place is in one of them; empty: none is. */
+      /** Whether a point is in one of them; empty: there are none. */
       std::function<bool(const Point &)> covers;
-      double margin = 0.; ///< distance up to which boundaries meet (m)
+      double margin = 0.; ///< distance up to which boundaries touch (m)
     };
 
-    /** @param approach direction of the motion past x: at an edge the side counts that
-     *  comes nearer */
+    /** @param approach direction of the motion relative to x: at an edge the
+     *  approaching side is chosen */
     virtual Nearest
     nearest(const Point  &x,
             const Vector &approach,
             const Cover  &cover) const = 0;
 
-    /** What it turns about. */
+    /** Centre of rotation. */
     virtual Point
     centre() const = 0;
 
-    /** Its greatest width (m). */
+    /** Greatest width (m). */
     virtual double
     width() const = 0;
 
-    /** How far it reaches along a direction: max n.x (m); may be infinite. */
+    /** Extent in a direction: max n.x (m); can be infinite. */
     virtual double
     reach(const Vector &n) const = 0;
 
-    /** @name For finding a direction that parts two shapes */
+    /** @name Candidates for the direction that separates two shapes */
     /** @{ */
-    /** Normals of its flat sides. */
+    /** Normals of flat sides. */
     virtual std::vector<Vector>
     side_normals() const
     {
       return {};
     }
-    /** Directions of its straight edges, in three dimensions. */
+    /** Directions of straight edges, in three dimensions. */
     virtual std::vector<Vector>
     edge_directions() const
     {
       return {};
     }
-    /** Places on its edges. */
+    /** Points on edges. */
     virtual std::vector<Point>
     corners() const
     {
@@ -82,18 +82,18 @@ namespace geocone::GEOCONE_DIM
 
     using Triangle = std::array<Point, 3>;
 
-    /** What pictures show: triangles that fill it, in three dimensions those of its
-     *  surface. Of what has no end a part beside a body.
-     *  @param body a place in it @param size its width (m) */
+    /** Triangles for visualisation that fill the shape, in three dimensions
+     *  those of its surface. Of infinite shapes, a part near a body.
+     *  @param body a point in it @param size its width (m) */
     virtual std::vector<Triangle>
     triangles(const Point &body, const double size) const = 0;
   };
 
-  /** What is behind a plane; in two dimensions behind a line. */
+  /** The half-space behind a plane; in two dimensions, behind a line. */
   class HalfSpace : public ObstacleShape
   {
   public:
-    /** @param normal out of it, of unit length */
+    /** @param normal outward unit normal */
     HalfSpace(const Point &place, const Vector &normal);
 
     Nearest
@@ -152,11 +152,11 @@ namespace geocone::GEOCONE_DIM
     const double radius;
   };
 
-  /** The solid cylinder around an axis, in three dimensions. */
+  /** A solid cylinder, in three dimensions. */
   class Cylinder : public ObstacleShape
   {
   public:
-    /** @param middle of its axis @param axis its direction, of unit length */
+    /** @param middle of its axis @param axis unit vector along it */
     Cylinder(const Point  &middle,
              const Vector &axis,
              const double  radius,
@@ -195,8 +195,9 @@ namespace geocone::GEOCONE_DIM
   class Polytope : public ObstacleShape
   {
   public:
-    /** @param vertices of a polygon counterclockwise; of a polyhedron in any order
-     *  @param valid whether they are those of a convex body, each of them one */
+    /** @param vertices of a polygon counterclockwise; of a polyhedron in any
+     *  order
+     *  @param valid whether all of them are vertices of a convex body */
     Polytope(const std::vector<Point> &vertices, bool &valid);
 
     Nearest
@@ -222,16 +223,16 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** An end of a side: an edge; of a polygon a vertex, a = b. */
+    /** An end of a flat side: an edge; for a polygon a vertex, a = b. */
     struct End
     {
       Point  a, b;
-      Vector outward; ///< in the side, across the edge
+      Vector outward; ///< in the side, normal to the edge
 
       Point
       nearest(const Point &x) const;
 
-      /** How far a place is beyond it (m). */
+      /** Distance of a point beyond the end (m). */
       double
       beyond(const Point &x) const
       {
@@ -246,17 +247,18 @@ namespace geocone::GEOCONE_DIM
       Point            middle; ///< the mean of its vertices
       std::vector<End> ends;
 
-      /** Its nearest place, and whether that is at one of its ends, farther than a
-       *  tolerance from straight ahead of x. */
+      /** Nearest point of the side, and whether it is at one of its ends,
+       *  farther than a tolerance from the projection of x. */
       Point
       nearest(const Point &x, const double tolerance, bool &is_end) const;
 
-      /** A place on it, at least so far from its ends, or its middle. */
+      /** A point of the side at a given minimum distance from its ends, or its
+       *  midpoint. */
       Point
       inset(const Point &p, const double by) const;
 
-      /** The distance from a covered place on it to what is bare; infinite if all is
-       *  covered towards its ends. */
+      /** Distance from a covered point of the side to its uncovered part;
+       *  infinite if everything towards its ends is covered. */
       double
       way_to_bare(const Point &from, const Cover &cover) const;
 
@@ -273,8 +275,8 @@ namespace geocone::GEOCONE_DIM
     bool
     make_sides_of_polyhedron();
 
-    /** Makes the side of the vertices around it, counterclockwise as seen from outside.
-     */
+    /** Adds the side with these vertices, counterclockwise as seen from
+     *  outside. */
     void
     add_side(const std::vector<Point> &around, const Vector &normal);
 

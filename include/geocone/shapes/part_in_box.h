@@ -15,8 +15,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** The ends of the part of the segment ab that is in a box of two corners, if there is
-   *  one. */
+  /** Ends of the part of the segment ab in a box given by two corners, if
+   *  any. */
   inline std::optional<std::array<dealii::Point<dim>, 2>>
   part_in_box(const std::array<dealii::Point<dim>, 2> &box,
               const dealii::Point<dim>                &a,

@@ -13,10 +13,10 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** What a rigid body has moved, its velocity, or its forces: of its centre along the
-   *  coordinates (m, m/s, N/m), and about it, counterclockwise about the axes of
-   *  n_rotations (rad, rad/s, N); in three dimensions a rotation is that about the
-   *  vector of the three, by its length. */
+  /** Displacement, velocity or forces of a rigid body: of its centre along the
+   *  coordinates (m, m/s, N/m), and about it, counterclockwise about the axes
+   *  of n_rotations (rad, rad/s, N); in three dimensions a rotation is a
+   *  rotation vector. */
   struct RigidMotion
   {
     static constexpr unsigned int n_components = dim + n_rotations;
@@ -35,7 +35,7 @@ namespace geocone::GEOCONE_DIM
       return k < dim ? centre[k] : rotation[k - dim];
     }
 
-    /** Component k of a point's velocity per component of the body's: V + w x arm.
+    /** Velocity of a point per unit of component k of the body's: V + w x arm.
      *  @param arm from the centre to the point (m) */
     static dealii::Tensor<1, dim>
     of_point(const unsigned int k, const dealii::Tensor<1, dim> &arm)
@@ -52,7 +52,7 @@ namespace geocone::GEOCONE_DIM
       return v;
     }
 
-    /** The velocity of a point of the body. */
+    /** Velocity of a point of the body. */
     dealii::Tensor<1, dim>
     at(const dealii::Tensor<1, dim> &arm) const
     {
@@ -62,7 +62,7 @@ namespace geocone::GEOCONE_DIM
       return v;
     }
 
-    /** A vector of the body after its rotation, or, if @p back, before it. */
+    /** Rotates a vector of the body, backwards if @p back. */
     dealii::Tensor<1, dim>
     turned(const dealii::Tensor<1, dim> &x, const bool back = false) const
     {
@@ -84,7 +84,7 @@ namespace geocone::GEOCONE_DIM
              (1. - std::cos(angle)) * axis.at(once);
     }
 
-    /** Adds what moves after it: centres and, in the plane, angles add up. */
+    /** Appends a motion: centres and, in the plane, angles are added. */
     void
     add(const RigidMotion &next)
     {
