@@ -9,7 +9,7 @@ namespace geocone::GEOCONE_DIM
 {
   namespace
   {
-    /** The functions of an interval as powers of the place xi in it. */
+    /** Adds the functions of an interval as powers of the position xi in it. */
     void
     add_kind(const SplineBasis   &basis,
              const unsigned int   p,
@@ -17,7 +17,7 @@ namespace geocone::GEOCONE_DIM
              const double         size,
              std::vector<double> &coefficients)
     {
-      // Through p + 1 places; exact up to rounding, for they are polynomials.
+      // Interpolation at p + 1 points, exact for polynomials up to rounding.
       Eigen::MatrixXd powers(p + 1, p + 1), values(p + 1, p + 1);
       for (unsigned int r = 0; r <= p; ++r)
         {
@@ -59,7 +59,7 @@ namespace geocone::GEOCONE_DIM
         for (unsigned int f = 0; f < axis.n_functions; ++f)
           axis.places.push_back(basis.greville(f));
 
-        // The knots at the ends change p - 1 intervals on each side.
+        // Clamped knots affect p - 1 intervals at each end.
         const unsigned int near    = degree - 1;
         unsigned int       n_kinds = 0, inner = 0;
         bool               has_inner = false;
@@ -96,7 +96,7 @@ namespace geocone::GEOCONE_DIM
     unsigned int r      = 1;
     for (unsigned int column = 0; column < n_columns; ++column)
       {
-        // The border goes to the side of the column that is nearer to its place.
+        // Boundary at the side of the column nearer to the balanced position.
         while (r < n_ranks &&
                2 * n_ranks * before + n_ranks * points_in[column] >=
                  2 * r * total)

@@ -57,7 +57,7 @@ namespace geocone::GEOCONE_DIM
 
     /**
      * Only its dof layout and its functions on the reference cell are used;
-     * the order of edge nodes is the business of Space::cell_nodes().
+     * Space::cell_nodes() orders the edge nodes.
      */
     class CubicSimplex : public FE_SimplexPoly<2>
     {

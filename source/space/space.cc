@@ -34,7 +34,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** dim dofs per node: the owned nodes are a contiguous range. */
+    /** The dofs of nodes, dim each: owned nodes are a contiguous range. */
     IndexSet
     expand(const IndexSet &nodes)
     {
@@ -183,7 +183,7 @@ namespace geocone::GEOCONE_DIM
       {
         cell_nodes(cell, nodes);
         active.add_indices(nodes.begin(), nodes.end());
-        // What nodes of other bodies in the same place do is asked where they touch.
+        // Contact needs the nodes of other bodies at the same position.
         for (unsigned int layer = 0; layer < mesh->n_layers(); ++layer)
           if (layer != mesh->layer_of(cell))
             {
@@ -191,7 +191,8 @@ namespace geocone::GEOCONE_DIM
               active.add_indices(nodes.begin(), nodes.end());
             }
       }
-    // Bodies that touch may do so anywhere: each rank knows their boundaries.
+    // Contact can occur anywhere: each rank stores the boundaries of such
+    // bodies.
     if (mesh->is_parted())
       for (const auto &cell : mesh->triangulation().active_cell_iterators())
         if (cell->at_boundary())
@@ -292,8 +293,8 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int i = 0; i < n_nodes_per_cell; ++i)
       lattice.push_back(index_in_grid(i, equal_sizes(p + 1)));
 
-    // A node belongs to the rank of a cell in the middle of its support. The
-    // ranks of all cells are needed: supports reach beyond the ghost cells.
+    // Nodes belong to the rank of a cell in the middle of their support. The
+    // ranks of all cells are needed: supports reach beyond ghost cells.
     const MPI_Comm     comm    = mesh.triangulation().get_communicator();
     const unsigned int rank    = Utilities::MPI::this_mpi_process(comm);
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
@@ -362,8 +363,8 @@ namespace geocone::GEOCONE_DIM
         dof_cell->get_dof_indices(nodes);
         return;
       }
-    // The cubic triangle: as the edges store them, turned where the edge runs
-    // against the cell.
+    // The cubic triangle: edge nodes are stored along the edge, and reversed if
+    // the cell has the opposite direction.
     unsigned int i = 0;
     for (const unsigned int v : cell->vertex_indices())
       nodes[i++] = dof_cell->vertex_dof_index(v, 0);
@@ -460,7 +461,8 @@ namespace geocone::GEOCONE_DIM
     const auto on_face = [&](const unsigned int i, const unsigned int f) {
       if (mesh->is_simplicial())
         {
-          // What is zero on a face: a coordinate, or the one of the first vertex.
+          // Barycentric coordinate that vanishes on a face; `rest` is that of
+          // the first vertex.
           unsigned int rest = p;
           for (const unsigned int a : lattice[i])
             rest -= a;
@@ -472,8 +474,8 @@ namespace geocone::GEOCONE_DIM
         }
       return lattice[i][f / 2] == (f % 2 == 0 ? 0 : p);
     };
-    // The ghost cells are looked at as well: of a node that this rank has, the
-    // boundary face may belong to a cell of another rank.
+    // Includes ghost cells: the boundary face at a node of this rank may belong
+    // to a cell of another rank.
     std::set<unsigned int>               found;
     std::vector<types::global_dof_index> nodes;
     for (const auto &cell : mesh->triangulation().active_cell_iterators())

@@ -29,8 +29,8 @@ namespace geocone::GEOCONE_DIM
                         double            *N,
                         double            *dN) const
   {
-    // Cox and de Boor's recursion over the degree; knots are counted from the
-    // first one of function i.
+    // Cox-de Boor recursion over the degree; knots are counted from the first
+    // one of function i.
     const double *t      = &knots[i];
     const double  length = t[p + 1] - t[p];
     const double  x      = t[p] + xi * length;
@@ -87,7 +87,7 @@ namespace geocone::GEOCONE_DIM
     double                                           *N,
     dealii::Tensor<1, dim>                           *gradient)
   {
-    // l_j^k / k!, the coordinate of the first vertex being the last of them.
+    // l_j^k / k!, with the coordinate of the first vertex last.
     double l[dim + 1], power[dim + 1][max_degree + 1], factorial = 1.;
     l[dim] = 1.;
     for (unsigned int d = 0; d < dim; ++d)
@@ -112,7 +112,7 @@ namespace geocone::GEOCONE_DIM
             exponent[d] = lattice[i][d];
             exponent[dim] -= exponent[d];
           }
-        // The product, of which one factor may be its derivative.
+        // The product, with one factor replaced by its derivative.
         const auto product = [&](const unsigned int derived) {
           double value = factorial;
           for (unsigned int j = 0; j <= dim; ++j)

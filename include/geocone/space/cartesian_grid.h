@@ -15,10 +15,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A uniform grid of rectangles, or cuboids, over a box, with the splines of degree 1 (hats,
-   * that is Q1), 2 or 3 on it, of clamped knots: the same functions as those of
-   * Space on such a mesh, without a triangulation. Cells and functions are counted
-   * by column, all those of one place in the first direction, and within it.
+   * A uniform grid of rectangles or cuboids over a box, with splines of degree
+   * 1 (hat functions, i.e. Q1), 2 or 3 with clamped knots: the same functions
+   * as those of Space on such a mesh, without a triangulation. Cells and
+   * functions are numbered by columns, i.e. the first direction is outermost.
    */
   class CartesianGrid
   {
@@ -27,12 +27,12 @@ namespace geocone::GEOCONE_DIM
 
     /**
      * @param degree 1 to 3
-     * @param lines ends of the intervals per direction, equally spaced (m)
+     * @param lines ends of the equally spaced intervals in each direction (m)
      */
     CartesianGrid(const unsigned int                          degree,
                   const std::array<std::vector<double>, dim> &lines);
 
-    /** One direction: intervals, and functions in piecewise powers. */
+    /** One direction: intervals, and functions as piecewise polynomials. */
     struct Axis
     {
       double       begin = 0., end = 0.; ///< (m)
@@ -41,17 +41,18 @@ namespace geocone::GEOCONE_DIM
       unsigned int n_intervals  = 0;
       unsigned int n_functions  = 0;
 
-      /** Place of a function: its Greville abscissa (m). */
+      /** Position of each function: its Greville abscissa (m). */
       std::vector<double> places;
 
       /** Kind of each interval: those near the ends differ from the others. */
       std::vector<unsigned char> type;
 
-      /** Per kind p + 1 vectors of 4 coefficients of the values, and p of the
-       *  derivatives (1/m), both in powers of the place in the interval. */
+      /** For each kind, p + 1 vectors of 4 coefficients of the values, and p of
+       *  the derivatives (1/m), both in powers of the position in the
+       *  interval. */
       std::vector<double> coefficients;
 
-      /** The interval of a place, which may lie beyond the ends. */
+      /** Interval of a coordinate, which can lie beyond the ends. */
       int
       interval(const double x) const
       {
@@ -65,7 +66,7 @@ namespace geocone::GEOCONE_DIM
     unsigned int          degree = 1;
     std::array<Axis, dim> axes;
 
-    /** The smallest side of a cell (m). */
+    /** Smallest side of a cell (m). */
     double
     cell_size() const
     {
@@ -94,15 +95,16 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * The first column of each rank, and behind them the number of columns, where
-     * columns are shared out so that all ranks have about as many points.
+     * First column of each rank, followed by the number of columns, for about
+     * equal numbers of points on all ranks.
      * @param points_in number of points per column
      */
     std::vector<int>
     slabs(const std::vector<std::size_t> &points_in,
           const unsigned int              n_ranks) const;
 
-    /** Whether x lies in the box, up to a part of a cell's size. */
+    /** Whether x lies in the box, within a tolerance relative to the cell
+     *  size. */
     bool
     contains(const dealii::Point<dim> &x, const double tolerance = 1e-9) const
     {

@@ -26,12 +26,13 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A velocity field: dim values per node, at 2 node + component of the local
-   * numbering (owned nodes first, then ghosts). Forces are stored alike.
+   * A velocity field: dim values per node, at dim node + component of the local
+   * numbering (owned nodes first, then ghosts). Forces are stored in the same
+   * way.
    */
   using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
 
-  /** The dim values of a local node. */
+  /** The dim values at a local node. */
   inline dealii::Tensor<1, dim>
   value_at(const Vector &field, const unsigned int node)
   {
@@ -42,21 +43,21 @@ namespace geocone::GEOCONE_DIM
   }
 
   /**
-   * The space of velocities: scalar shape functions, the same for all components.
-   * Its face to everything below is "cell -> nodes" and "cell, unit point -> N,
-   * grad N"; components are interleaved, so that dof = dim node + component.
+   * Space of velocities: scalar shape functions, the same for all components.
+   * Its interface is "cell -> nodes" and "cell, unit point -> N, grad N";
+   * components are interleaved, so that dof = dim node + component.
    *
    * Elements: P1, P2, P3 on triangles; Q1, Q2, Q3 on quadrilaterals; B-spline 2
    * and B-spline 3 (of continuity 1 and 2, with clamped knots) on tensor grids.
    * The basis of P2, P3, Q2 and Q3 is Lagrange's (at Gauss-Lobatto nodes on
-   * quadrilaterals) or, non-negative, Bernstein's. A "node" of a basis that is not nodal is its function's
-   * Greville abscissa, where a coefficient is placed so that linear fields are
-   * reproduced.
+   * quadrilaterals) or Bernstein's, which is non-negative. A "node" of a
+   * non-nodal basis is the Greville abscissa of its function: with coefficients
+   * placed there, linear fields are reproduced.
    *
-   * The nodes of a cell come in the order of the shape functions on the
-   * reference cell. For P3 the two nodes of an edge are ordered by the edge,
-   * which the cell may see reversed; this class sorts them per cell, so that
-   * shape functions need no swapping (deal.II 9.4 has no cubic simplex and leaves
+   * The nodes of a cell have the order of the shape functions on the reference
+   * cell. The two nodes of a P3 edge are ordered along the edge, which can be
+   * reversed in the cell; this class sorts them per cell, so that shape
+   * functions need not be swapped (deal.II 9.4 has no cubic simplex and leaves
    * this to its user).
    */
   class Space : public dealii::ParameterAcceptor
@@ -78,10 +79,10 @@ namespace geocone::GEOCONE_DIM
                    const bool    hard_flow = false);
 
     /**
-     * The element that 'automatic' stands for.
-     * @param hard_flow LawTraits::has_hard_flow: of FEM's triangles the quadratic ones
-     * then follow the exact law, of whose localised solutions cubic ones find one that
-     * is too soft (doc/small_dilatancy.md)
+     * The element for 'automatic'.
+     * @param hard_flow LawTraits::has_hard_flow: triangles of the finite
+     * element method are then quadratic. Of the localised solutions of the
+     * exact law, cubic ones yield one that is too soft (doc/small_dilatancy.md)
      */
     static std::string
     automatic_element(const bool    simplicial,
@@ -93,11 +94,11 @@ namespace geocone::GEOCONE_DIM
     std::vector<std::string>
     warnings(const LawTraits &law, const Method &method) const;
 
-    /** After BackgroundMesh::move_grid(): functions and nodes go with the lines. */
+    /** Moves functions and nodes after BackgroundMesh::move_grid(). */
     void
     follow_grid();
 
-    /** After BackgroundMesh::repartition(): the nodes are numbered anew. Collective. */
+    /** Renumbers the nodes after BackgroundMesh::repartition(). Collective. */
     void
     follow_ranks();
 
@@ -122,23 +123,23 @@ namespace geocone::GEOCONE_DIM
       return kind >= Element::spline_2;
     }
 
-    /** The least width of a band of strain in a cell of this size (m). */
+    /** Smallest width of a strain band in a cell of this size (m). */
     double
     band_width(const double cell_size) const
     {
       return is_spline() ? cell_size : cell_size / p;
     }
 
-    /** Whether no shape function is negative anywhere. */
+    /** Whether all shape functions are non-negative. */
     bool
     is_non_negative() const
     {
       return p == 1 || is_spline() || basis == Basis::bernstein;
     }
 
-    /** Degree of the polynomials in a cell that B-bar takes volumetric strains from: 0
-     *  for splines and k - 1 for Qk, a pair that neither locks nor oscillates (Q2/P-1
-     *  of Stokes flow). */
+    /** Polynomial degree of the B-bar projection of volumetric strains in a
+     *  cell: 0 for splines and k - 1 for Qk, a pair that neither locks nor
+     *  oscillates (Q2/P-1 of Stokes flow). */
     unsigned int
     volumetric_degree() const
     {
@@ -164,9 +165,10 @@ namespace geocone::GEOCONE_DIM
                std::vector<dealii::types::global_dof_index> &nodes) const;
 
     /**
-     * The shape functions of a cell at a unit point, in the order of cell_nodes().
+     * Evaluates the shape functions of a cell at a unit point, in the order of
+     * cell_nodes().
      * @param[out] N values
-     * @param[out] gradient with respect to unit coordinates; may be null
+     * @param[out] gradient with respect to unit coordinates; can be null
      */
     void
     evaluate(const Cell               &cell,
@@ -174,7 +176,7 @@ namespace geocone::GEOCONE_DIM
              double                   *N,
              dealii::Tensor<1, dim>   *gradient) const;
 
-    /** Number of nodes of all ranks. */
+    /** Number of nodes on all ranks. */
     dealii::types::global_dof_index
     n_nodes() const
     {
@@ -214,36 +216,39 @@ namespace geocone::GEOCONE_DIM
       return positions;
     }
 
-    /** Of splines: the integrals of the functions of the locally known nodes (m^2). */
+    /** For splines, the integrals of the functions of the locally known nodes
+     *  (m^2). */
     std::vector<double>
     spline_integrals() const;
 
     /**
-     * The local nodes whose functions do not vanish on the boundary sides @p ids,
-     * sorted. Includes ghosts, so that every rank agrees on the nodes it shares.
+     * Local nodes whose functions are not zero on the boundary sides @p ids,
+     * sorted. Includes ghosts, so that all ranks agree on shared nodes.
      */
     std::vector<unsigned int>
     nodes_on_sides(const std::set<dealii::types::boundary_id> &ids) const;
 
-    /** The same of the faces of cells, of this rank or beside it, that @p holds. */
+    /** The same for faces of owned and ghost cells selected by @p holds. */
     std::vector<unsigned int>
     nodes_on_faces(
       const std::function<bool(const Cell &, const unsigned int)> &holds) const;
 
   private:
-    /** A finite element of deal.II. @return the nodes that this rank owns */
+    /** Sets up a finite element of deal.II. @return the nodes owned by this
+     *  rank */
     dealii::IndexSet
     prepare_finite_element(const BackgroundMesh &mesh);
 
-    /** Finds the positions of the nodes. */
+    /** Computes the positions of the nodes. */
     void
     place_nodes();
 
-    /** Splines on the tensor grid. @return the nodes that this rank owns */
+    /** Sets up splines on the tensor grid. @return the nodes owned by this
+     *  rank */
     dealii::IndexSet
     prepare_splines(const BackgroundMesh &mesh);
 
-    /** First those on triangles, last those on grids. */
+    /** Triangular elements first, splines last. */
     enum class Element
     {
       automatic, ///< not after choose_element()
@@ -285,13 +290,12 @@ namespace geocone::GEOCONE_DIM
     std::unique_ptr<dealii::FiniteElement<dim>> fe;
     std::unique_ptr<dealii::DoFHandler<dim>>    dofs;
 
-    /** Splines along x and y, and the number of each of their products, layer by
+    /** Splines in each direction, and the numbers of their products, layer by
      *  layer. */
     std::vector<SplineBasis>                     splines;
     std::vector<dealii::types::global_dof_index> spline_number;
 
-    /** Place in the row and in the column of the nodes of a cell, from its first
-     *  vertex. */
+    /** Row and column index of the nodes of a cell, from its first vertex. */
     std::vector<std::array<unsigned int, dim>> lattice;
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;

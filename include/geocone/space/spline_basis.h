@@ -13,15 +13,16 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Largest polynomial degree of the bases of moving points. */
+  /** Largest polynomial degree of the bases for particles. */
   constexpr unsigned int max_degree = 3;
 
   /**
    * B-splines of degree p and continuity p - 1 in one dimension on n intervals
    * of any lengths, with clamped knots (the first and last are repeated p + 1
-   * times): n + p functions, of which i, ..., i + p live on interval i. They are
-   * non-negative, sum up to one, and reproduce x by their Greville abscissae.
-   * At an end of the line only the first (last) function is not zero.
+   * times): n + p functions, with i, ..., i + p non-zero on interval i. They
+   * are non-negative, sum up to one, and reproduce x by their Greville
+   * abscissae. At an end of the line only the first (last) function is not
+   * zero.
    */
   class SplineBasis
   {
@@ -47,8 +48,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * The p + 1 functions of an interval and their derivatives.
-     * @param xi place in the interval, 0 to 1
+     * Evaluates the p + 1 functions of an interval and their derivatives.
+     * @param xi position in the interval, 0 to 1
      * @param[out] N values
      * @param[out] dN derivatives with respect to xi
      */
@@ -71,12 +72,12 @@ namespace geocone::GEOCONE_DIM
   bernstein(const unsigned int p, const double xi, double *N, double *dN);
 
   /**
-   * Bernstein's polynomials of degree p on the unit triangle with the area
+   * Bernstein polynomials of degree p on the unit triangle with the area
    * coordinates l = (1 - x - y, x, y):
    *   B_ab = p!/((p - a - b)! a! b!) l_0^(p - a - b) l_1^a l_2^b.
    * @param lattice (a, b) of each
    * @param[out] N values
-   * @param[out] gradient with respect to (x, y); may be null
+   * @param[out] gradient with respect to (x, y); can be null
    */
   void
   bernstein_on_simplex(
