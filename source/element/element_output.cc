@@ -10,7 +10,8 @@ namespace geocone::GEOCONE_DIM
 {
   namespace
   {
-    /** "stress xx (Pa)" is "stress_xx_Pa" in the summary, "R (-)" is "R". */
+    /** Summary key of a column: "stress_xx_Pa" for "stress xx (Pa)", "R" for "R
+     *  (-)". */
     std::string
     key(const std::string &column)
     {
@@ -107,7 +108,7 @@ namespace geocone::GEOCONE_DIM
   ElementOutput::add_yield_curves(const unsigned int             at,
                                   const std::vector<YieldCurve> &curves)
   {
-    // The surfaces by number: 0 yield, 1 subloading.
+    // Surfaces by number: 0 yield, 1 subloading.
     for (std::size_t i = 0; i < curves.size(); ++i)
       for (const auto &[p, q] : curves[i])
         surface_table.add_line(
@@ -144,8 +145,8 @@ namespace geocone::GEOCONE_DIM
         out << "after " + stage + "\n";
         for (const auto &[entry, value] : values.items())
           {
-            // In units that make numbers of order one; substeps depend on last
-            // digits.
+            // In units that make numbers of order one; substeps depend on the
+            // last digits.
             if (entry.find("substeps") != std::string::npos)
               continue;
             const bool is_stress =

@@ -41,7 +41,7 @@ namespace geocone::GEOCONE_DIM
                    const std::string              &parameter,
                    const std::vector<std::string> &columns)
     {
-      // The name may have blanks: "stress yy <= -200e3".
+      // The name can contain blanks: "stress yy <= -200e3".
       const std::size_t place = text.find("=");
       StopCondition     condition;
       std::string       known;

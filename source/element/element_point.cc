@@ -43,7 +43,7 @@ namespace geocone::GEOCONE_DIM
       return std::sqrt(1.5) * norm(stress);
     }
 
-    /** Any law in plane strain: xx, yy, xy; or with zz, too; by its explicit step
+    /** Any law in plane strain: xx, yy, xy, optionally zz; by its explicit step
      *  without spin. */
     class InPlanePoint : public ElementPoint
     {
@@ -74,7 +74,7 @@ namespace geocone::GEOCONE_DIM
       Tensor6
       try_strain(const Tensor6 &strain) override
       {
-        // Kernels may take as many points as a vector has lanes.
+        // Kernels may access as many points as a vector has lanes.
         using Lanes      = std::array<double, PointBlock::lanes>;
         const auto lanes = [](const double value) {
           Lanes all;
@@ -151,7 +151,7 @@ namespace geocone::GEOCONE_DIM
           all = {pressure(stress()), deviatoric_stress(stress())};
         else if (!shows_pressure())
           {
-            // Those of the plane, on which yielding depends.
+            // In-plane stresses, which control yielding.
             const double half = (now.stress[0] - now.stress[1]) / 2.;
             all               = {-(now.stress[0] + now.stress[1]) / 2.,
                                  2. * std::hypot(half, now.stress[2])};
@@ -193,7 +193,7 @@ namespace geocone::GEOCONE_DIM
                  state.stress[2]}};
       }
 
-      /** Whether the law has a pressure of its own. */
+      /** Whether the law outputs a pressure. */
       bool
       shows_pressure() const
       {

@@ -199,7 +199,7 @@ namespace geocone::GEOCONE_DIM
           {
             ++n_cuts;
             size = (f - at) / 2.;
-            // The guess may be what leads astray.
+            // The guess may be the cause.
             guess = {};
             if (std::abs(size) < smallest * (1. - 1e-6))
               throw StepFailure(
@@ -236,7 +236,7 @@ namespace geocone::GEOCONE_DIM
   {
     unsigned int main = 1;
     for (unsigned int i = 0; i < 6; ++i)
-      // gamma = 2 eps_xy competes with the strains of the axes.
+      // gamma = 2 eps_xy is compared with the normal strains.
       if ((i < 3 ? 1. : 2.) * (most_strain[i] - least_strain[i]) >
           (main < 3 ? 1. : 2.) * (most_strain[main] - least_strain[main]) *
             (1. + 1e-9))
@@ -247,7 +247,7 @@ namespace geocone::GEOCONE_DIM
   void
   ElementTest::write_surfaces()
   {
-    // The state of the start is made again, now that the axis is known.
+    // The initial state is computed again, now that the axis is known.
     const unsigned int axis = main_component();
     Tensor6            stress;
     std::copy(initial_stress.begin(), initial_stress.end(), stress.begin());

@@ -45,7 +45,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** By how much stresses miss their targets. */
+    /** Difference between stresses and their targets. */
     class StressResidual
     {
     public:
@@ -65,13 +65,13 @@ namespace geocone::GEOCONE_DIM
           change = std::max(change, std::abs(target[i] - start[i]));
       }
 
-      /** Finds the residual and its scale. @return not a number if the law fails */
+      /** Computes the residual and its scale. @return NaN if the law fails */
       double
       evaluate(const Tensor6 &e)
       {
         const Tensor6 s = point.try_strain(e);
         scale           = std::max({norm(s), norm(start), norm(target)});
-        // From no stress to no stress: what the strain would give elastically.
+        // For zero initial and target stress, the scale is the elastic stress.
         if (scale == 0.)
           scale = std::max(modulus * norm(e), 1e-300);
         for (int i = 0; i < r.size(); ++i)
@@ -79,7 +79,7 @@ namespace geocone::GEOCONE_DIM
         return r.size() > 0 ? r.cwiseAbs().maxCoeff() : 0. * norm(s);
       }
 
-      /** The change of the unknown strains, by differences. */
+      /** Newton update of the unknown strains, by finite differences. */
       Eigen::VectorXd
       newton_step(const Tensor6 &strain)
       {
@@ -116,8 +116,8 @@ namespace geocone::GEOCONE_DIM
       std::vector<unsigned int> unknown;
       const Tensor6             start;
       const double              modulus;
-      double          change = 0.; ///< of the stresses that are asked for
-      Eigen::VectorXd r;
+      double                    change = 0.; ///< of the controlled stresses
+      Eigen::VectorXd           r;
     };
   } // namespace
 

@@ -14,7 +14,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** The point after an accepted increment, or at the start. */
+  /** State of the point after an accepted increment, or at the start. */
   struct ElementRecord
   {
     unsigned int increment   = 0;
@@ -36,18 +36,19 @@ namespace geocone::GEOCONE_DIM
     deviatoric_strain() const;
   };
 
-  /** The folder of an element test: path.csv, surfaces.csv, summary.json. Records, which
-   *  may be millions, are not kept. */
+  /** Folder of an element test: path.csv, surfaces.csv, summary.json. Records,
+   *  possibly millions, are not stored. */
   class ElementOutput : public OutputBase
   {
   public:
     using OutputBase::OutputBase;
 
-    /** Names the columns of path.csv. @param volume specific volume at the start (-) */
+    /** Sets the columns of path.csv. @param volume initial specific volume
+     *  (-) */
     void
     add_columns(const ElementPoint &point, const double volume);
 
-    /** Makes the folder. @throws InputError */
+    /** Creates the folder. @throws InputError */
     void
     prepare(const RunOptions &options);
 
@@ -72,14 +73,14 @@ namespace geocone::GEOCONE_DIM
     double
     value_of(const std::string &column) const;
 
-    /** Lets the last line be the state at the end of a stage. */
+    /** Marks the last line as the end of a stage. */
     void
     end_stage(const std::string &name)
     {
       stages.emplace_back(name, last);
     }
 
-    /** Lines of surfaces.csv. @param state 0 for the start, 1 for the end */
+    /** Adds lines to surfaces.csv. @param state 0: initial, 1: final */
     void
     add_yield_curves(const unsigned int             state,
                      const std::vector<YieldCurve> &curves);
@@ -99,8 +100,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<std::string>       names; ///< of its columns
     CsvFile                        surface_table;
 
-    /** @name Lines of path.csv: the first and the last one, of stages the last ones, and
-     *  the extremes of each column */
+    /** @name Lines of path.csv: the first and the last one, the last one of
+     *  each stage, and the extremes of each column */
     /** @{ */
     std::vector<double>                                      start, last;
     std::vector<std::pair<std::string, std::vector<double>>> stages;

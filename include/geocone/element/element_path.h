@@ -26,8 +26,8 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * What controls each component along a stage: its strain, by an increment, or
-   * its stress, by a target. f runs from 0 at the start of the stage to 1.
+   * Control of each component along a stage: strain control by an increment, or
+   * stress control by a target. f runs from 0 at the start of the stage to 1.
    */
   struct ElementControl
   {
@@ -48,11 +48,11 @@ namespace geocone::GEOCONE_DIM
   public:
     explicit ElementStage(const std::string &name);
 
-    /** Checks the parameters for a point with these components and columns. */
+    /** Checks the parameters for the components and columns of a point. */
     void
     prepare(const ElementPoint &point, const std::vector<std::string> &columns);
 
-    /** The control of a stage that starts with this stress. */
+    /** Control of a stage with the present stress as its start. */
     ElementControl
     control(const ElementPoint &point) const;
 

@@ -23,19 +23,19 @@ namespace geocone::GEOCONE_DIM
 
   /**
    * One material point of any law, tension positive. Trials start from the last
-   * state that was accepted, so that what is tried and rejected leaves nothing
-   * behind.
+   * accepted state, so that rejected trials have no effect.
    */
   class ElementPoint
   {
   public:
     virtual ~ElementPoint() = default;
 
-    /** Whether a component can be controlled, and is not zero by plane strain. */
+    /** Whether a component can be controlled, i.e. is not zero by plane
+     *  strain. */
     virtual bool
     has(const unsigned int component) const = 0;
 
-    /** The stress that a strain increment leads to (Pa). */
+    /** Stress after a trial strain increment (Pa). */
     virtual Tensor6
     try_strain(const Tensor6 &strain) = 0;
 
@@ -43,15 +43,15 @@ namespace geocone::GEOCONE_DIM
     virtual void
     accept() = 0;
 
-    /** The stress of the last accepted state (Pa). */
+    /** Stress of the last accepted state (Pa). */
     virtual Tensor6
     stress() const = 0;
 
-    /** An elastic modulus, to scale strains by (Pa). */
+    /** An elastic modulus, for scaling strains (Pa). */
     virtual double
     modulus() const = 0;
 
-    /** @name What is shown of the accepted state, each name with its unit */
+    /** @name Output of the accepted state; names include the unit */
     /** @{ */
     virtual std::vector<std::string>
     names() const = 0;
@@ -67,14 +67,14 @@ namespace geocone::GEOCONE_DIM
     virtual void
     state(StateRow &row) = 0;
 
-    /** Substeps and the like of all accepted trials. */
+    /** Statistics of all accepted trials, e.g. substeps. */
     LawCounts counts;
 
   protected:
     LawCounts trial_counts; ///< of the last trial
   };
 
-  /** Which components a point has. */
+  /** Components of a point. */
   enum class StressComponents
   {
     automatic, ///< all if the law has them
@@ -84,10 +84,11 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * A point of the law.
+   * Creates a point of a law.
    * @param stress at the start (Pa)
-   * @param[out] changed what initialisation had to change, or nothing
-   * @throws InputError if the law has no such components or stress
+   * @param[out] changed a note on values changed by the initialisation, or
+   * empty
+   * @throws InputError if the law does not support the components or the stress
    */
   std::unique_ptr<ElementPoint>
   make_element_point(const ConstitutiveLaw &law,

@@ -21,8 +21,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * One material point that is driven along a path in stages, of which an
-   * increment is a step. The material is the first of "Materials/Names".
+   * A material point driven along a path in stages; one increment is one step.
+   * The material is the first of "Materials/Names".
    */
   class ElementTest : public Simulation, public dealii::ParameterAcceptor
   {
@@ -63,7 +63,7 @@ namespace geocone::GEOCONE_DIM
     void
     state(StateRow &row) override;
 
-    /** To the end of an increment, in parts where it must be.
+    /** Advances to the end of an increment, subdivided if necessary.
      *  @throws StepFailure */
     void
     follow(const ElementStage &stage, const double to);
@@ -71,11 +71,11 @@ namespace geocone::GEOCONE_DIM
     const char *
     components_of_point() const;
 
-    /** Enters the present state as a line of the table. */
+    /** Appends the present state to the table. */
     void
     add_line(const unsigned int stage);
 
-    /** Whether the stage is over before its end. */
+    /** Whether a stop condition ends the stage early. */
     bool
     stops(const ElementStage &stage) const;
 

@@ -13,7 +13,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** How an increment ended. */
+  /** Outcome of an increment. */
   struct ControlReport
   {
     bool         converged  = false;
@@ -23,9 +23,9 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Finds the strain increments of the components that are controlled by their
-   * stress: Newton's method on s(e) = target with differences for the Jacobian,
-   * and shorter steps where the residual does not fall.
+   * Solves for the strain increments of stress-controlled components: Newton's
+   * method for s(e) = target with a finite-difference Jacobian, and damping if
+   * the residual does not decrease.
    */
   class MixedControl : public dealii::ParameterAcceptor
   {
@@ -36,10 +36,10 @@ namespace geocone::GEOCONE_DIM
     prepare();
 
     /**
-     * @param point its last trial is the answer; the caller accepts it
-     * @param by_stress which components have a target
+     * @param point its last trial is the solution; the caller accepts it
+     * @param by_stress components with a target stress
      * @param target their stresses (Pa)
-     * @param[in,out] strain increments; the first guess of the unknown ones
+     * @param[in,out] strain increments; initial guess of the unknown ones
      */
     ControlReport
     solve(ElementPoint              &point,
