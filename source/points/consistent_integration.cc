@@ -15,20 +15,21 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** A part of a cell's size that counts as nothing. */
+    /** Fraction of a cell's size that counts as zero. */
     constexpr double negligible_part = 1e-9;
 
-    /** The part of its room by volumes of points from which a cell counts as filled. */
+    /** Filled fraction of the available volume from which a cell counts as
+     *  filled. */
     constexpr double least_fill = 0.4;
 
-    /** The part of a cell up to which it need not be. */
+    /** Soil fraction of a cell up to which it need not be filled. */
     constexpr double least_part = 0.1;
 
     /** Lower and upper corner of a box. */
     using Corners = std::pair<Point<dim>, Point<dim>>;
 
-    /** The part of a cell's box on the soil's side of the limits that cross it, or lie at
-     *  most one cell from it. */
+    /** Part of a cell's box on the soil's side of the limits that intersect it
+     *  or lie at most one cell away. */
     Corners
     soil_part(const BoundingBox<dim> &box, const std::vector<SoilLimit> &limits)
     {
@@ -61,7 +62,7 @@ namespace geocone::GEOCONE_DIM
       return {lower, upper};
     }
 
-    /** The part of the cell's volume that it is. */
+    /** Fraction of the cell's volume in this part. */
     double
     share(const Corners &part, const BoundingBox<dim> &box)
     {
@@ -72,14 +73,15 @@ namespace geocone::GEOCONE_DIM
       return product;
     }
 
-    /** Integrals of what the corrections need over a part of a cell. */
+    /** Integrals for the corrections, over a part of a cell. */
     struct CellIntegrals
     {
       double                      volume = 0.;
       std::vector<Tensor<1, dim>> gradient; ///< of grad N_i
       std::vector<double>         hoop;     ///< of N_i/r, around an axis
 
-      /** Adds those of another cell, for the nodes that are among those of this one. */
+      /** Adds the integrals of another cell, for the nodes shared with this
+       *  one. */
       void
       add(const CellIntegrals                        &other,
           const std::vector<types::global_dof_index> &nodes_of_other,
@@ -135,14 +137,14 @@ namespace geocone::GEOCONE_DIM
       return sum;
     }
 
-    /** What a cell with points can hold: the part that may be soil, and how much of it is
-     *  filled by the volumes of its points. */
+    /** Capacity of a cell with points: the part that can be soil, and the
+     *  fraction of it filled by the volumes of its points. */
     struct Room
     {
       Corners part;
       double  share;  ///< of the cell
       double  volume; ///< of the part
-      double  filled; ///< volume of the points over that
+      double  filled; ///< volume of the points over this
     };
 
     std::vector<Room>
@@ -172,7 +174,7 @@ namespace geocone::GEOCONE_DIM
       return rooms;
     }
 
-    /** Whether all cells around a vertex that can hold soil are filled with it. */
+    /** Whether all cells around a vertex that can contain soil are filled. */
     std::vector<bool>
     surrounded_vertices(const BackgroundMesh         &mesh,
                         const std::vector<SoilLimit> &limits,
@@ -195,7 +197,7 @@ namespace geocone::GEOCONE_DIM
       return result;
     }
 
-    /** The cell beside another one that a limit leaves a sliver without points. */
+    /** The adjacent cell, if a limit leaves a sliver without points in it. */
     std::optional<Space::Cell>
     sliver_beside(const Space::Cell            &cell,
                   const std::vector<SoilLimit> &limits,
@@ -218,8 +220,8 @@ namespace geocone::GEOCONE_DIM
       return std::nullopt;
     }
 
-    /** Scales the weights of the points of a cell and shifts their gradients, so that sums
-     *  over the points are the integrals. */
+    /** Scales the weights of the points of a cell and shifts their gradients,
+     *  so that sums over the points equal the integrals. */
     void
     match_integrals(const CellIntegrals &exact,
                     const unsigned int   cell,

@@ -15,15 +15,16 @@ namespace geocone::GEOCONE_DIM
 {
   namespace
   {
-    /** The part of a polynomial that others leave at the points of a cell below which
-     *  it counts as made of them. */
+    /** Relative remainder below which a polynomial at the points of a cell
+     *  counts as linearly dependent on others. */
     constexpr double same_polynomial = 1e-3;
 
-    /** The part of the longest side of the box of a cell's points below which another
-     *  one is none. */
+    /** Side of the box of a cell's points, relative to the longest one, below
+     *  which it counts as zero. */
     constexpr double same_place = 1e-6;
 
-    /** Powers of the coordinates in polynomials of a degree, lowest sums first. */
+    /** Exponents of the coordinates in polynomials of a degree, lowest sums
+     *  first. */
     std::vector<std::array<unsigned int, dim>>
     powers_up_to(const unsigned int degree)
     {
@@ -77,7 +78,7 @@ namespace geocone::GEOCONE_DIM
                            n     = points.first_point[c + 1] - first;
         if (n == 0)
           continue;
-        // Polynomials of the place in the box of the points.
+        // Polynomials of the position in the bounding box of the points.
         const dealii::BoundingBox<dim> box(
           std::vector<dealii::Point<dim>>(points.position.begin() + first,
                                           points.position.begin() + first + n));
@@ -96,7 +97,7 @@ namespace geocone::GEOCONE_DIM
               for (unsigned int j = 0; j < n_modes; ++j)
                 M(q, j) *= legendre[powers[j][d]].value(x);
             }
-        // Gram and Schmidt's method, twice.
+        // Gram-Schmidt orthogonalisation, twice.
         const Eigen::Map<const Eigen::VectorXd> w(&points.weight[first], n);
         for (unsigned int j = 0; j < n_modes; ++j)
           {

@@ -20,8 +20,8 @@ namespace geocone::GEOCONE_DIM
   {
     const char *const parameter = "Observation/Points";
 
-    /** Whether a is nearer to x than b; points that are equally near, up to
-     *  rounding, are told apart by their places, the same on all ranks. */
+    /** Whether a is nearer to x than b; points at equal distances, up to
+     *  rounding, are ordered by their positions, the same on all ranks. */
     bool
     is_nearer(const Point<dim> &a, const Point<dim> &b, const Point<dim> &x)
     {
@@ -111,7 +111,7 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int i = 0; i < own.size(); ++i)
       {
         const Point<dim> &x = scene.observation.points[i];
-        // Its place, volume, id
+        // Position, volume, id
         std::vector<double> mine;
         if (own[i])
           {
@@ -133,8 +133,9 @@ namespace geocone::GEOCONE_DIM
                   is_nearer(candidate.position, nearest->position, x))
                 nearest = candidate;
             }
-        // Points of a regular layout are within 0.71 of their size of any place
-        // in the body, those at its border or in slender cells farther away.
+        // Points of a regular layout are within 0.71 of their size of any
+        // position in the body; those at its boundary or in slender cells can
+        // be farther away.
         const double size =
           nearest
             ? scene.geometry.size_of_point(nearest->position, nearest->volume)
@@ -203,7 +204,7 @@ namespace geocone::GEOCONE_DIM
   ObservedPoints::pressures(const MaterialPoints &points) const
   {
     const unsigned int  n = std::max(in_cell.size(), id.size());
-    std::vector<double> sums(2 * n, 0.); // pressures, and who knows them
+    std::vector<double> sums(2 * n, 0.); // pressures, and their number
     const auto          take = [&](const unsigned int i, const unsigned int p) {
       sums[i]     = points.excess_pressure(p);
       sums[n + i] = 1.;

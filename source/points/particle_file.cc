@@ -34,7 +34,7 @@ namespace geocone::GEOCONE_DIM
       return list;
     }();
 
-    /** Those of a group, from the first on. */
+    /** Columns of a group, from the first one on. */
     std::vector<Column>
     group_of(const Column first, const unsigned int n)
     {
@@ -44,7 +44,7 @@ namespace geocone::GEOCONE_DIM
       return group;
     }
 
-    /** Some 10^9 rows, more than a run can have points. */
+    /** About 10^9 rows, more than the largest number of points. */
     constexpr std::uintmax_t largest_particle_file = 1ULL << 37;
 
     constexpr const char *unit = dim == 2 ? "m^2" : "m^3"; ///< of volumes
@@ -74,7 +74,7 @@ namespace geocone::GEOCONE_DIM
     }
     virtual ~Reader() = default;
 
-    /** Adds up to @p n rows. */
+    /** Appends up to @p n rows. */
     virtual void
     read(const std::size_t n, std::vector<Row> &rows) = 0;
 
@@ -82,7 +82,7 @@ namespace geocone::GEOCONE_DIM
     std::array<bool, Column::n_columns> given;
 
   protected:
-    /** The columns of a group come together; those of the first must come. */
+    /** Columns of a group are given together; the first group is required. */
     void
     check_columns() const
     {
@@ -99,7 +99,8 @@ namespace geocone::GEOCONE_DIM
                             "the column '" + names[column] + "' is missing");
     }
 
-    /** @throws InputError if a value is impossible @param place e.g. the line */
+    /** @throws InputError for an inadmissible value @param place e.g. the
+     *  line */
     template <typename Place>
     void
     check(const Column column, const double value, const Place &place) const
@@ -314,12 +315,12 @@ namespace geocone::GEOCONE_DIM
         }
       catch (const RunError &)
         {
-          return 0.; // said where the file is read
+          return 0.; // reported when the file is read
         }
     std::vector<char> start(1 << 16);
     std::ifstream     in(file_name, std::ios::binary);
     in.read(start.data(), start.size());
-    // The first one names the columns.
+    // The first line holds the column names.
     const double n_lines = std::max(
       0., std::count(start.begin(), start.begin() + in.gcount(), '\n') - 1.);
     return in.gcount() > 0

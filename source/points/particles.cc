@@ -19,8 +19,8 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Where a side of the body is nearest to x: in the plane on a line, in space on a
-     *  rectangle of a box. */
+    /** Nearest point on a side of the body: in the plane on a line, in space on
+     *  a rectangle of a box. */
     Point<dim>
     nearest_on_side(const Geometry    &geometry,
                     const std::string &name,
@@ -42,8 +42,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Whether a particle lies in the first row under the part of the body's
-     * sides that a condition holds: nearer than the side of its own square, or cube.
+     * Whether a particle lies in the first row under the controlled part of the
+     * body's sides: nearer than the side length of its own square or cube.
      */
     bool
     in_first_row(const BoundaryCondition &condition,
@@ -291,7 +291,8 @@ namespace geocone::GEOCONE_DIM
       }
     migrate(points, owner, comm);
 
-    // By cell and number: an order that no history and no number of ranks changes.
+    // By cell and number: an order independent of the history and the number of
+    // ranks.
     std::vector<unsigned int> order(points.n_points());
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(), [&](const auto a, const auto b) {

@@ -25,7 +25,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Points with those that fill up the last vector. */
+    /** Number of points including the padding. */
     std::size_t
     padded(const std::size_t n)
     {

@@ -62,7 +62,7 @@ namespace geocone::GEOCONE_DIM
   void
   CellValues::reinit(const Space::Cell &cell)
   {
-    // Splines differ from cell to cell, elements do not.
+    // Splines differ between cells, elements do not.
     const bool evaluate = space.is_spline() || !is_evaluated;
     is_evaluated        = true;
     geometry->fe_values.reinit(Triangulation<dim>::cell_iterator(cell));
@@ -87,7 +87,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Copies what cells have that are in both. */
+    /** Copies the states of cells in both sets. */
     void
     copy_states(const MaterialPoints &from, MaterialPoints &to)
     {
@@ -187,8 +187,8 @@ namespace geocone::GEOCONE_DIM
   void
   refuse_empty_regions(const Scene &scene, const std::vector<unsigned int> &n)
   {
-    // The first material has what the others leave, which may be nothing; so may
-    // those have that others become.
+    // The first material has the remaining region, which can be empty, as can
+    // the regions of materials that others become.
     for (unsigned int i = 0; i < n.size(); ++i)
       if (n[i] == 0 && !scene.regions.may_be_empty(i))
         throw InputError("no cell lies in the region of the material '" +

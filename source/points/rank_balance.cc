@@ -61,7 +61,7 @@ namespace geocone::GEOCONE_DIM
     const auto particles_in = [&](const BackgroundMesh::Cell &cell) {
       return n_in_cell[cell->active_cell_index()];
     };
-    // Cells without particles cost next to nothing, but must be somewhere.
+    // Empty cells are almost free but have an owner.
     mesh.repartition([&](const BackgroundMesh::Cell &cell) {
       return 1 + 100 * particles_in(cell);
     });
@@ -74,7 +74,8 @@ namespace geocone::GEOCONE_DIM
     least = imbalance(n_particles, comm);
     if (Utilities::MPI::min(n_cells, comm) == 0.)
       {
-        // So few cells that a rank would be idle: as at the start, for good.
+        // Too few cells, an idle rank: returns to the initial partition for
+        // good.
         mesh.repartition([](const BackgroundMesh::Cell &) { return 1; });
         least = std::numeric_limits<double>::infinity();
       }

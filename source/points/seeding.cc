@@ -39,13 +39,13 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Seeds that are looked for in the mesh together. */
+    /** Seeds located in the mesh together. */
     constexpr std::size_t block_size = 1 << 15;
 
-    /** Points are counted by unsigned numbers. */
+    /** Points are counted by unsigned integers. */
     constexpr double most_points = 4e9;
 
-    /** More than any integration wants; the layout's places are computed at once. */
+    /** More than any integration needs; the positions of a cell are stored. */
     constexpr unsigned int most_per_direction = 100;
 
     InputError
@@ -70,7 +70,7 @@ namespace geocone::GEOCONE_DIM
         std::accumulate(n.begin(), n.end(), std::size_t(0));
       if (total == 0)
         throw InputError("the body has no particle" + remedy);
-      // The first material has what the others leave, which may be nothing.
+      // The first material has the remaining region, which can be empty.
       for (unsigned int i = 0; i < n.size(); ++i)
         if (n[i] == 0 && !scene.regions.may_be_empty(i))
           throw InputError("no particle lies in the region of the material '" +
@@ -84,7 +84,7 @@ namespace geocone::GEOCONE_DIM
                                 most_points));
     }
 
-    /** The places in an interval (0, 1) of layouts that follow the cells. */
+    /** Positions in an interval (0, 1) for cell-based layouts. */
     Quadrature<1>
     places_in_interval(const bool are_gauss_points, const unsigned int k)
     {
@@ -92,12 +92,14 @@ namespace geocone::GEOCONE_DIM
                               : Quadrature<1>(QIterated<1>(QMidpoint<1>(), k));
     }
 
-    /** Most Gauss points per direction in a simplex, by the library's rules. */
+    /** Largest number of Gauss points per direction in a simplex, by deal.II's
+     *  rules. */
     constexpr unsigned int most_in_simplex = 5;
 
     /**
-     * The same in the unit simplex: rules of degree 2 k - 1 (1, 3, 7, 15 and 19
-     * points of triangles; 3 of degree 2), or the centres of k^2 equal triangles.
+     * Positions in the unit simplex: rules of degree 2 k - 1 (1, 3, 7, 15 and
+     * 19 points of triangles; 3 of degree 2), or the centres of k^2 equal
+     * triangles.
      */
     Quadrature<dim>
     places_in_simplex(const bool are_gauss_points, const unsigned int k)
@@ -243,7 +245,7 @@ namespace geocone::GEOCONE_DIM
       return ParticleFile::expected_number(file);
     if (layout == Layout::random)
       return number;
-    // The cells of a file are the body, whatever their area.
+    // The cells of a file are the body, independent of its area.
     const bool   is_file = scene.geometry.shape == Geometry::Shape::file;
     const double area    = is_file ? mesh.area : scene.geometry.area();
     if (layout == Layout::lattice)
@@ -533,7 +535,7 @@ namespace geocone::GEOCONE_DIM
     if (layout == Layout::lattice)
       {
         seed.volume = spacing * spacing * (dim == 3 ? spacing : 1.);
-        // By index: a sum of spacings would gather rounding errors.
+        // By index: summing spacings would accumulate rounding errors.
         const auto coordinate = [&](const double begin, const std::size_t i) {
           return begin + (i + 0.5) * spacing;
         };
@@ -552,7 +554,8 @@ namespace geocone::GEOCONE_DIM
       }
     else
       {
-        // The distributions of the standard library may differ between machines.
+        // The distributions of the standard library differ between
+        // implementations.
         std::mt19937 engine(random_seed);
         const auto   uniform = [&]() { return (engine() + 0.5) / 4294967296.; };
         seed.volume          = geometry.area() / number;

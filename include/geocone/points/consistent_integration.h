@@ -12,34 +12,37 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** A part of a held side of the body normal to an axis: soil is on one side of it. */
+  /** A part of a fixed boundary side normal to an axis, with soil on one side
+   *  of it. */
   struct SoilLimit
   {
     unsigned int             axis;
     double                   level;         ///< coordinate along the axis (m)
     bool                     soil_is_below; ///< at smaller coordinates
-    dealii::BoundingBox<dim> extent;        ///< its thickness does not matter
+    dealii::BoundingBox<dim> extent;        ///< its thickness is irrelevant
   };
 
   /**
    * Integration over points that is exact for constant stresses, cell by cell
-   * (variationally consistent integration of first order; Chen, Hillman and Rueter,
-   * International Journal for Numerical Methods in Engineering 95, 2013). In a cell that
-   * is full of soil, with the part |c| of its volume on the soil's side of the limits,
+   * (variationally consistent integration of first order; Chen, Hillman and
+   * Rueter, International Journal for Numerical Methods in Engineering 95,
+   * 2013). In a cell full of soil, with the fraction |c| of its volume on the
+   * soil's side of the limits,
    *
-   *   w_p   = V_p |c| / sum_q V_q ,
-   *   g_p,i = grad N_i(x_p) + 1/|c| ( int_c grad N_i - sum_q w_q grad N_i(x_q) ) ,
+   *   w_p   = V_p |c| / sum_q V_q,
+   *   g_p,i = grad N_i(x_p) + 1/|c| (int_c grad N_i - sum_q w_q grad N_i(x_q)),
    *
-   * so that sum_p w_p g_p,i = int_c grad N_i wherever the points are: constant stress is
-   * in balance, and the strain of a linear velocity remains exact. Around an axis the
-   * integrals are over 2 pi r dA and N_i/r is corrected likewise. Volumes, masses and
-   * values N_i stay.
+   * so that sum_p w_p g_p,i = int_c grad N_i for any positions of the points: a
+   * constant stress is in equilibrium, and the strain of a linear velocity
+   * remains exact. In axisymmetry the integrals are over 2 pi r dA, and N_i/r
+   * is corrected likewise. Volumes, masses and values N_i do not change.
    *
-   * Full are cells whose neighbours are all filled to two fifths (or lie beyond a
-   * limit), cells at a surface filled to 3 %, and cells that a limit cuts. Where the
-   * part of such a cell has no points, the cell beside it stands for it. In other cells
-   * w_p = V_p and nothing changes; points beyond a limit have no weight.
-   * @pre the cells are boxes, the axes' lines a grid. Collective.
+   * Cells are full if all their neighbours are filled to two fifths (or lie
+   * beyond a limit); at a surface, if they are filled to 3 %; and if a limit
+   * intersects them. If the soil part of an intersected cell has no points, the
+   * adjacent cell represents it. In other cells w_p = V_p and nothing changes;
+   * points beyond a limit have no weight. @pre the cells are boxes of an
+   * axis-aligned grid. Collective.
    */
   void
   make_consistent(const BackgroundMesh         &mesh,

@@ -15,12 +15,12 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Sets the histories of points from their stresses, and gathers what the
-   *  laws say of that. */
+  /** Initialises the histories of points from their stresses, and collects the
+   *  remarks of the laws. */
   class HistoryStart
   {
   public:
-    /** As ConstitutiveLaw::initialise(), for a point at this place. */
+    /** Calls ConstitutiveLaw::initialise() for a point at @p place. */
     void
     set(const ConstitutiveLaw         &law,
         const ConstitutiveLaw::Stress &stress,
@@ -42,7 +42,7 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** The first refusal counts. */
+    /** Records a rejection; the first one is reported. */
     void
     refuse(const std::string &why)
     {
@@ -56,7 +56,7 @@ namespace geocone::GEOCONE_DIM
       return !refusal.empty();
     }
 
-    /** @throws Error if a point of any rank was refused. Collective. */
+    /** @throws Error if a point of any rank was rejected. Collective. */
     template <typename Error>
     void
     check(const MPI_Comm comm) const
@@ -66,7 +66,8 @@ namespace geocone::GEOCONE_DIM
         throw Error(why);
     }
 
-    /** Adds what laws not in closed form had to change to the remarks. Collective. */
+    /** Appends to the remarks the changes made by laws not in closed form.
+     *  Collective. */
     void
     remark(const MPI_Comm comm, std::vector<std::string> &remarks) const
     {

@@ -13,10 +13,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Where the continuum lives, on this rank: contiguous arrays over points that
-   * are sorted by cell, with the functions there. This is all that the incremental
-   * problem knows of FEM or MPM. Everything here belongs to t_n and is const during a
-   * step.
+   * Discretised continuum on this rank: contiguous arrays over points that are
+   * sorted by cell, with the shape functions there. It is the incremental
+   * problem's only view of FEM or MPM. Everything here belongs to t_n and is
+   * constant during a step.
    */
   struct MaterialPoints : PointState<PointValues>
   {
@@ -34,14 +34,14 @@ namespace geocone::GEOCONE_DIM
     /** Nodes per cell. */
     unsigned int n_nodes = 0;
 
-    /** The cells that have points. */
+    /** Cells with points. */
     std::vector<dealii::Triangulation<dim>::active_cell_iterator> cells;
 
     /** The points of cell c are first_point[c] ... first_point[c + 1] - 1. */
     std::vector<unsigned int> first_point = {0};
 
-    /** Weight of a point in integrals over the body (m^2; around an axis m^3): its volume,
-     *  unless make_consistent() has changed it. */
+    /** Weight of a point in integrals over the body (m^2; in axisymmetry m^3):
+     *  its volume, unless make_consistent() has changed it. */
     std::vector<double> weight;
 
     /** Local numbers of the nodes of a cell: n_nodes per cell. */
@@ -50,27 +50,28 @@ namespace geocone::GEOCONE_DIM
     /** grad N at a point: n_nodes values of d/dx, then n_nodes of d/dy (1/m). */
     std::vector<double> gradients;
 
-    /** N/r at a point, which makes the hoop strain of v_x: n_nodes values (1/m).
-     *  Empty in plane strain. */
+    /** N/r at a point, for the hoop strain of v_x: n_nodes values (1/m). Empty
+     *  in plane strain. */
     std::vector<double> hoop;
 
-    /** N at a point: n_nodes values. Empty where points do not move. */
+    /** N at a point: n_nodes values. Empty for fixed points. */
     std::vector<double> values;
 
     /**
-     * What the volumetric strain at a point comes from in place of grad N, laid out as
-     * gradients (B-bar); of round bodies with the hoop strain. Empty without B-bar.
+     * Gradients for the volumetric strain at a point in place of grad N, in the
+     * layout of gradients (B-bar); in axisymmetry including the hoop strain.
+     * Empty without B-bar.
      */
     std::vector<double> volumetric_gradients;
-    /** Number of the polynomials in a cell that they are projected onto; 0 where they
-     *  are not, the same on all ranks. */
+    /** Number of polynomials per cell that they are projected onto, the same on
+     *  all ranks; 0 without projection. */
     unsigned int n_volumetric_modes = 0;
-    /** The values at a point of a basis of them, with sum_p V_p M_i M_j = delta_ij in
-     *  each cell. M_j is 0 at all points of a cell that cannot tell it from those
-     *  before it. */
+    /** Values at a point of a basis of these polynomials, with sum_p V_p M_i
+     *  M_j = delta_ij in each cell. M_j is 0 at all points of a cell if they
+     *  cannot distinguish it from those before it. */
     std::vector<double> volumetric_modes;
 
-    /** Those of a point, or null where there are none. */
+    /** History of a point, or null. */
     const double *
     history_of(const unsigned int point) const
     {
@@ -82,7 +83,7 @@ namespace geocone::GEOCONE_DIM
       return history.data() + static_cast<std::size_t>(n_history()) * point;
     }
 
-    /** Excess pore pressure p (Pa), the last history variable where there is
+    /** Excess pore pressure p (Pa), the last history variable if there is
      *  undrained soil (LawTraits::undrained). */
     double
     excess_pressure(const unsigned int point) const
@@ -90,19 +91,20 @@ namespace geocone::GEOCONE_DIM
       return history_of(point + 1)[-1];
     }
 
-    /** The variables in use from now on: points that stay have neither mass nor
-     *  velocity, nor what follows from them. */
+    /** Selects the variables in use: fixed points have neither mass nor
+     *  velocity, nor variables derived from them. */
     void
     use(const bool moving, const unsigned int n_history);
 
-    /** Adds a point with the numbers of a row. */
+    /** Appends a point with the numbers of a row. */
     void
     append(const double *row);
   };
 
-  /** Fills the volumetric gradients: in each cell the projection of grad N (of d/dr + 1/r
-   *  around an axis), weighted by volume, onto the polynomials of x of a degree, 0 being
-   *  the mean. With no more points than polynomials nothing changes in a cell. */
+  /** Computes the volumetric gradients: in each cell the volume-weighted
+   *  projection of grad N (in axisymmetry of d/dr + 1/r) onto the polynomials
+   *  of x of a degree, 0 being the mean. Cells without more points than
+   *  polynomials do not change. */
   void
   project_gradients(const unsigned int degree, MaterialPoints &points);
 } // namespace geocone::GEOCONE_DIM

@@ -14,21 +14,22 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Displacements at the places of "Observation/Points": of the field, by the
-   * shape functions of the cell that holds the place, or of the material point
-   * that is nearest to the place at the start and is followed from then on,
-   * through all ranks. All functions are collective.
+   * Displacements at the positions of "Observation/Points": either of the
+   * field, by the shape functions of the cell at the position, or of the
+   * material point that is initially nearest, followed from then on across all
+   * ranks. All functions are collective.
    */
   class ObservedPoints
   {
   public:
-    /** Places in a mesh. @throws InputError for one outside of it */
+    /** Positions in a mesh. @throws InputError for one outside of it */
     void
     prepare_field(const Scene          &scene,
                   const BackgroundMesh &mesh,
                   const Space          &space);
 
-    /** Material points. @throws InputError for a place outside of the body */
+    /** Material points. @throws InputError for a position outside of the
+     *  body */
     void
     prepare_points(const Scene          &scene,
                    const MaterialPoints &points,
@@ -38,8 +39,8 @@ namespace geocone::GEOCONE_DIM
                    const std::vector<PointArrays> &groups,
                    const MPI_Comm                  comm);
 
-    /** @name Displacements in the order of the places (m); of a material point
-     *  that has left the mesh, not a number */
+    /** @name Displacements in the order of the positions (m); NaN for a
+     *  material point that has left the mesh */
     /** @{ */
     std::vector<dealii::Tensor<1, dim>>
     displacements(const MaterialPoints &points,
@@ -48,16 +49,17 @@ namespace geocone::GEOCONE_DIM
     displacements(const std::vector<PointArrays> &groups) const;
     /** @} */
 
-    /** Excess pore pressures of undrained soil (Pa): of the material point nearest to
-     *  a place of a mesh, in its cell, or of the one that is followed. */
+    /** Excess pore pressures of undrained soil (Pa): of the material point of
+     *  the cell nearest to a position in a mesh, or of the material point that
+     *  is followed. */
     std::vector<double>
     pressures(const MaterialPoints &points) const;
 
   private:
-    /** A place in a cell of this rank. */
+    /** A position in a cell of this rank. */
     struct InCell
     {
-      std::vector<unsigned int> nodes; ///< local; none where not in the cells
+      std::vector<unsigned int> nodes; ///< local; empty if not in its cells
       std::vector<double>       values;
       dealii::Point<dim>        position;
 
@@ -65,7 +67,7 @@ namespace geocone::GEOCONE_DIM
       unsigned int cell = dealii::numbers::invalid_unsigned_int;
     };
 
-    /** A material point that may be the nearest one. */
+    /** A candidate for the nearest material point. */
     struct Candidate
     {
       dealii::Point<dim> position;
@@ -78,7 +80,7 @@ namespace geocone::GEOCONE_DIM
     choose(const Scene                                 &scene,
            const std::vector<std::optional<Candidate>> &own);
 
-    /** Sums over the ranks what each knows of, with the count of those. */
+    /** Sums the values over the ranks; NaN if none has one. */
     std::vector<dealii::Tensor<1, dim>>
     gather(std::vector<double> &sums) const;
 

@@ -10,7 +10,7 @@
 
 namespace geocone
 {
-  /** What becomes of particles that leave the background mesh. */
+  /** Treatment of particles that leave the background mesh. */
   class Outflow : public dealii::ParameterAcceptor
   {
   public:

@@ -16,7 +16,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** A particle before its life: what the scene says of it. */
+  /** Initial data of a particle, from the scene or a file. */
   struct Seed
   {
     dealii::Point<dim>     position;
@@ -29,19 +29,19 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * A table of particles, read in parts: a .csv file whose first line names its
-   * columns, or an .h5 file with an array for each: x, y (m), volume (m^2), and,
-   * if given, material (name in .csv, or number from 0), vx and vy (m/s), sxx and
-   * syy and sxy (Pa). In three dimensions z, vz, szz, syz, szx, too, and m^3.
-   * A .csv file may begin with a byte-order mark, have lines that
-   * end in any way, names in double quotes, and blank lines at its end.
-   * @throws InputError naming the parameter, the file, the place, and what is wrong
-   * there; the same on all ranks that read the file
+   * A table of particles, read in parts: a .csv file whose first line contains
+   * the column names, or an .h5 file with one array each: x, y (m), volume
+   * (m^2), and, if given, material (name in .csv, or number from 0), vx and vy
+   * (m/s), sxx and syy and sxy (Pa); in three dimensions also z, vz, szz, syz,
+   * szx, with volumes in m^3. A .csv file can have a byte-order mark, any line
+   * ends, names in double quotes, and blank lines at its end.
+   * @throws InputError naming the parameter, the file, the position and the
+   * fault; the same on all ranks that read the file
    */
   class ParticleFile
   {
   public:
-    /** The columns, in the order of the class's text. */
+    /** The columns, in the order given above. */
     enum Column : unsigned int
     {
       x, ///< and the other coordinates
@@ -58,15 +58,16 @@ namespace geocone::GEOCONE_DIM
     bool
     has(const Column column) const;
 
-    /** Up to @p n more seeds; none: the end of the file. */
+    /** Up to @p n further seeds; none at the end of the file. */
     std::vector<Seed>
     read(const std::size_t n);
 
-    /** Rows of a file, if it is one: of .csv by the length of its first lines. */
+    /** Number of rows of a file, if it exists; for .csv, estimated from its
+     *  first lines. */
     static double
     expected_number(const std::string &file_name);
 
-    /** How the rows of a file are read. */
+    /** Reader of a file format. */
     class Reader;
 
   private:

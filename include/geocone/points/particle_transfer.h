@@ -13,10 +13,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A rule by which particles take their velocities from the nodes:
+   * A transfer of velocities from the nodes to the particles:
    *   v_p := alpha (v_p + sum_i N_i (v_i - vL_i)) + (1 - alpha) sum_i N_i v_i,
-   * and, if it is affine, C of the velocity field v_p + C (x - x_p), with which they
-   * give momentum to the nodes (affine_velocity()).
+   * and, for affine rules, C of the velocity field v_p + C (x - x_p) by which
+   * the particles transfer momentum to the nodes (affine_velocity()).
    */
   struct TransferRule
   {
@@ -25,31 +25,31 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * How particles take their velocities from the nodes, in implicit and in explicit
-   * steps alike: parameters of "Material point method". A new rule is a line of
-   * its list.
+   * Transfer of velocities from the nodes to the particles, in implicit and
+   * explicit steps alike: parameters of "Material point method". A new rule is
+   * a line of its list.
    */
   class ParticleTransfer : public dealii::ParameterAcceptor
   {
   public:
     ParticleTransfer();
 
-    /** Whether a particle has an affine velocity field, v + C (x - x_p). */
+    /** Whether particles have an affine velocity field, v + C (x - x_p). */
     bool
     is_affine() const
     {
       return present().is_affine;
     }
 
-    /** Part of the change that a particle takes, v_p + dv; the rest is that of the
-     *  interpolated velocity. */
+    /** Weight of the FLIP velocity v_p + dv of a particle; the remainder is
+     *  that of the interpolated velocity. */
     double
     flip_part() const
     {
       return present().flips ? part : 0.;
     }
 
-    /** What the file calls the rule. */
+    /** Name of the rule in the parameter file. */
     std::string
     name() const
     {
@@ -80,11 +80,11 @@ namespace geocone::GEOCONE_DIM
   /**
    * C of the affine rules (APIC), by the moments of a particle's nodes,
    *   B = sum_i N_i v_i r_i',  D = sum_i N_i r_i r_i',  r_i = x_i - x_p:
-   * C e = B e/d for the eigenvectors e of D with the eigenvalues d. At a side of
-   * the mesh only the functions of the side are left: across it, where d vanishes,
-   * the limit is the gradient.
+   * C e = B e/d for the eigenvectors e of D with the eigenvalues d. On a side
+   * of the mesh only the functions of the side are non-zero: in its normal
+   * direction, where d vanishes, the limit is the gradient.
    * @param gradient sum_i v_i (grad N_i)'
-   * @param size of the cell (m), to compare sqrt(d) with
+   * @param size of the cell (m), for comparison with sqrt(d)
    */
   dealii::Tensor<2, dim>
   affine_velocity(const dealii::Tensor<2, dim> &B,
@@ -92,7 +92,7 @@ namespace geocone::GEOCONE_DIM
                   const dealii::Tensor<2, dim> &gradient,
                   const double                  size);
 
-  /** d/size^2 below which a moment counts as none in affine_velocity(). */
+  /** d/size^2 below which a moment counts as zero in affine_velocity(). */
   constexpr double vanishing_moment = 1e-10;
 } // namespace geocone::GEOCONE_DIM
 

@@ -21,9 +21,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The particles of the material point method: seeds them, finds their cells, sends
-   * them to the ranks that own these, and evaluates the functions where they are.
-   * Their state is all in MaterialPoints, sorted by cell and number.
+   * The particles of the material point method: generates them, finds their
+   * cells, sends them to the ranks that own these, and evaluates the shape
+   * functions at their positions. Their state is in MaterialPoints, sorted by
+   * cell and number.
    */
   class Particles
   {
@@ -31,9 +32,10 @@ namespace geocone::GEOCONE_DIM
     explicit Particles(const ParameterFile &file);
 
     /**
-     * Seeds the body.
-     * @return a warning, if the layout is too coarse for the space; or nothing
-     * @throws InputError for wrong parameters or an empty region
+     * Fills the body with particles.
+     * @return a warning if the layout is too coarse for the space, otherwise
+     * empty
+     * @throws InputError for invalid parameters or an empty region
      */
     std::string
     prepare(const Scene          &scene,
@@ -41,16 +43,17 @@ namespace geocone::GEOCONE_DIM
             const Space          &space,
             MaterialPoints       &points);
 
-    /** Takes away those that do not stay. */
+    /** Removes the particles with stays = false. */
     void
     keep(const std::vector<bool> &stays, MaterialPoints &points) const;
 
-    /** Adds those of a material that a stage adds. Collective.
-     *  @return how many, of all ranks */
+    /** Adds the particles of a material that a stage adds. Collective.
+     *  @return their number on all ranks */
     unsigned long
     add(const unsigned int material, MaterialPoints &points);
 
-    /** Forgets those that a stage of a resumed run has added. */
+    /** Discards the particles that a stage of a resumed run has already
+     *  added. */
     void
     forget(const unsigned int material)
     {
@@ -58,17 +61,17 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Sorts the particles, which have moved, into their new cells and ranks.
-     * Collective.
-     * @throws StepFailure if a particle leaves the mesh and may not
+     * Sorts moved particles into their new cells and ranks. Collective.
+     * @throws StepFailure if a particle leaves the mesh and this is an error
      */
     void
     sort(MaterialPoints &points);
 
     /**
-     * Prepares the projection of B-bar, before each step: the means over cells, with the
-     * weights of the points. Collective.
-     * @param consistent make_consistent() first, of splines and where no bodies touch
+     * Prepares the projection of B-bar, before each step: means over cells,
+     * weighted by the points. Collective.
+     * @param consistent make_consistent() first, for splines and without
+     * contact of bodies
      * @param limits of the soil
      */
     void
@@ -76,24 +79,24 @@ namespace geocone::GEOCONE_DIM
                   const std::vector<SoilLimit> &limits,
                   MaterialPoints               &points) const;
 
-    /** After BackgroundMesh::repartition(), and Space::follow_ranks(): sends particles to
-     *  where their cells are. Collective. */
+    /** Sends particles to the ranks of their cells, after
+     *  BackgroundMesh::repartition() and Space::follow_ranks(). Collective. */
     void
     follow_ranks(MaterialPoints &points) const
     {
       find_cells(points);
     }
 
-    /** @name The state, as part of a checkpoint. Collective. */
+    /** @name State for a checkpoint. Collective. */
     /** @{ */
     void
     save(Archive &archive, const MaterialPoints &points);
 
-    /** In place of what is there. */
+    /** Replaces the present particles. */
     void
     load(const Archive &archive, MaterialPoints &points);
 
-    /** Counts those that are lost from here on. */
+    /** Resets the number of lost particles. */
     void
     forget_lost()
     {
@@ -101,28 +104,29 @@ namespace geocone::GEOCONE_DIM
     }
     /** @} */
 
-    /** After the mesh has moved, before sort(). */
+    /** Updates the search after the mesh has moved, before sort(). */
     void
     follow_mesh()
     {
       search = std::make_unique<CellSearch>(*mesh);
     }
 
-    /** Particles that left the mesh, of all ranks. */
+    /** Number of particles that left the mesh, on all ranks. */
     unsigned int
     n_lost() const
     {
       return n_lost_all;
     }
 
-    /** Whether those that leave the mesh are counted, and the run goes on. */
+    /** Whether particles that leave the mesh are counted instead of ending the
+     *  run. */
     bool
     may_leave() const
     {
       return !outflow.is_error();
     }
 
-    /** Where they come from. */
+    /** Source of the particles. */
     Seeding &
     seeds()
     {
@@ -130,31 +134,31 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Sorts them. @return a text of one of those that have left the mesh, and their
-     *  number, of this rank */
+    /** Sorts the particles. @return a text on one of those that have left the
+     *  mesh, and their number on this rank */
     std::pair<std::string, unsigned int>
     find_cells(MaterialPoints &points) const;
 
-    /** What depends on the cells of the points: functions, nodes. */
+    /** Evaluates the functions and nodes of the points. */
     void
     evaluate(MaterialPoints &points) const;
 
     /**
-     * The unit coordinates that a particle of elements is given: at least a part
-     * of 1e-6 of the cell inside of it. On the border functions of the cell beyond
-     * would vanish with a gradient that does not: without mass they would be held,
-     * and resist a body that only flies.
+     * Unit coordinates of a particle in an element: at least 1e-6 of the cell
+     * inside of it. On the boundary, functions of the adjacent cell would
+     * vanish with a non-zero gradient: being without mass they would be fixed,
+     * and resist a body in free flight.
      */
     dealii::Point<dim>
     inside(const dealii::Point<dim> &unit) const;
 
     Seeding seeding;
     Outflow outflow;
-    double  margin = 0.; ///< of inside(); splines need none
+    double  margin = 0.; ///< of inside(); zero for splines
 
     std::unique_ptr<CellSearch> search;
 
-    /** Particles of materials that stages will add. */
+    /** Particles of materials that later stages add. */
     std::map<unsigned int, MaterialPoints> waiting;
 
     const Contacts       *contacts = nullptr;

@@ -12,10 +12,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The points of one material on this rank, as explicit steps want them: a
-   * contiguous array per number. Arrays are filled up to a multiple of
-   * PointBlock::lanes with copies of the last point that have no mass and no
-   * volume, so that kernels need no remainder loops.
+   * Points of one material on this rank, laid out for explicit steps: a
+   * contiguous array per number. Arrays are padded to a multiple of
+   * PointBlock::lanes with copies of the last point without mass and volume, so
+   * that kernels need no remainder loops.
    */
   class PointArrays : public PointState<PointComponents>
   {
@@ -23,8 +23,8 @@ namespace geocone::GEOCONE_DIM
     /**
      * @param of_material index of the material
      * @param n_history history variables of its law
-     * @param affine whether there are the components of APIC
-     * @param in_cells whether a transfer keeps the cells of the points here
+     * @param affine whether the components of APIC are used
+     * @param in_cells whether a transfer stores the cells of the points here
      */
     PointArrays(const unsigned int of_material,
                 const unsigned int n_history,
@@ -37,14 +37,14 @@ namespace geocone::GEOCONE_DIM
       return n;
     }
 
-    /** Points with the copies that fill up the last vector. */
+    /** Number of points including the padding. */
     unsigned int
     n_padded() const
     {
       return volume.size();
     }
 
-    /** The history variables of a point, n_history() of them. */
+    /** Copies the n_history() history variables of a point. */
     void
     copy_history(const unsigned int p, double *values) const
     {
@@ -52,7 +52,7 @@ namespace geocone::GEOCONE_DIM
         values[k] = history[k][p];
     }
 
-    /** In the order of tensor_component (Pa). */
+    /** Stress components in the order of tensor_component (Pa). */
     std::array<double, n_mandel>
     stress_components(const unsigned int p) const
     {
@@ -62,33 +62,34 @@ namespace geocone::GEOCONE_DIM
       return s;
     }
 
-    /** For @p n points, and what fills up the last vector, memory is taken at once. */
+    /** Reserves memory for @p n points and the padding. */
     void
     set_capacity(const std::size_t n);
 
-    /** Adds a point with all numbers zero; pad() must follow before kernels see the
-     *  arrays. @return its number */
+    /** Appends a point with all numbers zero; pad() must follow before kernels
+     *  use the arrays. @return its number */
     unsigned int
     append();
 
-    /** Adds one with the numbers of a row. */
+    /** Appends a point with the numbers of a row. */
     void
     append(const double *row)
     {
       set(append(), row);
     }
 
-    /** Fills up the arrays; clears nothing else. */
+    /** Pads the arrays; clears nothing else. */
     void
     pad();
 
-    /** Point i becomes what point order[i] was; those not in it are removed. */
+    /** Point i becomes the former point order[i]; points not in it are
+     *  removed. */
     void
     reorder(const std::vector<unsigned int> &order);
 
     const unsigned int of_material;
 
-    /** Whether these points are being taken away (see Stage). */
+    /** Whether these points are being removed (see Stage). */
     bool fading = false;
 
   private:

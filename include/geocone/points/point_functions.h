@@ -16,10 +16,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The functions that are not zero at a point of any mesh, and what goes over
-   * between the point and its nodes (P2G, G2P), in implicit and in explicit steps
+   * Functions that are not zero at a point of any mesh, and the transfer
+   * between the point and its nodes (P2G, G2P), in implicit and explicit steps
    * alike; TransferKernels does the same for many points of a Cartesian grid.
-   * Arrays at the nodes have m values per local node, one node after another.
+   * Nodal arrays have m values per local node, node by node.
    */
   struct PointFunctions
   {
@@ -31,9 +31,9 @@ namespace geocone::GEOCONE_DIM
 
     using Positions = std::vector<dealii::Point<dim>>; ///< of the local nodes
 
-    /** G2P. @param[out] at_point sum N_i f_i of the m values, then, with gradients,
-     *  sum f_i dN_i/dx, sum f_i dN_i/dy, ...
-     *  @tparam stride values per node, of which there can be more than these */
+    /** G2P. @param[out] at_point sum N_i f_i of the m values, then, with
+     *  gradients, sum f_i dN_i/dx, sum f_i dN_i/dy, ...
+     *  @tparam stride values per node, at least m */
     template <unsigned int m, bool with_gradients, unsigned int stride = m>
     void
     gather(const double *at_nodes, double *at_point) const
@@ -52,7 +52,7 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** P2G, its transpose: adds to the nodes. */
+    /** P2G, the transpose of gather(): adds to the nodes. */
     template <unsigned int m, bool with_gradients, unsigned int stride = m>
     void
     scatter(const double *at_point, double *at_nodes) const
@@ -126,7 +126,7 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Calls f(p, c, its functions) for each point p of each cell c. */
+  /** Calls f(p, c, functions) for each point p of each cell c. */
   template <typename Function>
   void
   for_each_point(const MaterialPoints &points, const Function &f)

@@ -14,26 +14,26 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** @throws RunError if the rows of points in a checkpoint have other variables than
-   *  those of this run, as PointState::variables() lists them */
+  /** @throws RunError if the variables of points in a checkpoint differ from
+   *  those of this run, as listed by PointState::variables() */
   void
   check_variables(const std::string &written, const std::string &here);
 
-  /** @throws RunError if points are not in their cells, as those of a checkpoint are that
-   *  is of another mesh. Collective. */
+  /** @throws RunError if points are not in their cells, as for a checkpoint of
+   *  another mesh. Collective. */
   void
   check_places(const MaterialPoints &points, const MPI_Comm comm);
 
-  /** The points as part of a checkpoint, by cell. Collective. */
+  /** Saves the points in a checkpoint, by cell. Collective. */
   void
   save_points(Archive &archive, const MaterialPoints &points);
 
-  /** Those of a checkpoint, which any number of ranks may have written. */
+  /** Points of a checkpoint, written by any number of ranks. */
   class PointRecord
   {
   public:
-    /** Reads them, of the variables that @p like uses. Collective.
-     *  @throws RunError if they do not fit */
+    /** Reads the points, with the variables in use in @p like. Collective.
+     *  @throws RunError if they do not match */
     PointRecord(const Archive &archive, const MaterialPoints &like);
 
     bool
@@ -42,12 +42,12 @@ namespace geocone::GEOCONE_DIM
       return cells->has(cell);
     }
 
-    /** The rows of the points of a cell. @throws RunError if it is not known */
+    /** Rows of the points of a cell. @throws RunError for an unknown cell */
     std::vector<const double *>
     of(const BackgroundMesh::Cell &cell) const;
 
   private:
-    std::size_t                 size; ///< numbers of a point
+    std::size_t                 size; ///< of the row of a point
     std::vector<double>         rows;
     std::unique_ptr<CellRecord> cells;
   };

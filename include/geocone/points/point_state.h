@@ -18,7 +18,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** How many numbers a value is, and where they are. */
+  /** Number of components of a value, and their address. */
   template <typename T>
   struct Components
   {
@@ -26,7 +26,7 @@ namespace geocone::GEOCONE_DIM
     static auto
     of(T &x)
     {
-      // The rows of a tensor of second order stand one after another.
+      // The rows of a second-order tensor are contiguous.
       static_assert(sizeof(T) == n * sizeof(double));
       if constexpr (T::rank == 1)
         return &x[0];
@@ -66,8 +66,8 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Point i becomes what point order[i] was, of which there are not more. The memory of
-   * @p values is kept; @p old is for their copy.
+   * Sets point i to the former point order[i], of which there are not more. The
+   * memory of @p values is kept; @p old holds their copy.
    */
   template <typename T>
   void
@@ -83,7 +83,7 @@ namespace geocone::GEOCONE_DIM
         values[width * i + k] = old[std::size_t(width) * order[i] + k];
   }
 
-  /** A variable of points, the numbers of a point side by side. */
+  /** A variable of points, with the numbers of a point contiguous. */
   template <typename T>
   class PointValues : public std::vector<T>
   {
@@ -91,7 +91,7 @@ namespace geocone::GEOCONE_DIM
     using std::vector<T>::vector;
     using std::vector<T>::operator=;
 
-    /** Values of each point; 0 where the variable is not in use. */
+    /** Values per point; 0 if the variable is not in use. */
     unsigned int width = 1;
 
     unsigned int
@@ -100,7 +100,7 @@ namespace geocone::GEOCONE_DIM
       return width * Components<T>::n;
     }
 
-    /** Makes room for @p n points, new ones with zeros. */
+    /** Resizes to @p n points, new ones with zeros. */
     void
     set_size(const std::size_t n)
     {
@@ -115,7 +115,8 @@ namespace geocone::GEOCONE_DIM
       this->reserve(width * n);
     }
 
-    /** The numbers of point @p p, to @p row and from it, which moves on. */
+    /** Copies the numbers of point @p p to @p row and from it, and advances
+     *  it. */
     void
     get(const std::size_t p, double *&row) const
     {
@@ -152,8 +153,8 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** A variable of points, an array of all points for each of its numbers: component
-   *  c of value k at Components<T>::n k + c. */
+  /** A variable of points, with one array over all points for each number:
+   *  component c of value k at Components<T>::n k + c. */
   template <typename T>
   class PointComponents
   {
@@ -177,7 +178,7 @@ namespace geocone::GEOCONE_DIM
       return arrays[component].data();
     }
 
-    /** The value of point @p p. @pre width = 1 */
+    /** Value of point @p p. @pre width = 1 */
     T
     of(const std::size_t p) const
     {
@@ -237,32 +238,32 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * The state of points at t_n, of all methods: quadrature points, particles of
-   * implicit steps and of explicit ones. A new variable is declared here, and named
-   * in visit_all(); sorting, sending to other ranks, checkpoints and stages that move
-   * points from one set to another go over that list. A set uses those variables
-   * whose width is not zero.
+   * State of points at t_n, for all methods: quadrature points, particles of
+   * implicit and of explicit steps. A new variable is declared here and listed
+   * in visit_all(), which serves sorting, sending to other ranks, checkpoints
+   * and stages that move points between sets. A set uses the variables whose
+   * width is not zero.
    *
-   * Tensors are in a layout: PointValues<T> for steps that assemble cell by cell,
-   * with Mandel vectors; PointComponents<T> for kernels on vectors of points, with
-   * the components in the order of tensor_component, without Mandel's factors. Numbers
-   * are contiguous in both. Tension positive, SI units.
+   * Tensors have a layout: PointValues<T> for assembly cell by cell, with
+   * Mandel vectors; PointComponents<T> for kernels on vectors of points, with
+   * the components in the order of tensor_component, without Mandel factors.
+   * Numbers are contiguous in both. Tension positive, SI units.
    */
   template <template <typename> class Layout>
   struct PointState
   {
     Layout<dealii::Point<dim>> position;
 
-    /** Volume that a point stands for, per unit thickness (m^2), or around the axis
-     *  (m^3). */
+    /** Volume of a point, per unit thickness (m^2), or of its ring in
+     *  axisymmetry (m^3). */
     PointValues<double> volume;
     PointValues<double> mass; ///< (kg/m)
 
-    /** Index of the material, where the points of a set have several. */
+    /** Index of the material, if the points of a set have several. */
     PointValues<unsigned int> material;
 
-    /** Stress (Pa), plastic strain, and the integral of the norm of the plastic strain
-     *  rate. */
+    /** Stress (Pa), plastic strain, and time integral of the norm of the
+     *  plastic strain rate. */
     Layout<Mandel>      stress;
     Layout<Mandel>      plastic_strain;
     PointValues<double> cumulative_plastic_strain;
@@ -270,20 +271,20 @@ namespace geocone::GEOCONE_DIM
     /** Norm of the plastic strain rate over the last step (1/s). */
     PointValues<double> plastic_strain_rate;
 
-    /** History variables of the laws (ConstitutiveLaw::n_history()), as many for
-     *  each point, of which a law may take fewer. */
+    /** History variables of the laws (ConstitutiveLaw::n_history()), the same
+     *  number for each point; laws can use fewer. */
     Layout<double> history;
 
-    /** @name Of points that move */
+    /** @name Particles */
     /** @{ */
     Layout<dealii::Tensor<1, dim>> velocity;
     Layout<dealii::Tensor<1, dim>> displacement; ///< since the last reset
-    Layout<dealii::Point<dim>>     start; ///< or where displacements count from
+    Layout<dealii::Point<dim>>     start;  ///< or the origin of displacements
     Layout<dealii::Tensor<2, dim>> affine; ///< of APIC: dv/dx about it
-    PointValues<unsigned int>      id;     ///< counted through all ranks
-    /** 1 + the condition that holds a particle, or 0. */
+    PointValues<unsigned int>      id;     ///< unique over all ranks
+    /** 1 + the condition that controls a particle, or 0. */
     PointValues<unsigned int> held_by;
-    /** The active cell index of the cell, and the place in it. */
+    /** Active cell index, and unit coordinates in the cell. */
     PointValues<unsigned int>       cell;
     PointValues<dealii::Point<dim>> unit;
     /** @} */
@@ -307,7 +308,7 @@ namespace geocone::GEOCONE_DIM
       history.width = 0;
     }
 
-    /** The variables in use, and how many numbers each has. */
+    /** Variables in use, with their number of components. */
     std::string
     variables() const
     {
@@ -320,7 +321,7 @@ namespace geocone::GEOCONE_DIM
       return text;
     }
 
-    /** Uses the variables that another set uses. */
+    /** Uses the same variables as another set. */
     void
     use_as(const PointState &other)
     {
@@ -350,8 +351,8 @@ namespace geocone::GEOCONE_DIM
       return n;
     }
 
-    /** All numbers of a point, in the order of variables(), to a row, and from it.
-     *  The first are those of its position. */
+    /** Copies all numbers of a point, in the order of variables(), to a row and
+     *  from it. The first are those of its position. */
     void
     get(const std::size_t p, double *row) const
     {
@@ -363,7 +364,7 @@ namespace geocone::GEOCONE_DIM
       visit([&](const char *, auto &variable) { variable.set(p, row); });
     }
 
-    /** Adds one to a list of rows. */
+    /** Appends a point to a list of rows. */
     void
     add_row(const std::size_t p, std::vector<double> &rows) const
     {
@@ -371,21 +372,22 @@ namespace geocone::GEOCONE_DIM
       get(p, &rows[rows.size() - n_numbers()]);
     }
 
-    /** Makes room for @p n points, new ones with zeros. */
+    /** Resizes to @p n points, new ones with zeros. */
     void
     set_size(const std::size_t n)
     {
       visit([&](const char *, auto &variable) { variable.set_size(n); });
     }
 
-    /** For @p n points memory is taken at once. */
+    /** Reserves memory for @p n points. */
     void
     set_capacity(const std::size_t n)
     {
       visit([&](const char *, auto &variable) { variable.set_capacity(n); });
     }
 
-    /** Point i becomes what point order[i] was; those not in it are removed. */
+    /** Point i becomes the former point order[i]; points not in it are
+     *  removed. */
     void
     reorder(const std::vector<unsigned int> &order)
     {
@@ -393,7 +395,7 @@ namespace geocone::GEOCONE_DIM
         [&](const char *, auto &variable) { variable.reorder(order, buffer); });
     }
 
-    /** Bytes of the arrays. */
+    /** Size of the arrays (bytes). */
     std::size_t
     memory() const
     {
@@ -428,16 +430,16 @@ namespace geocone::GEOCONE_DIM
       visit("unit", state.unit);
     }
 
-    std::vector<double> buffer; ///< of reorder(): one for all arrays, for ever
+    std::vector<double> buffer; ///< of reorder(): kept and shared by all arrays
   };
 
-  /** An owner of points that are to go. */
+  /** Owner of points to be removed. */
   constexpr unsigned int nobody = dealii::numbers::invalid_unsigned_int;
 
   /**
-   * Sends points to the ranks that own them, and removes those of nobody. Those that
-   * stay keep their order, before those that arrive. Points: a set of points with
-   * n_points(), reorder() and append(row). Collective.
+   * Sends points to the ranks that own them, and removes those of nobody.
+   * Points that stay keep their order and precede those that arrive. Points: a
+   * set of points with n_points(), reorder() and append(row). Collective.
    * @param owner of each point
    */
   template <typename Points>

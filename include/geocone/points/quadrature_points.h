@@ -14,14 +14,14 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The rule that integrates B'DB exactly on affine cells: on triangles of
-   * degree p polynomials of degree 2p - 2 (1, 3, 7 points), on quadrilaterals
-   * (p + 1)^2 Gauss points.
+   * Quadrature rule that is exact for B'DB on affine cells: on triangles of
+   * degree p, exact for polynomials of degree 2p - 2 (1, 3, 7 points); on
+   * quadrilaterals, (p + 1)^2 Gauss points.
    */
   dealii::Quadrature<dim>
   stress_quadrature(const Space &space, const BackgroundMesh &mesh);
 
-  /** Geometry and N at the points of a rule in one cell. */
+  /** Geometry and N at the quadrature points of a cell. */
   struct CellValues
   {
     CellValues(const Space                   &space,
@@ -59,8 +59,8 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Points of the finite element method: the points of a quadrature rule in
-   * each cell, which never move.
+   * Points of the finite element method: the quadrature points of each cell,
+   * which do not move.
    * @throws InputError if a material has no cell
    */
   MaterialPoints
@@ -68,8 +68,8 @@ namespace geocone::GEOCONE_DIM
                          const BackgroundMesh &mesh,
                          const Space          &space);
 
-  /** Those of some of the cells, in the order of the mesh, with the state that some of
-   *  them have. */
+  /** Quadrature points of some of the cells, in the order of the mesh, with the
+   *  given state of some of them. */
   MaterialPoints
   quadrature_points_of(
     const Scene                                             &scene,

@@ -12,7 +12,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Hands over cells between ranks, so that each has about as many particles. */
+  /** Redistributes cells over the ranks, so that each has about the same number
+   *  of particles. */
   class RankBalance : public dealii::ParameterAcceptor
   {
   public:
@@ -22,19 +23,20 @@ namespace geocone::GEOCONE_DIM
     void
     prepare() const;
 
-    /** Whether the fullest rank has too many particles. @param n_particles of this rank.
-     *  Collective. */
+    /** Whether the imbalance exceeds the tolerance. @param n_particles of this
+     *  rank. Collective. */
     bool
     is_due(const double n_particles, const MPI_Comm comm) const;
 
-    /** Parts the cells anew, by the particles in them; nodes are numbered anew.
-     *  @param n_in_cell that this rank has, by the active cell index. Collective. */
+    /** Redistributes the cells by their numbers of particles; nodes are
+     *  renumbered.
+     *  @param n_in_cell on this rank, by active cell index. Collective. */
     void
     repartition(std::vector<unsigned int> n_in_cell,
                 BackgroundMesh           &mesh,
                 Space                    &space);
 
-    /** How often cells were handed over. */
+    /** Number of repartitions so far. */
     unsigned int
     n_repartitions() const
     {
@@ -42,8 +44,8 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** What is borne, of imbalance(), and what the last time left, since cells are not
-     *  divided. */
+    /** Tolerated imbalance(), and the imbalance that the last repartition could
+     *  not remove, since cells are not divided. */
     double       largest = 1.2, least = 1.;
     unsigned int n = 0;
   };

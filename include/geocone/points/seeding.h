@@ -17,19 +17,22 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * How the body is filled with particles:
-   *  - Gauss: the k x k Gauss points of each quadrilateral, with their weights; of
-   *    triangles the 1, 3, 7, 15, 19 points of symmetric rules for k = 1 to 5;
-   *  - sub-cells: the centres of k x k equal parts of each cell;
-   *  - lattice: a square lattice, half a spacing off the lower left corner of
-   *    the box around the body, whatever the mesh;
-   *  - random: uniformly distributed, the same on every number of ranks;
-   *  - file: a table, which may know more of them than place and volume.
-   * All but a file give the points within the body only.
+   * Layout of the initial particles in the body:
    *
-   * Seeds come one after another, so that nobody needs to hold those of other
-   * ranks, nor all of its own twice: who wants arrays of the right length counts
-   * first. Their order depends on nothing but the parameters and the cells.
+   *  - Gauss: the k x k Gauss points of each quadrilateral, with their weights;
+   *    for triangles the 1, 3, 7, 15, 19 points of symmetric rules for k = 1 to
+   *    5;
+   *  - sub-cells: the centres of k x k equal parts of each cell;
+   *  - lattice: a square lattice, at half a spacing from the lower left corner
+   *    of the box around the body, independent of the mesh;
+   *  - random: uniformly distributed, the same for any number of ranks;
+   *  - file: a table, optionally with more data than position and volume.
+   *
+   * All but files yield the points within the body only.
+   *
+   * Seeds are passed on one by one, so that no rank stores those of others, nor
+   * its own twice; callers that need arrays of the right length count first.
+   * The order depends only on the parameters and the cells.
    */
   class Seeding : public dealii::ParameterAcceptor
   {
@@ -40,11 +43,11 @@ namespace geocone::GEOCONE_DIM
     void
     prepare(const Scene &scene);
 
-    /** What is called with each seed. */
+    /** Receiver of each seed. */
     using Take = std::function<void(const Seed &)>;
 
-    /** @name Seeds in the cells of this rank of a mesh (collective)
-     *  One on the border of cells belongs to the lowest rank. */
+    /** @name Seeds in the cells of this rank of a mesh (collective) Those on
+     *  cell boundaries belong to the lowest rank. */
     /** @{ */
     void
     for_each(const Scene          &scene,
@@ -52,9 +55,9 @@ namespace geocone::GEOCONE_DIM
              const Take           &take) const;
 
     /**
-     * Their numbers by material.
-     * @throws InputError, on all ranks, for files that cannot be understood,
-     * points outside the mesh, and materials without points; so does make()
+     * Number of seeds by material.
+     * @throws InputError, on all ranks, for unreadable files, points outside of
+     * the mesh, and materials without points; so does make()
      */
     std::vector<std::size_t>
     count(const Scene &scene, const BackgroundMesh &mesh) const;
@@ -63,7 +66,7 @@ namespace geocone::GEOCONE_DIM
     make(const Scene &scene, const BackgroundMesh &mesh) const;
     /** @} */
 
-    /** @name Seeds in some columns of cells of a uniform grid */
+    /** @name Seeds in a range of columns of a uniform grid */
     /** @{ */
     void
     for_each(const Scene                       &scene,
@@ -71,7 +74,7 @@ namespace geocone::GEOCONE_DIM
              const std::array<unsigned int, 2> &columns,
              const Take                        &take) const;
 
-    /** Their numbers by column and material, in all columns (collective).
+    /** Number of seeds by column and material, in all columns (collective).
      *  @throws InputError as above */
     std::vector<std::vector<std::size_t>>
     count(const Scene         &scene,
@@ -79,31 +82,31 @@ namespace geocone::GEOCONE_DIM
           const MPI_Comm       comm) const;
     /** @} */
 
-    /** The k of the layouts that follow the cells, 0 for the others. */
+    /** k of the cell-based layouts, 0 for the others. */
     unsigned int
     points_per_direction() const;
 
     /**
-     * How many seeds there will be on all ranks, in closed form, before a mesh is
-     * made: so many in each cell times the cells that the body fills, its area over
-     * that of a square, the number asked for, or the rows of the file. To be called
-     * after prepare(), here and of the scene.
+     * Expected number of seeds on all ranks, in closed form, before a mesh is
+     * created: seeds per cell times the cells in the body, its area over that
+     * of a lattice square, the given number, or the rows of the file. To be
+     * called after prepare(), here and of the scene.
      */
     double
     expected_number(const Scene                    &scene,
                     const BackgroundMesh::Expected &mesh) const;
 
-    /** The parameter that the number of seeds comes from; empty: that of the
+    /** Parameter that determines the number of seeds; empty: that of the
      *  cells. */
     std::string
     size_parameter() const;
 
   private:
-    /** @throws InputError if a lattice or random points would take for ever */
+    /** @throws InputError if a lattice or random points would take too long */
     void
     check_effort(const Geometry &geometry) const;
 
-    /** What is asked of seeds: only where they are and of which material. */
+    /** Requested data of seeds: position and material only, or all. */
     enum class Detail
     {
       material,
@@ -123,17 +126,17 @@ namespace geocone::GEOCONE_DIM
           const Detail                       detail,
           const Take                        &take) const;
 
-    /** Seeds, and whether a file has said their columns. */
+    /** Seeds, and the columns given by a file. */
     using Block     = std::vector<Seed>;
     using Given     = std::array<bool, ParticleFile::n_columns>;
     using TakeBlock = std::function<void(Block &, const Given &)>;
 
-    /** The seeds of the layouts that do not follow cells, all of them in blocks
-     *  that are the same on all ranks. */
+    /** Passes the seeds of layouts that are independent of cells, all of them
+     *  in blocks that are the same on all ranks. */
     void
     visit_all(const Scene &scene, const TakeBlock &take) const;
 
-    /** What the scene says of a seed, where a file has not said it. */
+    /** Sets the data of a seed that a file has not given, from the scene. */
     void
     describe(Seed        &seed,
              const Scene &scene,
