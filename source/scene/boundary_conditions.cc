@@ -245,7 +245,7 @@ namespace geocone::GEOCONE_DIM
   bool
   BoundaryCondition::holds_at(const dealii::Point<dim> &x) const
   {
-    // The formula need have values in the box only.
+    // The formula need be defined in the box only.
     if (const auto corners = wide_box())
       for (unsigned int c = 0; c < dim; ++c)
         if (x[c] < (*corners)[0][c] || x[c] > (*corners)[1][c])
@@ -294,7 +294,7 @@ namespace geocone::GEOCONE_DIM
               }
           add(low, high);
         }
-      else // on the lines between vertices: where the sign changes, by halving
+      else // on the lines between vertices: the sign change, by bisection
         for (unsigned int i = 0; i < face.size(); ++i)
           for (unsigned int j = 0; j < i; ++j)
             {

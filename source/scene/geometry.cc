@@ -546,11 +546,12 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** The part of the domain below a line, which is level beyond its ends. */
+    /** Part of the domain below a line, which is extended horizontally at its
+     *  ends. */
     Polygon
     part_below(const std::vector<Point<dim>> &line, const Geometry &geometry)
     {
-      // Cells of a file are only asked for, wherever they are.
+      // For a file only points are tested, at any position.
       double     margin = largest_coordinate;
       Point<dim> lower = line.front(), upper = line.back();
       if (geometry.shape != Geometry::Shape::file)

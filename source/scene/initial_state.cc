@@ -54,7 +54,8 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** A formula of the state at the start, which knows no time. */
+    /** Prepares a formula of the initial state, which is independent of
+     *  time. */
     void
     prepare_initial(Expression        &formula,
                     const std::string &text,
@@ -64,7 +65,7 @@ namespace geocone::GEOCONE_DIM
       formula.prepare(text, parameter);
     }
 
-    /** Of the components of a given initial stress. */
+    /** Parameter name of a component of a given initial stress. */
     std::string
     name_of_stress(const unsigned int component)
     {
@@ -189,7 +190,7 @@ namespace geocone::GEOCONE_DIM
     if (type == Type::geostatic || adds(Type::geostatic))
       {
         prepare_k0();
-        // The final value: a geostatic state is one under full gravity.
+        // The final value: a geostatic state assumes full gravity.
         g = -gravity.at(1e300)[1];
       }
     if (type == Type::geostatic)
@@ -251,7 +252,7 @@ namespace geocone::GEOCONE_DIM
     k0.reset();
     if (k0_text == "automatic")
       return;
-    // Nothing but a number: "0.5 or so" is none.
+    // A number only: "0.5 or so" is rejected.
     try
       {
         k0 = dealii::Utilities::string_to_double(k0_text);
@@ -268,7 +269,7 @@ namespace geocone::GEOCONE_DIM
   void
   InitialStress::check_level_ground(const Geometry &geometry) const
   {
-    // A box is level; the surface of a .msh file is the user's to know.
+    // A box is level; the surface of a .msh file is not checked.
     if (dim == 3 || geometry.outline.empty())
       return;
     double top = geometry.outline[0][1];
@@ -303,7 +304,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Where a property ends that holds at @p low but not at @p high. */
+    /** Boundary of a property that holds at @p low but not at @p high. */
     template <typename Property>
     double
     border(double low, double high, const Property &holds)
@@ -316,15 +317,15 @@ namespace geocone::GEOCONE_DIM
       return high;
     }
 
-    /** A part of a column of soil that is of one material. */
+    /** Part of a column of soil with one material. */
     struct Layer
     {
       unsigned int material;
       double       low, high; ///< y (m)
     };
 
-    /** What is above x up to y = top, from below. Layers thinner than a 400th of all may
-     *  be missed. */
+    /** Layers above x up to y = top, from below. Layers thinner than a 400th of
+     *  the height can be missed. */
     std::vector<Layer>
     column_above(const dealii::Point<dim> &x,
                  const double              top,

@@ -48,7 +48,7 @@ namespace geocone
                        tension,
                        ">= 0 Pa, finite",
                        "0: what is pulled parts; 1e9: it never does");
-    // Both are numbers of an input file: equal to its last digits.
+    // Both are numbers of an input file: equal up to rounding.
     if (friction * tension > adhesion * (1. + 1e-5))
       throw InputError(
         name + "Tensile strength",

@@ -34,7 +34,8 @@ namespace geocone::GEOCONE_DIM
   {
     constexpr double most_steps = 1e8; ///< of a stage
 
-    /** How the body is brought to failure: what is divided, and what is raised. */
+    /** Parameters of loading to failure: strength reduction and load
+     *  stepping. */
     void
     declare_failure(Stage &stage)
     {
@@ -73,7 +74,8 @@ namespace geocone::GEOCONE_DIM
         "forces F on the nodes; > 0, or < 0 to take them back.");
     }
 
-    /** For explicit MPM only: ways to a state of rest, and what is set anew. */
+    /** Parameters of explicit MPM: relaxation to a state of rest, and
+     *  resets. */
     void
     declare_explicit_only(Stage &stage)
     {
@@ -113,7 +115,7 @@ namespace geocone::GEOCONE_DIM
         "variables of the soil from its stress, as at the start of a run.");
     }
 
-    /** What is taken away at the beginning. */
+    /** Parameters of removed parts. */
     void
     declare_removal(Stage &stage, std::string &text_of_where)
     {
@@ -143,7 +145,7 @@ namespace geocone::GEOCONE_DIM
         "exerted on the rest; 0: at once.");
     }
 
-    /** What is added at the beginning, or changed. */
+    /** Parameters of added and changed materials. */
     void
     declare_new_materials(Stage &stage)
     {
@@ -211,8 +213,8 @@ namespace geocone::GEOCONE_DIM
                        "leave it out, or set Discretisation/Method = explicit "
                                "MPM");
     };
-    // Damping and its tests are means of explicit steps to come to rest: they are
-    // not used (UsedWhere).
+    // Damping and its limits belong to relaxation in explicit steps: unused
+    // here (UsedWhere).
     for (const auto &[entry, value] :
          {std::pair<const char *, bool>("Reset velocity", reset_velocity),
           {"Reset history", reset_history}})
@@ -368,7 +370,8 @@ namespace geocone::GEOCONE_DIM
   {
     if (first_step_size == 0. || first_step_size >= step_size)
       return std::max(1., std::ceil(duration / step_size));
-    // Steps h g^i < step size, whose sum is h (g^n - 1)/(g - 1), then equal ones.
+    // Steps h g^i < step size, with the sum h (g^n - 1)/(g - 1), then equal
+    // ones.
     const double n =
       std::ceil(std::log(step_size / first_step_size) / std::log(growth));
     const double sum =
@@ -386,8 +389,8 @@ namespace geocone::GEOCONE_DIM
     while (duration - t > 1e-9 * duration)
       {
         const double left = duration - t;
-        // The last step is the rest, stretched by up to 1e-6 of its size
-        // rather than followed by a sliver.
+        // The last step is the remainder, stretched by up to 1e-6 of its size
+        // to avoid a tiny step.
         steps.push_back(left <= h * (1. + 1e-6) ? left : h);
         t += steps.back();
         h = std::min(step_size, h * growth);

@@ -50,8 +50,8 @@ namespace geocone::GEOCONE_DIM
   double
   bearing_capacity_factor_c(const double phi)
   {
-    // Below a thousandth of a degree the difference Nq - 1 loses its digits;
-    // the limit is then closer than they are.
+    // Below a thousandth of a degree the difference Nq - 1 cancels; the limit
+    // is more accurate then.
     return phi < 1e-3
              ? 2. + pi
              : (bearing_capacity_factor_q(phi) - 1.) / std::tan(radians(phi));
@@ -226,7 +226,7 @@ namespace geocone::GEOCONE_DIM
         "the stress before the load",
         "without dilatancy s_u = c cos(phi) + p sin(phi), p the mean effective "
         "pressure in the plane; a strip bears (2 + pi) s_u times its width");
-    // Weight adds to the load of a soil with friction, and to none other.
+    // Weight increases the bearing capacity of frictional soil only.
     if (phi > 0. && materials.law(index).density() > 0. && gravity.acts())
       throw InputError(
         "Observation/Reference",

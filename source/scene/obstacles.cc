@@ -317,7 +317,7 @@ namespace geocone::GEOCONE_DIM
                              const Neighbours     *beside) const
   {
     const Point<dim> now = own_place(x, moved);
-    // At an edge it faces the side that has come, or comes, against it.
+    // At an edge, it faces the side that has approached or is approaching it.
     const Tensor<1, dim> approach = start - now + moved.turned(step, true);
     const Nearest        first    = nearest(start, {}, approach, beside);
     if (std::isinf(first.distance))
@@ -373,7 +373,7 @@ namespace geocone::GEOCONE_DIM
       return other.distance_to(*this, its_moved, moved);
     if (shape == Shape::half_space && other.shape == Shape::half_space)
       return std::numeric_limits<double>::infinity();
-    // The directions that may part them: out of this one.
+    // Candidates for the separating direction: out of this obstacle.
     std::vector<Tensor<1, dim>> directions;
     const auto                  add_of = [&directions](const Obstacle    &own,
                                       const RigidMotion &own_moved,

@@ -17,8 +17,8 @@ namespace geocone::GEOCONE_DIM
 {
   namespace
   {
-    /** Places on the part of the sides of a body, which is a box or a polygon, that is in
-     *  the box of a condition. */
+    /** Points on the part of the sides of a body, a box or a polygon, in the
+     *  box of a condition. */
     std::vector<dealii::Point<dim>>
     places_held_by(const BoundaryCondition &condition, const Geometry &geometry)
     {
@@ -60,9 +60,9 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Evaluates the formulas of conditions and obstacles just after the beginning of each
-     * stage, at places that they hold of a body whose sides are known, so that one
-     * without a value is found before anything is written.
+     * Evaluates the formulas of conditions and obstacles just after the
+     * beginning of each stage, at points of a body with known sides, so that
+     * undefined values are detected before anything is written.
      */
     void
     check_values(const Scene &scene)
@@ -212,7 +212,8 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** gamma H of a material (Pa): of its own density and of all of the body's height. */
+    /** gamma H of a material (Pa), with its density and the full height of the
+     *  body. */
     double
     weight_of_column(const Scene                    &scene,
                      const unsigned int              material,
@@ -250,7 +251,7 @@ namespace geocone::GEOCONE_DIM
   {
     constexpr double largest_body = 1e4, smallest_body = 1e-3; // m
     constexpr double lightest = 100., heaviest = 1e4;          // kg/m^3
-    constexpr double least_strength = 1e-5; // over gamma H, without friction
+    constexpr double least_strength = 1e-5; // over gamma H, frictionless
     std::vector<std::string> warnings;
     double                   size = 0.;
     for (unsigned int d = 0; d < dim; ++d)

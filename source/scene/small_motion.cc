@@ -15,7 +15,7 @@ namespace geocone::GEOCONE_DIM
 {
   namespace
   {
-    /** Whether faces lie on one line that is along no axis. */
+    /** Whether faces lie on one line oblique to the axes. */
     bool
     is_oblique_line(const VerticesOfFaces &faces)
     {
@@ -37,7 +37,7 @@ namespace geocone::GEOCONE_DIM
       return std::abs(line[0]) > rounding && std::abs(line[1]) > rounding;
     }
 
-    /** How much of a plane a condition holds. */
+    /** Extent of a plane controlled by a condition. */
     enum class Extent
     {
       none,
@@ -45,8 +45,9 @@ namespace geocone::GEOCONE_DIM
       all
     };
 
-    /** Whether an end of the body along an axis is a plane of symmetry: on all of it the
-     *  velocity across is held at zero, and nothing else is.
+    /** Whether an end of the body along an axis is a plane of symmetry: the
+     *  normal velocity is zero on all of it, and no other velocity is
+     *  prescribed.
      *  @param across number of the axis @param extent_of of the plane */
     bool
     is_symmetric(
@@ -72,14 +73,14 @@ namespace geocone::GEOCONE_DIM
       return is_held;
     }
 
-    /** The part of the boundary that a condition pushes. */
+    /** Part of the boundary loaded by a condition. */
     struct PushedPart
     {
       dealii::Point<dim> low, high;
-      VerticesOfFaces    faces; ///< none of conditions that move
+      VerticesOfFaces    faces; ///< none for moving sides
       bool               is_upright;
 
-      /** Intersects the part with the box of these corners. */
+      /** Intersects the part with a box. */
       void
       cut(const std::array<dealii::Point<dim>, 2> &corners)
       {
@@ -107,8 +108,8 @@ namespace geocone::GEOCONE_DIM
       double       place, rounding; ///< (m)
     };
 
-    /** The speed that a condition gives to a place; 0 where it has no value: the centre
-     *  of a part need not be held. */
+    /** Speed prescribed by a condition at a point; 0 if undefined: the centre
+     *  of a part need not be controlled. */
     double
     speed_at(const BoundaryCondition  &condition,
              const dealii::Point<dim> &place,
@@ -132,7 +133,7 @@ namespace geocone::GEOCONE_DIM
       return std::sqrt(square);
     }
 
-    /** The search for the part that moves by a thousandth of its length first. */
+    /** Search for the part that first moves by a thousandth of its length. */
     class SmallMotion
     {
     public:
@@ -147,12 +148,12 @@ namespace geocone::GEOCONE_DIM
         , end(scene.loading.duration())
       {}
 
-      /** @return the least time, or 0 if nothing is pushed */
+      /** @return the minimum time, or 0 if nothing is loaded */
       double
       time();
 
     private:
-      /** The greatest speed, seen at some times of the run. */
+      /** Greatest speed, sampled at some times of the run. */
       template <typename Velocity>
       double
       greatest(const Velocity &velocity) const
@@ -172,11 +173,11 @@ namespace geocone::GEOCONE_DIM
           least = time;
       }
 
-      /** The part of the boundary that a condition moves, or nothing. */
+      /** Part of the boundary moved by a condition, if any. */
       std::optional<PushedPart>
       part_of(const BoundaryCondition &condition) const;
 
-      /** How much of an end of the body a condition holds. */
+      /** Extent of an end of the body controlled by a condition. */
       Extent
       extent_on(const EndPlane          &plane,
                 const BoundaryCondition &condition) const;
@@ -207,7 +208,7 @@ namespace geocone::GEOCONE_DIM
         }
       else if (const auto box = condition.box_corners())
         part.cut(*box);
-      // Sides that are upright are as long as the part is high.
+      // Vertical sides are as long as the part is high.
       part.is_upright =
         condition.moves()
           ? std::any_of(condition.sides.begin(),
@@ -291,8 +292,9 @@ namespace geocone::GEOCONE_DIM
             double     length = part->length();
             const auto centre =
               dealii::Point<dim>((part->low + part->high) / 2.);
-            // A part of a side that ends in a plane of symmetry goes on beyond it; of a
-            // round body the radius counts, or loads would come out lower by a per cent.
+            // A part of a side that ends in a plane of symmetry continues
+            // beyond it; in axisymmetry the radius is used, otherwise loads
+            // would be one per cent too low.
             if (ends_in_symmetry(*part))
               length *= 2.;
             add(length, greatest([&](const double t) {

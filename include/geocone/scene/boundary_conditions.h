@@ -20,9 +20,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A condition on a part of the boundary: some of its sides, and of them, if
-   * a box or a formula is given, what lies inside that box, or where the formula is
-   * positive. Base of the prescribed velocities and the tractions.
+   * A condition on a part of the boundary: some of its sides, restricted to a
+   * box or to the region with a positive formula, if given. Base of prescribed
+   * velocities and tractions.
    */
   class BoundaryCondition : public dealii::ParameterAcceptor
   {
@@ -32,7 +32,7 @@ namespace geocone::GEOCONE_DIM
      * @param list section of the list, e.g. "Boundary conditions"
      * @param quantity "Velocity", "Traction" or "Incoming velocity"
      * @param unit for the documentation
-     * @param folder what names of records are relative to
+     * @param folder to which names of records are relative
      */
     BoundaryCondition(const std::string &name,
                       const std::string &list,
@@ -48,7 +48,7 @@ namespace geocone::GEOCONE_DIM
     bool
     is_on_side(const std::string &side) const;
 
-    /** Whether a formula tells the part. */
+    /** Whether a formula selects the part. */
     bool
     has_formula() const
     {
@@ -59,47 +59,49 @@ namespace geocone::GEOCONE_DIM
     bool
     holds_at(const dealii::Point<dim> &x) const;
 
-    /** Whether the formula of 'Where' selects a place. */
+    /** Whether the formula of 'Where' selects a point. */
     bool
     formula_holds(const dealii::Point<dim> &x) const;
 
-    /** The corners of the box around what of some faces belongs to the part; nothing if
-     *  none of it does. @param faces the vertices of each */
+    /** Corners of the box around the selected part of some faces; no value if
+     *  it is empty.
+     *  @param faces the vertices of each */
     std::optional<std::array<dealii::Point<dim>, 2>>
     reach(const std::vector<std::vector<dealii::Point<dim>>> &faces) const;
 
-    /** The corners of the Box, a rounding larger; nothing where all is held. */
+    /** Corners of the Box, enlarged by rounding; no value without a Box. */
     std::optional<std::array<dealii::Point<dim>, 2>>
     wide_box() const;
 
     /** Lower left and upper right corner of the box, if there is one.
-     *  @throws InputError if a formula tells the part */
+     *  @throws InputError if a formula selects the part */
     std::optional<std::array<dealii::Point<dim>, 2>>
     box_corners() const;
 
-    /** @throws InputError for a side that is not among these
-     *  @param what they are, e.g. "sides of the body" */
+    /** @throws InputError for a side that is not in the list
+     *  @param what the list is, e.g. "sides of the body" */
     void
     check_sides(const std::map<std::string, dealii::types::boundary_id> &known,
                 const std::string &what) const;
 
-    /** @throws InputError if no node is held. @param n_nodes of all ranks */
+    /** @throws InputError if no node is selected. @param n_nodes of all
+     *  ranks */
     void
     check_selection(const unsigned int n_nodes) const;
 
-    /** The formula of a component, the normal (dim) or the tangential one, for
-     *  messages. */
+    /** Formula of a Cartesian, the normal (dim) or the tangential component,
+     *  for messages. */
     const std::string &
     formula(const unsigned int component) const
     {
       return texts[component];
     }
 
-    /** The full name of one of its parameters, for messages. */
+    /** Full name of one of its parameters, for messages. */
     std::string
     parameter(const std::string &entry) const;
 
-    /** The part of the boundary as text, for messages. */
+    /** Selected part of the boundary as text, for messages. */
     std::string
     part() const;
 
@@ -108,16 +110,16 @@ namespace geocone::GEOCONE_DIM
     /** Names of the sides. */
     std::vector<std::string> sides;
 
-    /** How a prescribed velocity is imposed. */
+    /** Imposition method of a prescribed velocity. */
     Choice<const Imposition *> imposition = imposition_choice();
 
     /** Number of parts for `segments`. */
     unsigned int n_segments = 2;
 
-    /** The side is taken this many cell sizes shorter for `segments`. */
+    /** Shortening of the side for `segments`, in cell sizes. */
     double shortening = 0.;
 
-    /** What of the body or the mesh a prescribed velocity holds. */
+    /** Parts of the body or the mesh whose velocity is prescribed. */
     Imposition::On
     holds() const
     {
@@ -131,22 +133,22 @@ namespace geocone::GEOCONE_DIM
       return quantity == "Traction";
     }
 
-    /** Whether it holds particles or a side of the body, and not nodes. */
+    /** Whether it controls particles or a side of the body instead of nodes. */
     bool
     moves() const
     {
       return holds() != Imposition::On::nodes;
     }
 
-    /** Per component: the value as a function of place and time, or nothing. */
+    /** Value of each component as a function of position and time, if given. */
     std::array<std::optional<Expression>, dim> components;
 
-    /** The same along the outward normal n of the side and, for tractions, along
-     *  its tangent (-n_y, n_x), which has the body to its left. */
+    /** The same along the outward normal n of the side and, for tractions,
+     *  along its tangent (-n_y, n_x), with the body to its left. */
     std::optional<Expression> normal, tangential;
 
-    /** The value of a component, or of the normal one (dim), at a place and a time.
-     *  @pre it is given */
+    /** Value of a component, or of the normal one (dim), at a position and a
+     *  time. @pre the component is given */
     double
     value(const unsigned int        component,
           const dealii::Point<dim> &x,
@@ -155,15 +157,15 @@ namespace geocone::GEOCONE_DIM
       return (component < dim ? components[component] : normal)->value(x, t);
     }
 
-    /** The vector of the normal and the tangential one at time t, where the
-     *  outward normal is n. */
+    /** Vector of the normal and the tangential component at time t, for the
+     *  outward normal n. */
     dealii::Tensor<1, dim>
     vector_on_side(const dealii::Point<dim>     &x,
                    const dealii::Tensor<1, dim> &n,
                    const double                  t) const;
 
-    /** @throws InputError if there is a normal velocity, with what holds where
-     *  none can be: @p allowed, @p remedy */
+    /** @throws InputError for a normal velocity, where none is possible.
+     *  @param allowed,remedy texts of the error */
     void
     refuse_normal(const std::string &allowed, const std::string &remedy) const;
 
@@ -178,9 +180,9 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * The conditions of one kind, named in the list "SECTION/Names": prescribed
-   * velocities ("Boundary conditions", m/s), tractions ("Tractions", Pa) or velocities
-   * of waves that come in ("Absorbing boundaries", m/s).
+   * Conditions of one kind, named in the list "SECTION/Names": prescribed
+   * velocities ("Boundary conditions", m/s), tractions ("Tractions", Pa) or
+   * velocities of incoming waves ("Absorbing boundaries", m/s).
    */
   class BoundaryConditions : public NamedList<BoundaryCondition>
   {

@@ -16,21 +16,21 @@
 namespace geocone
 {
   /**
-   * Two bodies, each of some materials, that touch, rub and part: their meshes are
-   * not joined, and their particles move nodes of their own. Where they touch, the force
-   * of the other body on the nodes of the first and the relative velocity obey
-   * Signorini's and Coulomb's laws.
+   * Frictional contact between two bodies, each of one or several materials:
+   * their meshes are not connected, and their particles move nodes of their
+   * own. In contact, the force of the other body on the nodes of the first and
+   * the relative velocity satisfy the Signorini and Coulomb laws.
    */
   class BodyPair : public dealii::ParameterAcceptor
   {
   public:
     explicit BodyPair(const std::string &name);
 
-    /** @param materials names of all. @throws InputError */
+    /** @param materials names of all materials. @throws InputError */
     void
     prepare(const std::vector<std::string> &materials);
 
-    /** Whether one material is of the first body and one of the other. */
+    /** Whether one material belongs to the first body and one to the other. */
     bool
     separates(const unsigned int a, const unsigned int b) const
     {
@@ -40,7 +40,7 @@ namespace geocone
     const std::string name;
     InterfaceLaw      law;
 
-    /** Which materials, by number, are the first body, and the other one. */
+    /** Materials of the first body and of the other, by number. */
     std::vector<bool> is_first, is_other;
 
   private:
@@ -56,27 +56,28 @@ namespace geocone
     void
     prepare(const std::vector<std::string> &materials);
 
-    /** Whether two materials belong to bodies that only touch. */
+    /** Whether two materials belong to different bodies in contact. */
     bool
     are_apart(const unsigned int a, const unsigned int b) const;
 
-    /** The body of a material, counted from 0: materials that are in the same bodies of
-     *  all contacts are one. Without contacts all are. */
+    /** Body of a material, counted from 0: materials in the same bodies of all
+     *  contacts belong together. Without contacts there is one body. */
     unsigned int
     body_of(const unsigned int material) const
     {
       return body[material];
     }
 
-    /** 1 without contacts. */
+    /** Number of bodies, 1 without contacts. */
     unsigned int
     n_bodies() const
     {
       return number;
     }
 
-    /** For bodies that could pass through each other where they have no contact.
-     *  @throws InputError if two of them have none */
+    /** For methods in which bodies without a contact could penetrate each
+     *  other.
+     *  @throws InputError if two bodies have none */
     void
     check_all_pairs() const;
 

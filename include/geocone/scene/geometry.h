@@ -24,8 +24,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** The vertices of a polygon in order; in three dimensions, which know no other
-   *  bodies by themselves, the lowest and the highest corner of a box. */
+  /** Vertices of a polygon in order; in three dimensions, where boxes are the
+   *  only predefined bodies, the lowest and the highest corner of a box. */
   using Polygon = std::vector<dealii::Point<dim>>;
 
   Polygon
@@ -36,28 +36,28 @@ namespace geocone::GEOCONE_DIM
   constexpr const char *side_of_box[3][2] = {
     {"left", "right"}, {"bottom", "top"}, {"back", "front"}};
 
-  /** The number of each side: those at the least and largest x are called left and
-   *  right, y bottom and top, z back and front. */
+  /** Number of each side: those at the smallest and largest x are called left
+   *  and right, y bottom and top, z back and front. */
   std::map<std::string, dealii::types::boundary_id>
   sides_of_box();
 
   /**
-   * What double precision resolves with room for a solution: coordinates up to
-   * 1e12 m, whose squares and products stay far from overflow, and lengths of
-   * 1e-12 m or more that are 1e-9 of the coordinates or more. A coordinate is
-   * rounded by 1e-16 of itself, a cell then by 1e-7 of its size.
+   * Range resolved by double precision with a margin for the solution:
+   * coordinates up to 1e12 m, whose squares and products are far from overflow,
+   * and lengths of at least 1e-12 m and 1e-9 of the coordinates. Coordinates
+   * have a relative rounding error of 1e-16, and thus cells one of 1e-7.
    */
   constexpr double largest_coordinate     = 1e12;
   constexpr double smallest_size          = 1e-12;
   constexpr double smallest_relative_size = 1e-9;
 
-  /** The smallest length (m) that is resolved where @p points are. */
+  /** Smallest resolved length (m) at the coordinates of @p points. */
   double
   resolved_length(const std::vector<dealii::Point<dim>> &points);
 
   /**
    * @throws InputError if coordinates are not finite or too large, or if the
-   * points reach less far along x or y than their coordinates resolve
+   * extent of the points along x or y is not resolved by their coordinates
    */
   void
   check_coordinates(const std::vector<dealii::Point<dim>> &points,
@@ -67,7 +67,7 @@ namespace geocone::GEOCONE_DIM
   bool
   contains(const Polygon &polygon, const dealii::Point<dim> &x);
 
-  /** The point of the segment ab that is nearest to x. */
+  /** Point of the segment ab nearest to x. */
   dealii::Point<dim>
   nearest_on_segment(const dealii::Point<dim> &x,
                      const dealii::Point<dim> &a,
@@ -87,11 +87,12 @@ namespace geocone::GEOCONE_DIM
   check_polygon(const Polygon &polygon, const std::string &parameter);
 
   /**
-   * The domain: a box, a polygon, discs, or whatever a .msh file (or a script of
-   * gmsh) holds; of MPM the part of it where a formula is positive, if one is given. The sides of a box are called bottom, right, top, left; those of
-   * a polygon 0, 1, 2, ... (side i runs from vertex i to the next one); those of
-   * a file have the numbers or names of its physical curves; discs have none, and
-   * only the material point method can fill them.
+   * The domain: a box, a polygon, discs, or the content of a .msh file (or of a
+   * gmsh script); for MPM optionally only its part with a positive formula. The
+   * sides of a box are called bottom, right, top, left; those of a polygon 0,
+   * 1, 2, ... (side i connects vertex i to the next one); those of a file have
+   * the numbers or names of its physical curves; discs have none, and are
+   * supported by the material point method only.
    */
   class Geometry : public dealii::ParameterAcceptor
   {
@@ -104,11 +105,11 @@ namespace geocone::GEOCONE_DIM
       file
     };
 
-    /** What the plane of the scene is a section of. */
+    /** Symmetry represented by the plane of the scene. */
     enum class Symmetry
     {
       plane_strain, ///< a body of unit thickness that does not move along z
-      axisymmetric  ///< a round body about x = 0, without torsion
+      axisymmetric  ///< axisymmetric about x = 0, without torsion
     };
 
     explicit Geometry(const ParameterFile &file);
@@ -125,28 +126,28 @@ namespace geocone::GEOCONE_DIM
       return symmetry == Symmetry::axisymmetric;
     }
 
-    /** What an area or a length of the plane at x stands for, over itself: 1 (m per
-     *  metre of thickness), or 2 pi r (m). */
+    /** Factor of areas and lengths of the plane at x: 1 (m per metre of
+     *  thickness), or 2 pi r (m). */
     static double
     measure(const Symmetry symmetry, const dealii::Point<dim> &x)
     {
       return symmetry == Symmetry::axisymmetric ? 2. * pi * x[0] : 1.;
     }
 
-    /** The side of the square, or the cube, of a material point at x (m).
-     *  @param volume of it, around the axis of its ring */
+    /** Side length of the square or cube of a material point at x (m).
+     *  @param volume of it, in axisymmetry of its ring */
     double
     size_of_point(const dealii::Point<dim> &x, const double volume) const
     {
       return length_of(volume / measure(symmetry, x));
     }
 
-    /** A unit, e.g. "N/m" or "load (N/m)" or "energy_J_per_m", without what says "per
-     *  metre of thickness" if the body is round. */
+    /** A unit, e.g. "N/m" or "load (N/m)" or "energy_J_per_m", without "per
+     *  metre of thickness" in axisymmetry. */
     std::string
     unit(const std::string &in_plane_strain) const;
 
-    /** @throws InputError where the scene is around an axis @param who cannot be
+    /** @throws InputError in axisymmetry @param who does not support it
      *  @param remedy e.g. "set ..." */
     void
     refuse_axis(const std::string &who, const std::string &remedy) const;
@@ -159,31 +160,33 @@ namespace geocone::GEOCONE_DIM
     /** Vertices of the box or polygon, in order; empty for discs and files. */
     Polygon outline;
 
-    /** The number of each named side of the box or polygon. */
+    /** Number of each named side of the box or polygon. */
     std::map<std::string, dealii::types::boundary_id> sides;
 
-    /** Name of the .msh file, or of the geo script. */
+    /** Name of the .msh file or the geo script. */
     std::string file;
 
-    /** Whether the file may be a script, which gmsh then runs. */
+    /** Whether the file can be a script, to be run by gmsh. */
     bool may_run_script = false;
 
-    /** Whether it is one, whose cells are known when it has run only. */
+    /** Whether the file is a script, whose cells are unknown until it has
+     *  run. */
     bool
     is_script() const;
 
-    /** The ends of a side of the outline: its vertex and the next one. */
+    /** Ends of a side of the outline: its vertex and the next one. */
     std::array<dealii::Point<dim>, 2>
     side_ends(const dealii::types::boundary_id side) const;
 
-    /** Whether the body is a part of the shape, where a formula is positive. */
+    /** Whether the body is the part of the shape with a positive formula. */
     bool
     is_part_by_formula() const
     {
       return where.has_value();
     }
 
-    /** Whether x lies in the body; true for a file, whose cells are the body. */
+    /** Whether x lies in the body; true for a file, whose cells are the
+     *  body. */
     bool
     contains(const dealii::Point<dim> &x) const;
 
@@ -191,17 +194,18 @@ namespace geocone::GEOCONE_DIM
     std::pair<dealii::Point<dim>, dealii::Point<dim>>
     bounding_box() const;
 
-    /** Lengths that count as zero (m): 1e-9 of the body's size, and at least what its
-     *  coordinates resolve; not for a file. */
+    /** Length (m) below which distances count as zero: 1e-9 of the body's size,
+     *  but at least the resolution of its coordinates; not for a file. */
     double
     rounding() const;
 
-    /** Area or volume of the body (m^2, m^3), of a formula that of samples; not for a
-     *  file. */
+    /** Area or volume of the body (m^2, m^3), for a formula by sampling; not
+     *  for a file. */
     double
     area() const;
 
-    /** @throws InputError where a formula tells the body @param who cannot take it
+    /** @throws InputError if a formula selects the body @param who does not
+     *  support it
      *  @param remedy e.g. "set ..." */
     void
     refuse_where(const std::string &who, const std::string &remedy) const;
@@ -210,7 +214,7 @@ namespace geocone::GEOCONE_DIM
     void
     check_discs();
 
-    /** That of the points of a lattice which lie in the body. */
+    /** Area of the lattice points in the body. */
     double
     area_of_samples() const;
 
@@ -225,7 +229,7 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Which material fills which part of the domain: per material a polygon, what lies
+   * Materials by region of the domain: for each material a polygon, the part
    * below a line, or a physical surface of a .msh file.
    */
   class Regions
@@ -234,13 +238,13 @@ namespace geocone::GEOCONE_DIM
     /** @param materials their names */
     explicit Regions(const std::vector<std::string> &materials);
 
-    /** @param may_be_empty by material: those that others become, which need no
-     *  region */
+    /** @param may_be_empty by material: materials that others become, which
+     *  need no region */
     void
     prepare(const Geometry          &geometry,
             const std::vector<bool> &may_be_empty = {});
 
-    /** Whether a material may have no part of the body. */
+    /** Whether the region of a material can be empty. */
     bool
     may_be_empty(const unsigned int material) const
     {
@@ -248,23 +252,23 @@ namespace geocone::GEOCONE_DIM
              (material < empty_ones.size() && empty_ones[material]);
     }
 
-    /** The polygons, to be respected by mesh generators. */
+    /** The polygons, for mesh generators. */
     std::vector<Polygon>
     polygons() const;
 
-    /** The polygon of a material; empty: it has none. */
+    /** Polygon of a material; empty if it has none. */
     const Polygon &
     polygon_of(const unsigned int material) const
     {
       return regions[material]->outline;
     }
 
-    /** Whether a material is found by a physical surface. */
+    /** Whether a material is identified by a physical surface. */
     bool
     have_groups() const;
 
     /** @throws InputError if a file has no physical surface of a material
-     *  @param groups numbers and names, empty where there is none, of the file */
+     *  @param groups numbers and names (possibly empty) of the file */
     void
     check_groups(const std::map<int, std::string> &groups) const;
 
@@ -273,21 +277,22 @@ namespace geocone::GEOCONE_DIM
     material_at(const dealii::Point<dim> &x) const;
 
     /** The material at x in a cell of a physical surface.
-     *  @param name empty: it has none */
+     *  @param name empty: unnamed */
     unsigned int
     material_at(const dealii::Point<dim> &x,
                 const int                 group,
                 const std::string        &name) const;
 
-    /** Whether the points of a material stay where they are while others move, as
-     *  those of finite elements do. */
+    /** Whether the points of a material are fixed, like quadrature points,
+     *  while others move. */
     bool
     are_fixed(const unsigned int material) const
     {
       return regions[material]->points == Points::fixed;
     }
 
-    /** @throws InputError if a material's points are fixed, with what moves all */
+    /** @throws InputError if the points of a material are fixed. @param method
+     *  that moves all */
     void
     refuse_fixed(const std::string &method) const;
 
@@ -321,7 +326,7 @@ namespace geocone::GEOCONE_DIM
 
       std::vector<dealii::Point<dim>> polygon, below;
       std::string                     group = "-1"; ///< number or name
-      Polygon        outline; ///< the polygon, or what lies below the line
+      Polygon        outline; ///< the polygon, or the part below the line
       Choice<Points> points = {
         {{"moving", Points::moving}, {"fixed", Points::fixed}}};
     };

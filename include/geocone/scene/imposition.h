@@ -11,9 +11,10 @@
 namespace geocone
 {
   /**
-   * A way to impose a velocity: what is held, and of held particles which of them
-   * share a row sum_p w_p v(x_p) = sum_p w_p q(x_p), which has a multiplier. FEM
-   * knows nodes only. A new way is a line in impositions().
+   * An imposition method for prescribed velocities: the controlled parts, and
+   * for particles the row sum_p w_p v(x_p) = sum_p w_p q(x_p), with a
+   * multiplier, to which each belongs. FEM supports nodes only. A new method is
+   * a line in impositions().
    */
   struct Imposition
   {
@@ -21,20 +22,20 @@ namespace geocone
     {
       nodes,     ///< grid functions on sides of the background mesh
       particles, ///< those of the first row under a side of the body
-      side ///< a side of the body, which moves with the prescribed velocity
+      side       ///< a side of the body, moving as prescribed
     };
 
-    /** A particle that a condition holds. */
+    /** A particle controlled by a condition. */
     struct Held
     {
       unsigned int id;
       unsigned int cell; ///< number of its cell
-      /** Its part of the held particles in its cell, and of all of the condition: one
-       *  over their number, around an axis by circumferences. */
+      /** Weight among the controlled particles of its cell, and of the
+       *  condition: one over their number, in axisymmetry by circumferences. */
       double of_cell, of_all;
     };
 
-    /** The row that a particle takes part in, and with which weight. */
+    /** Row and weight of a particle. */
     struct Share
     {
       unsigned int row;
@@ -43,14 +44,15 @@ namespace geocone
 
     const char *word;
     On          on;
-    Share (*share)(const Held &); ///< of held particles
-    bool single; ///< each particle has the prescribed velocity itself
-    /** Rows ask for that of particles at the end of the step, v_p + N (v - v^L), in
-     *  place of that of the grid, N v (equations (66) to (69) of Guillet et al. 2025). */
+    Share (*share)(const Held &); ///< of controlled particles
+    bool single;                  ///< each particle has the prescribed velocity
+    /** Whether rows prescribe the velocity of particles at the end of the step,
+     *  v_p + N (v - v^L), instead of that of the grid, N v (equations (66) to
+     *  (69) of Guillet et al. 2025). */
     bool through_flip = false;
   };
 
-  /** All of them; the first one is the default. */
+  /** All imposition methods; the first one is the default. */
   const std::vector<Imposition> &
   impositions();
 

@@ -21,7 +21,7 @@ namespace geocone::GEOCONE_DIM
 {
   class Water;
 
-  /** The velocity before the first step: zero, or given by formulas. */
+  /** Initial velocity: zero, or given by formulas. */
   class InitialVelocity : public dealii::ParameterAcceptor
   {
   public:
@@ -33,12 +33,12 @@ namespace geocone::GEOCONE_DIM
     dealii::Tensor<1, dim>
     at(const dealii::Point<dim> &x) const;
 
-    /** Its gradient dv_i/dx_j at a point that stands for a square of this size
-     *  (m): central differences, exact for linear velocities (1/s). */
+    /** Velocity gradient dv_i/dx_j at a point with a square of this size (m):
+     *  central differences, exact for linear velocities (1/s). */
     dealii::Tensor<2, dim>
     gradient(const dealii::Point<dim> &x, const double size) const;
 
-    /** Whether it is not simply zero. */
+    /** Whether it is not identically zero. */
     bool
     is_given() const;
 
@@ -48,12 +48,12 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * The stress before the first step: zero, given by formulas, or geostatic,
+   * Initial stress: zero, given by formulas, or geostatic,
    *   s_yy = -(surcharge + integral of rho |g| from y to the surface - u),
    *   s_xx = K0 s_yy, s_xy = 0,
-   * with the densities of the materials met on the way up, and u what the pressure of
-   * level water is higher at y than on the surface. K0 is a number, or that
-   * of each material (ConstitutiveLaw::earth_pressure_at_rest()). Materials that a
+   * with the densities of the materials above, and with u the difference of the
+   * hydrostatic pressure between y and the surface. K0 is a number, or that of
+   * each material (ConstitutiveLaw::earth_pressure_at_rest()). Materials that a
    * stage adds have neither stress nor weight.
    */
   class InitialStress : public dealii::ParameterAcceptor
@@ -75,8 +75,8 @@ namespace geocone::GEOCONE_DIM
        const Materials          &materials,
        const Regions            &regions) const;
 
-    /** Out-of-plane stress (Pa): as s_xx, unless it is given by a
-     *  formula. Laws in the plane only carry it along. */
+    /** Out-of-plane stress (Pa): equal to s_xx, unless given by a formula.
+     *  Plane laws only store it. */
     double
     zz_at(const dealii::Point<dim> &x,
           const unsigned int        material,
@@ -107,7 +107,7 @@ namespace geocone::GEOCONE_DIM
                               {"given", Type::given},
                               {"geostatic", Type::geostatic}}};
 
-    /** What the stress of a material comes from. */
+    /** Source of the initial stress of a material. */
     Type
     type_of(const unsigned int material) const
     {
@@ -118,15 +118,15 @@ namespace geocone::GEOCONE_DIM
     bool
     adds(const Type one) const;
 
-    /** @throws InputError where a column of soil has no weight of its own */
+    /** @throws InputError if a column of soil has no weight of its own */
     void
     check_geostatic(const std::string &parameter,
                     const std::string &word,
                     const Gravity     &gravity,
                     const Regions     &regions) const;
 
-    /** Vertical effective stress of a column above x (Pa): of what has been there from the
-     *  beginning, or of what comes with a material. */
+    /** Vertical effective stress of a column above x (Pa): of the initial soil,
+     *  or of the soil added with a material. */
     double
     vertical_stress(const dealii::Point<dim> &x,
                     const int                 stage,
@@ -138,12 +138,12 @@ namespace geocone::GEOCONE_DIM
     std::string                       text_zz; ///< of plane scenes
     Expression                        component_zz;
     std::string                       k0_text = "0.5";
-    std::optional<double>             k0; ///< or nothing: that of each material
+    std::optional<double>             k0; ///< or that of each material
     double                            surface   = 0.;
     double                            surcharge = 0.;
     double                            g         = 0.;
     const Water                      *water = nullptr; ///< where there is some
-    /** By material: the stage that adds it, counted from 0, or -1. */
+    /** Stage that adds each material, counted from 0, or -1. */
     std::vector<int> stage_of;
     double           top = 0.; ///< of the body (m)
   };

@@ -8,16 +8,16 @@
 
 namespace geocone
 {
-  /** What an interface bears while it is closed, and how it rebounds: the entries that
-   *  obstacles and contacts share. */
+  /** Interface law: friction, adhesion, tensile strength and restitution, the
+   *  parameters common to obstacles and contacts. */
   struct InterfaceLaw
   {
     double friction    = 0.; ///< mu of Coulomb's law
-    double adhesion    = 0.; ///< shear stress borne besides (Pa)
-    double tension     = 0.; ///< largest pull that it bears (Pa)
+    double adhesion    = 0.; ///< shear strength without pressure (Pa)
+    double tension     = 0.; ///< tensile strength (Pa)
     double restitution = 0.; ///< e of Newton's law of impact
 
-    /** No soil pulls that hard. */
+    /** Whether the tensile strength exceeds that of any soil. */
     bool
     never_parts() const
     {
@@ -29,12 +29,12 @@ namespace geocone
     void
     declare(dealii::ParameterAcceptor &section);
 
-    /** @throws InputError for what no interface has */
+    /** @throws InputError for inadmissible values */
     void
     check(const dealii::ParameterAcceptor &section) const;
 
-    /** For particles. @param section with a slash @throws InputError for what is borne
-     *  per area */
+    /** For particles. @param section with a slash @throws InputError for
+     *  strengths per area */
     void
     check_without_area(const std::string &section) const;
   };

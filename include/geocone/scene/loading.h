@@ -21,7 +21,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** One stage of the loading programme: a duration and how to step through it. */
+  /** One stage of the loading programme: its duration and time steps. */
   class Stage : public dealii::ParameterAcceptor
   {
   public:
@@ -30,16 +30,16 @@ namespace geocone::GEOCONE_DIM
     void
     prepare();
 
-    /** The sizes of its steps in order (s); they sum up to the duration. */
+    /** Sizes of its steps in order (s); they sum up to the duration. */
     std::vector<double>
     step_sizes() const;
 
-    /** Their number, in closed form; within a few of step_sizes(). */
+    /** Number of steps, in closed form; within a few of step_sizes(). */
     double
     expected_steps() const;
 
-    /** @name @throws InputError if it asks for what only explicit MPM can do, or
-     *  only the others */
+    /** @name @throws InputError for parameters of explicit MPM only, or of the
+     *  other methods only */
     /** @{ */
     void
     check_implicit() const;
@@ -52,28 +52,30 @@ namespace geocone::GEOCONE_DIM
     unsigned int      output_every       = 0;
     bool              reset_displacement = false;
 
-    /** What c and tan(phi) are divided by at the end, linear in time from what they
-     *  were before; 0: as before. */
+    /** Divisor of c and tan(phi) at the end, linear in time from its previous
+     *  value; 0: unchanged. */
     double strength_factor = 0.;
 
-    /** Whether the first step that cannot be solved ends the run as wanted. */
+    /** Whether the first step that cannot be solved ends the run as
+     *  intended. */
     bool until_failure = false;
 
-    /** Whether steps of implicit runs count only if they are in static equilibrium:
-     *  the strength is divided until failure. */
+    /** Whether steps of implicit runs require static equilibrium: strength
+     *  reduction until failure. */
     bool
     seeks_equilibrium() const
     {
       return strength_factor > 0. && until_failure;
     }
 
-    /** Why a step is no equilibrium: see accelerating_share(). Empty: it is one. */
+    /** Reason why a step is not in equilibrium, see accelerating_share();
+     *  empty: it is. */
     std::string
     no_equilibrium(const double accelerating_share) const;
 
-    /** @name Loads that are raised: tractions by their names, and "weight". What they
-     *  exert is multiplied by a factor that is unknown; given is the mean velocity at
-     *  which they do their work (m/s) */
+    /** @name Load stepping: tractions by their names, and "weight", multiplied
+     *  by an unknown load factor, with a given mean velocity that is
+     *  work-conjugate to them (m/s) */
     /** @{ */
     std::vector<std::string> raised_loads;
     double                   raising_velocity = 0.;
@@ -86,27 +88,27 @@ namespace geocone::GEOCONE_DIM
     raises(const std::string &load) const;
     /** @} */
 
-    /** The piezometric line at the end (x, y), to which pressures go from those before
-     *  in proportion to time; empty: as before. */
+    /** Piezometric line at the end (x, y); pressures change to it linearly in
+     *  time; empty: unchanged. */
     std::vector<dealii::Point<2>> water_table;
 
-    /** @name How the body changes at the beginning */
+    /** @name Changes of the body at the beginning */
     /** @{ */
 
-    /** What lies in this polygon, or box, and of it where a formula is positive, is
-     *  taken away, over this time (s). */
+    /** Polygon or box that is removed, restricted to the region with a positive
+     *  formula, and the time (s) over which its forces are ramped down. */
     std::vector<dealii::Point<dim>> removed_polygon;
     double                          removal_duration = 0.;
 
-    /** Materials that are not there before, and the time (s) over which their weight
-     *  grows. */
+    /** Materials that are added, and the time (s) over which their weight is
+     *  ramped up. */
     std::vector<std::string> added_materials;
     double                   addition_duration = 0.;
 
-    /** Which material becomes which other one, by their names. */
+    /** Materials that become others, by their names. */
     std::map<std::string, std::string> changed_materials;
 
-    /** Whether something is removed, and whether what is at x is. */
+    /** Whether something is removed, and whether x is in its region. */
     bool
     removes() const
     {
@@ -123,8 +125,8 @@ namespace geocone::GEOCONE_DIM
              !changed_materials.empty();
     }
 
-    /** Tells of a removal. @param what "points", say
-     *  @throws StepFailure if it takes nothing or everything */
+    /** Message on a removal. @param what e.g. "points"
+     *  @throws StepFailure if it removes nothing or everything */
     std::string
     removal_text(const unsigned long n_removed,
                  const unsigned long n_all,
@@ -140,18 +142,20 @@ namespace geocone::GEOCONE_DIM
     /** Whether velocities are set to zero at each peak of the kinetic energy. */
     bool kinetic_damping = false;
 
-    /** At the end: largest unbalanced force over weight, and kinetic energy over
-     *  stress work, that count as equilibrium; 0: not tested. */
+    /** Limits of equilibrium at the end: largest unbalanced force over weight,
+     *  and kinetic energy over stress work; 0: not tested. */
     double largest_unbalanced_force = 0.;
     double largest_kinetic_energy   = 0.;
 
-    /** At the beginning: no velocity; history anew from the stress. */
+    /** At the beginning: zero velocity; history computed anew from the
+     *  stress. */
     bool reset_velocity = false;
     bool reset_history  = false;
     /** @} */
 
   private:
-    /** Checks what is removed and added, and reads where. @throws InputError */
+    /** Checks removed and added parts, and reads the formula. @throws
+     *  InputError */
     void
     prepare_changes();
 
@@ -174,11 +178,11 @@ namespace geocone::GEOCONE_DIM
     prepare(const std::vector<std::string> &materials,
             const std::vector<std::string> &tractions);
 
-    /** The stage that a time is in. */
+    /** Stage at a time. */
     const Stage &
     stage_at(const double t) const;
 
-    /** Whether a stage raises loads. */
+    /** Whether a stage uses load stepping. */
     bool
     raises_loads() const;
 
@@ -190,11 +194,12 @@ namespace geocone::GEOCONE_DIM
     bool
     changes_body() const;
 
-    /** The stage that adds a material, counted from 0; -1 if it is there at once. */
+    /** Stage that adds a material, counted from 0; -1 if it is present
+     *  initially. */
     int
     stage_that_adds(const std::string &material) const;
 
-    /** Whether a material is not there before a stage adds it. */
+    /** Whether a material is absent until a stage adds it. */
     bool
     adds(const std::string &material) const
     {
@@ -205,20 +210,20 @@ namespace geocone::GEOCONE_DIM
     bool
     makes(const std::string &material) const;
 
-    /** By what c and tan(phi) are divided at time t. */
+    /** Divisor of c and tan(phi) at time t. */
     double
     strength_factor(const double t) const;
 
-    /** strength_factor() when a stage begins. */
+    /** strength_factor() at the beginning of a stage. */
     double
     factor_before(const std::string &stage) const;
 
-    /** Of all stages (s). */
+    /** Duration of all stages (s). */
     double
     duration() const;
   };
 
-  /** Gravity g(t), at once or ramped up linearly over a duration. */
+  /** Gravity g(t), applied at once or ramped up linearly over a duration. */
   class Gravity : public dealii::ParameterAcceptor
   {
   public:

@@ -13,13 +13,14 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** The size of the body, and of each material its strength, also over gamma H, the
-   *  weight of a column of its height: by them wrong units are seen. One line. */
+  /** One line with the size of the body and the strength of each material, also
+   *  relative to gamma H, the weight of a column of its height, which reveals
+   *  wrong units. */
   std::string
   text_of_magnitudes(const Scene &scene, const dealii::BoundingBox<dim> &body);
 
-  /** Warnings of sizes, densities, stiffnesses and strengths that no soil has: most often
-   *  their unit is another one than the parameter's. */
+  /** Warnings about sizes, densities, stiffnesses and strengths outside the
+   *  range of soils, most often because of a wrong unit. */
   std::vector<std::string>
   warn_of_magnitudes(const Scene &scene, const dealii::BoundingBox<dim> &body);
 } // namespace geocone::GEOCONE_DIM

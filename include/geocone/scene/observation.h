@@ -19,7 +19,7 @@ namespace geocone::GEOCONE_DIM
 {
   /**
    * Exact bearing capacity factor of a weightless half-plane under a strip
-   * (Prandtl 1920, Reissner 1924; paper eq 77):
+   * footing (Prandtl 1920, Reissner 1924; paper eq 77):
    *   Nq = exp(pi tan(phi)) tan^2(pi/4 + phi/2),  Nc = (Nq - 1)/tan(phi),
    * and Nc = 2 + pi for phi = 0.
    * @param phi friction angle (degrees)
@@ -30,9 +30,9 @@ namespace geocone::GEOCONE_DIM
   bearing_capacity_factor_c(const double phi);
 
   /**
-   * What the run is about: the reactions of some boundary conditions, the first
-   * of which is the load of the load-displacement curve, and the value that
-   * its limit is compared with.
+   * Observed quantities of a run: the reactions of some boundary conditions,
+   * the first of which is the load of the load-displacement curve, and the
+   * reference value for its limit.
    */
   class Observation : public dealii::ParameterAcceptor
   {
@@ -45,8 +45,8 @@ namespace geocone::GEOCONE_DIM
             const Gravity                  &gravity,
             const bool                      raises_loads);
 
-    /** Whether there is a load-displacement curve: of the first condition or, if
-     *  there is none, of loads that are raised. */
+    /** Whether there is a load-displacement curve: of the first condition or,
+     *  without conditions, of load stepping. */
     bool
     has_load() const
     {
@@ -60,22 +60,22 @@ namespace geocone::GEOCONE_DIM
     /** 0 for x, 1 for y, 2 for z. */
     unsigned int component = 1;
 
-    /** Load = factor x reaction, e.g. -2 for a downward load on a half; or |factor| x
-     *  load factor, of raised loads. */
+    /** Load = factor x reaction, e.g. -2 for a downward load on a half; or
+     *  |factor| x load factor, for load stepping. */
     double factor = -1.;
 
-    /** Places whose displacement is reported. */
+    /** Positions whose displacement is reported. */
     std::vector<dealii::Point<dim>> points;
 
-    /** What the moments of the reactions are about, or nothing: the centre of
-     *  the bounding box of what each condition holds at the start. */
+    /** Reference point of the moments of the reactions; no value: the centre of
+     *  the initial bounding box of each condition. */
     std::optional<dealii::Point<dim>>
     moment_centre() const
     {
       return centre.empty() ? std::nullopt : std::make_optional(centre[0]);
     }
 
-    /** The load to compare with (N/m). */
+    /** Reference load (N/m). */
     std::optional<double> reference;
     std::string           reference_name;
 
@@ -83,7 +83,8 @@ namespace geocone::GEOCONE_DIM
     double plateau_tolerance = 0.01;
 
   private:
-    /** Sets the reference to Prandtl's load. @throws InputError if it is none */
+    /** Sets the reference to Prandtl's load. @throws InputError if there is
+     *  none */
     void
     take_prandtl(const Materials &materials, const Gravity &gravity);
 

@@ -24,15 +24,17 @@ namespace geocone::GEOCONE_DIM
 {
   class Obstacle;
 
-  /** The obstacles beside one, which cover parts of its boundary: several convex ones
-   *  that meet have one surface, without the sides that they share. */
+  /** Neighbouring obstacles, which cover parts of the boundary of an obstacle:
+   *  adjacent convex obstacles have one common surface, without their shared
+   *  sides. */
   class Neighbours
   {
   public:
     /**
-     * @param list all obstacles @param own the one that they are beside
-     * @param moved what all have moved since the start; empty: nothing
-     * @param margin distance up to which boundaries meet (m)
+     * @param list all obstacles
+     * @param own the obstacle whose neighbours these are
+     * @param moved displacements of all since the start; empty: zero
+     * @param margin distance up to which boundaries touch (m)
      */
     Neighbours(const std::vector<std::unique_ptr<Obstacle>> &list,
                const unsigned int                            own,
@@ -46,11 +48,12 @@ namespace geocone::GEOCONE_DIM
       return list.size() > 1;
     }
 
-    /** Whether a place is inside one of them. */
+    /** Whether a point is inside one of them. */
     bool
     cover(const dealii::Point<dim> &place) const;
 
-    /** Whether one of them reaches a vertex, and is nearer to x than that. */
+    /** Whether one of them contains a vertex, and is nearer to x than the
+     *  vertex. */
     bool
     go_on_from(const dealii::Point<dim> &vertex,
                const dealii::Point<dim> &x) const;
@@ -67,12 +70,13 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * A rigid body that the soil may touch, rub on and leave, but not enter: a
-   * half-plane, a disc or a convex polygon, in three dimensions a half-space, a ball, a
-   * cylinder or a convex polyhedron, at rest, driven or free. Where they touch
-   * the force r of the obstacle on the body and the relative velocity u obey
-   * Signorini's and Coulomb's laws (see Contact). Each of its motions, of its centre
-   * along the coordinates and about it, is driven by a formula or free; a free one obeys
+   * A rigid body in frictional, unilateral contact with the soil: a half-plane,
+   * a disc or a convex polygon, in three dimensions a half-space, a ball, a
+   * cylinder or a convex polyhedron, at rest, driven or free. In contact the
+   * force r of the obstacle on the body and the relative velocity u satisfy the
+   * Signorini and Coulomb laws (see Contact). Each of its motions, of its
+   * centre along the coordinates and about it, is driven by a formula or free;
+   * a free one obeys
    *   M dV/dt = F + M g - sum r,  J dw/dt = T - sum (x - X) x r,
    * in three dimensions with one J for all axes, that of a ball or a cube.
    */
@@ -85,17 +89,17 @@ namespace geocone::GEOCONE_DIM
     void
     prepare();
 
-    /** Where a place is beside it: infinitely far where it is hidden. */
+    /** Position of a point relative to it: infinite distance if covered. */
     using Nearest = ObstacleShape::Nearest;
 
     /**
-     * The distance is a convex function of the place, which its tangent along the
-     * normal does not exceed.
-     * @param x a place (m)
-     * @param moved what the obstacle has moved since the start
-     * @param approach direction in which it moves past x: at an edge the side that
-     * comes nearer
-     * @param beside others that hide parts of its boundary; none: it is alone
+     * Distance and normal at a point. The distance is a convex function of the
+     * point, bounded below by its tangent along the normal.
+     * @param x a point (m)
+     * @param moved displacement of the obstacle since the start
+     * @param approach direction of its motion relative to x: at an edge, the
+     * approaching side is chosen
+     * @param beside others that cover parts of its boundary; none: it is alone
      */
     Nearest
     nearest(const dealii::Point<dim>     &x,
@@ -104,11 +108,11 @@ namespace geocone::GEOCONE_DIM
             const Neighbours             *beside = nullptr) const;
 
     /**
-     * The same of a point of a body that slides little: its distance along the normal
-     * of the place that it had at the start (m), in the frame of the obstacle.
-     * @param start where the point was at the start
-     * @param step how far the obstacle may pass it in a step (m)
-     * @param beside others, where they were at the start
+     * The same for a point of a body with small sliding: its distance along the
+     * normal at its initial position (m), in the frame of the obstacle.
+     * @param start initial position of the point
+     * @param step largest relative displacement in a step (m)
+     * @param beside others, at their initial positions
      */
     Nearest
     nearest_to_start(const dealii::Point<dim>     &start,
@@ -118,17 +122,17 @@ namespace geocone::GEOCONE_DIM
                      const Neighbours             *beside = nullptr) const;
 
     /**
-     * How far it is from another one at least, negative where they overlap (m); infinite
-     * for two half-planes. Of convex shapes one of their sides parts them, or in three
-     * dimensions a plane along an edge of each.
-     * @param moved,its_moved what both have moved since the start
+     * Lower bound of the distance to another obstacle, negative if they overlap
+     * (m); infinite for two half-planes. Convex shapes are separated by one of
+     * their sides or, in three dimensions, by a plane along an edge of each.
+     * @param moved,its_moved displacements of both since the start
      */
     double
     distance_to(const Obstacle    &other,
                 const RigidMotion &moved,
                 const RigidMotion &its_moved) const;
 
-    /** Its velocity at time t where it is driven, else 0. */
+    /** Velocity at time t if driven, otherwise 0. */
     RigidMotion
     velocity(const double t) const;
 
@@ -144,8 +148,8 @@ namespace geocone::GEOCONE_DIM
       return std::find(free.begin(), free.end(), true) != free.end();
     }
 
-    /** Mass (kg/m), or moment of inertia (kg m), of a motion; in three dimensions kg,
-     *  kg m^2. */
+    /** Mass (kg/m) or moment of inertia (kg m) of a motion; in three dimensions
+     *  kg, kg m^2. */
     double
     inertia(const unsigned int k) const
     {
@@ -156,15 +160,15 @@ namespace geocone::GEOCONE_DIM
     RigidMotion
     load(const double t) const;
 
-    /** Whether nodes keep the place on it that they first faced along its boundary: for
-     *  slips that are small beside it, as strains are. */
+    /** Whether nodes keep the position along its boundary that they first
+     *  faced: for slip that is small, like strains, compared with its size. */
     bool
     slides_little() const
     {
       return sliding == Sliding::small;
     }
 
-    /** Its greatest width, infinite for a half-plane (m). */
+    /** Greatest width, infinite for a half-plane (m). */
     double
     width() const
     {
@@ -177,7 +181,7 @@ namespace geocone::GEOCONE_DIM
               const dealii::Point<dim> &body_of_soil,
               const double              size) const;
 
-    /** A place that moves with it, which moments are about: the mean of a polygon's
+    /** Point moving with it, the reference of moments: the mean of a polygon's
      *  vertices, at the start. */
     dealii::Point<dim>
     centre() const
@@ -185,16 +189,17 @@ namespace geocone::GEOCONE_DIM
       return body->centre();
     }
 
-    /** @throws InputError if it moves otherwise than along y, the axis of a round body */
+    /** @throws InputError if it moves other than along y, the axis of
+     *  axisymmetric scenes */
     void
     check_round() const;
 
-    /** The full name of one of its parameters, for messages. */
+    /** Full name of one of its parameters, for messages. */
     std::string
     parameter(const std::string &entry) const;
 
-    /** @throws InputError: at the start the body is in it.
-     *  @param how deep, and what */
+    /** @throws InputError because it overlaps with the body at the start.
+     *  @param how deep, and with what */
     [[noreturn]] void
     refuse_overlap(const std::string &how) const;
 
@@ -202,7 +207,7 @@ namespace geocone::GEOCONE_DIM
     InterfaceLaw      law;
 
   private:
-    /** @name A place of its own frame, and where that has moved */
+    /** @name A point in its own frame, and its present position */
     /** @{ */
     dealii::Point<dim>
     own_place(const dealii::Point<dim> &x, const RigidMotion &moved) const;
@@ -210,7 +215,7 @@ namespace geocone::GEOCONE_DIM
     moved_place(const dealii::Point<dim> &x, const RigidMotion &moved) const;
     /** @} */
 
-    /** How far it reaches along a direction after a motion (m). */
+    /** Extent in a direction after a motion (m). */
     double
     reach(const dealii::Tensor<1, dim> &n, const RigidMotion &moved) const;
 
@@ -225,11 +230,11 @@ namespace geocone::GEOCONE_DIM
     static Choice<Shape>::Words
     shape_words();
 
-    /** Declares what drives it, and the forces and masses where it is free. */
+    /** Declares the driving motions, and the forces and masses of free ones. */
     void
     declare_motions();
 
-    /** Makes the shape. @throws InputError */
+    /** Creates the shape. @throws InputError */
     void
     make_shape();
 
@@ -248,7 +253,7 @@ namespace geocone::GEOCONE_DIM
     dealii::Tensor<1, dim>          normal = dealii::Point<dim>::unit_vector(1);
     double                          radius = 1., height = 1.;
     std::vector<dealii::Point<dim>> vertices;
-    std::unique_ptr<ObstacleShape>  body; ///< as prepare() makes it
+    std::unique_ptr<ObstacleShape>  body; ///< created by prepare()
 
     std::array<std::string, n_motions> velocity_texts, load_texts;
     std::array<Expression, n_motions>  velocities, loads;
@@ -262,15 +267,17 @@ namespace geocone::GEOCONE_DIM
   public:
     explicit Obstacles(const ParameterFile &file);
 
-    /** Of each obstacle the others; of one that slides little as they were at the start.
+    /** The neighbours of each obstacle; for obstacles with small sliding at the
+     *  start.
      *  @param moved since the start @param margin see Neighbours */
     std::vector<Neighbours>
     neighbours(const std::vector<RigidMotion> &moved,
                const double                    margin) const;
 
-    /** What obstacle is free and overlaps with which one, which it would not notice, as
-     *  obstacles touch bodies only; empty: none. @param moved since the start
-     *  @param margin that counts as none (m) */
+    /** Names of a free obstacle and of another one that it overlaps, which is
+     *  not prevented, as obstacles are in contact with bodies only; empty:
+     *  none. @param moved since the start @param margin overlap that counts as
+     *  none (m) */
     std::string
     overlap_of_free(const std::vector<RigidMotion> &moved,
                     const double                    margin) const;

@@ -18,8 +18,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The mechanical problem, before any discretisation: where the body is, what
-   * it is made of, what holds and loads it, and what is observed.
+   * The mechanical problem before any discretisation: body, materials,
+   * supports, loads and observed quantities.
    */
   class Scene
   {
@@ -30,28 +30,29 @@ namespace geocone::GEOCONE_DIM
     void
     prepare();
 
-    /** Names of what holds the body and can be observed: the conditions with
-     *  prescribed velocities, then the obstacles and the contacts. */
+    /** Names of all supports, which can be observed: conditions with prescribed
+     *  velocities, then obstacles and contacts. */
     std::vector<std::string>
     supports() const;
 
-    /** Whether something may touch. */
+    /** Whether contact is possible. */
     bool
     has_contact() const
     {
       return !obstacles.list.empty() || !contacts.list.empty();
     }
 
-    /** Prepares gravity, water, and the densities that follow from them. */
+    /** Prepares gravity, water, and the densities derived from them. */
     void
     prepare_weight();
 
-    /** Mass density of a material at x (kg/m^3), which is saturated below the water of
-     *  the start. */
+    /** Mass density of a material at x (kg/m^3), saturated below the initial
+     *  water table. */
     double
     density(const unsigned int material, const dealii::Point<dim> &x) const;
 
-    /** @throws InputError if something may touch, with what can have none of it */
+    /** @throws InputError if contact is possible. @param what does not support
+     *  it */
     void
     refuse_contact(const std::string &what, const std::string &remedy) const
     {
@@ -59,11 +60,13 @@ namespace geocone::GEOCONE_DIM
       contacts.refuse(what, remedy);
     }
 
-    /** What a record leaves as it is before the end of the loading; empty: none does. */
+    /** Warning for a time history that ends before the loading does and then
+     *  keeps a non-zero value, or empty. */
     std::string
     warn_of_records() const;
 
-    /** That loads and reactions lack the pressure of water; empty: there is none. */
+    /** Warning that loads and reactions do not include the water pressure;
+     *  empty without water. */
     std::string
     warn_of_effective_loads() const;
 
@@ -76,7 +79,7 @@ namespace geocone::GEOCONE_DIM
     InitialStress      initial_stress;
     BoundaryConditions dirichlet;
     BoundaryConditions tractions;
-    BoundaryConditions absorbing; ///< with velocities of waves that come in
+    BoundaryConditions absorbing; ///< with velocities of incoming waves
     Obstacles          obstacles;
     Contacts           contacts;
     LoadingProgramme   loading;

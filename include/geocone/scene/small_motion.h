@@ -13,17 +13,17 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** The vertices of faces, of each a list. */
+  /** Lists of the vertices of faces. */
   using VerticesOfFaces = std::vector<std::vector<dealii::Point<dim>>>;
 
   /**
-   * The time in which a part of the boundary that is pushed moves by a thousandth
-   * of its length (s): the least of all of them at their greatest speed, or 0 if
-   * nothing is pushed. The length is that of the part which the condition selects, and
-   * twice it where it ends in a plane of symmetry; of an obstacle its width, or that
-   * of the body.
+   * Time in which a loaded part of the boundary moves by a thousandth of its
+   * length (s): the minimum over all parts at their greatest speed, or 0 if
+   * there are none. The length is that of the part selected by the condition,
+   * doubled if it ends in a plane of symmetry; for an obstacle, its width or
+   * that of the body.
    * @param mesh its box, which is that of a body from a file
-   * @param faces_of the vertices of the faces on a condition's sides, of all ranks
+   * @param faces_of vertices of the faces on a condition's sides, of all ranks
    */
   double
   time_of_small_motion(

@@ -19,22 +19,23 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Water at rest below a piezometric line y = Y(x), alike along z in three dimensions,
-   * with the pressure
+   * Pore water at rest below a piezometric line y = Y(x), uniform along z in
+   * three dimensions, with the pressure
    *   u = gamma_w max(0, Y(x) - y),
-   * or with pressures that a file gives (PressureGrid), as of water that seeps.
-   * Stresses are effective ones, s' = s + u 1 (tension positive), and so
+   * or with pressures given by a file (PressureGrid), e.g. of seepage. Stresses
+   * are effective, s' = s + u 1 (tension positive), so that
    *   div s' + rho g - grad u = 0,
-   * rho the density of the soil with its water. Where the line runs above the
-   * ground the water outside presses with u on it: there, as on all of the free
-   * surface, the effective traction is zero, so that nothing else is to be added.
+   * where rho is the density of the soil including its water. Where the line
+   * lies above the ground, free water loads the surface with u: there, as on
+   * the complete free surface, the effective traction is zero, so that no
+   * further load is needed.
    */
   class Water : public dealii::ParameterAcceptor
   {
   public:
     explicit Water(const ParameterFile &file);
 
-    /** Checks the parameters. @param geometry of the body, which is prepared
+    /** Checks the parameters. @param geometry of the body, already prepared
      *  @throws InputError */
     void
     prepare(const Gravity &gravity, const Geometry &geometry);
@@ -45,52 +46,54 @@ namespace geocone::GEOCONE_DIM
       return !table.empty() || grid.has_value();
     }
 
-    /** Whether its table is level. */
+    /** Whether the water table is level. */
     bool
     is_level() const;
 
-    /** Whether a file gives the pressures, whose gradient is not constant anywhere. */
+    /** Whether a file gives the pressures, whose gradient is not piecewise
+     *  constant. */
     bool
     is_of_grid() const
     {
       return grid.has_value();
     }
 
-    /** Takes the lines of stages. @throws InputError where there is no line before them,
-     *  or for one that is none */
+    /** Reads the lines of stages. @throws InputError if there is no initial
+     *  line, or a line is invalid */
     void
     prepare_stages(const LoadingProgramme &loading);
 
-    /** u (Pa) at the start. */
+    /** Initial pore pressure u (Pa). */
     double
     pressure(const dealii::Point<dim> &x) const;
 
-    /** -grad u (N/m^3) of one of the lines: the first is the start's, then those of
-     *  stages. */
+    /** Seepage force -grad u (N/m^3) of one of the lines: the initial one, then
+     *  those of stages. */
     dealii::Tensor<1, dim>
     force(const dealii::Point<dim> &x, const std::size_t line = 0) const;
 
-    /** The part of each line in the pressures at time t, whose sum is 1. */
+    /** Weight of each line in the pressures at time t; they sum up to 1. */
     std::vector<double>
     parts(const double t) const;
 
     /**
-     * The lines of the plane across which the force jumps, and at which u has a kink: that of the
-     * table, and upright ones below its corners; none of pressures from a file.
+     * Lines of the plane across which the force jumps, where u has a kink: the
+     * water table, and vertical lines below its corners; none for pressures
+     * from a file.
      * @param lower,upper corners of a box around the body
      */
     std::vector<std::array<dealii::Point<dim>, 2>>
     lines(const dealii::Point<dim> &lower,
           const dealii::Point<dim> &upper) const;
 
-    /** @throws InputError if there is water, with what knows none */
+    /** @throws InputError if there is water. @param what does not support it */
     void
     refuse(const std::string &what, const std::string &remedy) const;
 
   private:
     using Table = std::vector<dealii::Point<2>>; ///< x, y
 
-    /** @throws InputError if x does not grow */
+    /** @throws InputError unless x increases */
     static void
     check(const Table &table, const std::string &parameter);
 
@@ -109,7 +112,7 @@ namespace geocone::GEOCONE_DIM
     std::optional<PressureGrid> grid;
     Table                       table;
 
-    /** A line that a stage leads to. */
+    /** Piezometric line at the end of a stage. */
     struct Later
     {
       double begin, end; ///< of the stage (s)
