@@ -273,7 +273,7 @@ namespace geocone::GEOCONE_DIM
   std::string
   ElementTest::progress(const Place &place) const
   {
-    // An increment takes microseconds.
+    // Increments take microseconds.
     return place.step % 100000 == 0 ? path.list[place.stage]->name : "";
   }
 

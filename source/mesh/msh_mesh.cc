@@ -143,8 +143,8 @@ namespace geocone::GEOCONE_DIM
       std::vector<std::set<unsigned int>> materials; ///< at a vertex
     };
 
-    /** In three dimensions: coincident vertices, which leave a gap between
-     *  cells. */
+    /** Rejects coincident vertices in three dimensions, which leave a gap
+     *  between cells. */
     void
     check_double_nodes(const CoarseMesh    &mesh,
                        const std::string   &what,

@@ -125,7 +125,7 @@ namespace geocone::GEOCONE_DIM
     constexpr unsigned int most     = 100;
     Tensor<1, dim>         way      = to[0] - from[0];
     Simplex                simplex  = {way};
-    double                 size     = 0.; // of what is subtracted
+    double                 size     = 0.; // of the vectors subtracted
     for (const auto *points : {&from, &to})
       for (const Point<dim> &x : *points)
         size = std::max(size, x.distance(from[0]));

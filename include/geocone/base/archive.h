@@ -88,7 +88,7 @@ namespace geocone
     std::string       names;
     unsigned long     checksum = 0;
 
-    /** On the first rank only, or on all ranks while reading. */
+    /** File of the first rank or, while reading, of all ranks. */
     std::unique_ptr<Hdf5File> file;
 
     /** The arrays of an archive without a file. */

@@ -23,7 +23,7 @@ namespace geocone
   class NamedList : public dealii::ParameterAcceptor
   {
   public:
-    /** In the order of their names in the file. */
+    /** Members in the order of their names in the file. */
     std::vector<std::unique_ptr<Member>> list;
 
     const std::vector<std::string> &

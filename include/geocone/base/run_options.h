@@ -13,7 +13,7 @@ namespace geocone
   {
     std::string name;           ///< of the parameter file, no extension
     std::string parameter_file; ///< its absolute name
-    std::string folder; ///< of the results; empty: that of the parameters
+    std::string folder; ///< of the results; empty: that of the parameter file
     bool        dry_run  = false; ///< check and estimate only
     bool        picture  = false; ///< of a dry run: write the model for drawing
     bool        force    = false; ///< run even if too large for the machine

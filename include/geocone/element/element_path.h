@@ -88,7 +88,7 @@ namespace geocone::GEOCONE_DIM
                           {"undrained", Kind::undrained},
                           {"simple shear", Kind::simple_shear}}};
 
-    /** In the order of the components. */
+    /** Axes in the order of the components. */
     enum class Axis
     {
       xx,

@@ -96,7 +96,7 @@ namespace geocone::GEOCONE_DIM
     unsigned long long limited  = 0; ///< states limited to keep a stiffness
     unsigned int       most     = 0; ///< substeps of one point in one step
 
-    /** For checkpoints; Row: StateRow. */
+    /** Variables for checkpoints; Row: StateRow. */
     template <typename Row>
     void
     state(Row &row)

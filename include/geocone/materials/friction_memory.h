@@ -12,9 +12,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Relaxation time tau in which the strength of a soil follows the normal
-   * stress (doc/theory/friction_memory.md): a history variable p obeys
-   * dp/dt = (s_n - p)/tau, and an implicit step h has
+   * Friction with memory, a regularised law: the strength of a soil follows the
+   * normal stress with the relaxation time tau (doc/theory/friction_memory.md).
+   * A history variable p obeys dp/dt = (s_n - p)/tau, and an implicit step h
+   * has
    *   p = lambda p_n + (1 - lambda) s_n,   lambda = tau/(h + tau).
    */
   class FrictionMemory

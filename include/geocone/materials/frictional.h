@@ -112,7 +112,8 @@ namespace geocone::GEOCONE_DIM
       this->memory.declare(*this);
     }
 
-    /** For laws with phi = theta = 0, which do not declare the angles.
+    /** Constructor of laws with phi = theta = 0, which do not declare the
+     *  angles.
      *  @param cohesion documentation of their parameter */
     Frictional(const std::string &section, const std::string &cohesion)
       : Remembering(section)

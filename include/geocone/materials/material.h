@@ -272,9 +272,8 @@ namespace geocone::GEOCONE_DIM
       return std::nullopt;
     }
 
-    /** For spatial laws, the work per volume (J/m^3) of plastic strain at a
-     *  stress in excess of that at the strength without memory; can be
-     *  negative.
+    /** Work per volume (J/m^3) of plastic strain at a stress, in excess of that
+     *  at the strength without memory, for spatial laws; can be negative.
      *  @param history of the point */
     virtual double
     power_beyond_strength(const SpatialMandel & /*plastic_strain*/,

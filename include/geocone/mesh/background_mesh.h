@@ -60,8 +60,8 @@ namespace geocone::GEOCONE_DIM
     Expected
     expect(const Scene &scene, const Method &method);
 
-    /** For a mesh "from the bounds": sets the function that computes its sizes
-     *  by a limit analysis, which this module does not include. To be called
+    /** Sets the function that computes the sizes of a mesh "from the bounds" by
+     *  a limit analysis, which this module does not include. To be called
      *  before prepare(). Collective. @throws InputError */
     using SizesOf = std::function<CellSizes(const MeshParameters &)>;
     void

@@ -41,7 +41,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<std::array<double, 3>>             sizes; ///< at the corners
   };
 
-  /** As unstructured_mesh(), with prescribed sizes. Collective. */
+  /** Unstructured mesh with prescribed sizes, otherwise as unstructured_mesh().
+   *  Collective. */
   CoarseMesh
   mesh_with_sizes(const MeshParameters &parameters,
                   const Regions        &regions,

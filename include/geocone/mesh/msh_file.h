@@ -87,7 +87,7 @@ namespace geocone::GEOCONE_DIM
     /** The physical groups of faces: curves, or surfaces. */
     std::set<int> face_groups;
 
-    /** Their names by number, and those of groups of cells. */
+    /** Names of face groups by number, and those of cell groups. */
     std::map<int, std::string> face_names, cell_names;
 
     template <class Archive>

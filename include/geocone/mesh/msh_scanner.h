@@ -102,7 +102,7 @@ namespace geocone::GEOCONE_DIM
       return text.substr(last, position - last);
     }
 
-    /** Goes to the start of the next line. */
+    /** Skips to the start of the next line. */
     void
     end_line()
     {

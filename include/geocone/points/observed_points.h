@@ -75,7 +75,8 @@ namespace geocone::GEOCONE_DIM
       unsigned int       id     = 0;
     };
 
-    /** Sets the ids. @param own candidates of this rank, one for each place */
+    /** Sets the ids. @param own candidates of this rank, one for each
+     *  position */
     void
     choose(const Scene                                 &scene,
            const std::vector<std::optional<Candidate>> &own);

@@ -58,7 +58,7 @@ namespace geocone::GEOCONE_DIM
     bool
     has(const Column column) const;
 
-    /** Up to @p n further seeds; none at the end of the file. */
+    /** Reads up to @p n further seeds; none at the end of the file. */
     std::vector<Seed>
     read(const std::size_t n);
 

@@ -75,9 +75,8 @@ namespace geocone
       return number;
     }
 
-    /** For methods in which bodies without a contact could penetrate each
-     *  other.
-     *  @throws InputError if two bodies have none */
+    /** Requires a contact for each pair of bodies, in methods in which others
+     *  could penetrate each other. @throws InputError if a pair has none */
     void
     check_all_pairs() const;
 

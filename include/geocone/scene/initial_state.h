@@ -142,7 +142,7 @@ namespace geocone::GEOCONE_DIM
     double                            surface   = 0.;
     double                            surcharge = 0.;
     double                            g         = 0.;
-    const Water                      *water = nullptr; ///< where there is some
+    const Water                      *water = nullptr; ///< null without water
     /** Stage that adds each material, counted from 0, or -1. */
     std::vector<int> stage_of;
     double           top = 0.; ///< of the body (m)

@@ -33,7 +33,7 @@ namespace geocone
     void
     check(const dealii::ParameterAcceptor &section) const;
 
-    /** For particles. @param section with a slash @throws InputError for
+    /** Check for particles. @param section with a slash @throws InputError for
      *  strengths per area */
     void
     check_without_area(const std::string &section) const;

@@ -147,7 +147,7 @@ namespace geocone::GEOCONE_DIM
     double largest_unbalanced_force = 0.;
     double largest_kinetic_energy   = 0.;
 
-    /** At the beginning: zero velocity; history computed anew from the
+    /** Resets at the beginning: zero velocity; history computed anew from the
      *  stress. */
     bool reset_velocity = false;
     bool reset_history  = false;

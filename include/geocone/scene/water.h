@@ -107,7 +107,7 @@ namespace geocone::GEOCONE_DIM
               const dealii::Point<dim>                       &upper,
               std::vector<std::array<dealii::Point<dim>, 2>> &all) const;
 
-    const std::string           folder; ///< what the file is relative to
+    const std::string           folder; ///< to which the file is relative
     std::string                 file;
     std::optional<PressureGrid> grid;
     Table                       table;

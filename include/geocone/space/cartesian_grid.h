@@ -47,8 +47,8 @@ namespace geocone::GEOCONE_DIM
       /** Kind of each interval: those near the ends differ from the others. */
       std::vector<unsigned char> type;
 
-      /** For each kind, p + 1 vectors of 4 coefficients of the values, and p of
-       *  the derivatives (1/m), both in powers of the position in the
+      /** Coefficients for each kind: p + 1 vectors of 4 for the values, and p
+       *  for the derivatives (1/m), both in powers of the position in the
        *  interval. */
       std::vector<double> coefficients;
 

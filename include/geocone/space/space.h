@@ -216,8 +216,8 @@ namespace geocone::GEOCONE_DIM
       return positions;
     }
 
-    /** For splines, the integrals of the functions of the locally known nodes
-     *  (m^2). */
+    /** Integrals of the functions of the locally known nodes (m^2), for
+     *  splines. */
     std::vector<double>
     spline_integrals() const;
 
