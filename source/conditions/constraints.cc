@@ -24,11 +24,12 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Two conditions whose directions differ by less hold one (10 degrees). */
+    /** Conditions whose directions differ by less (10 degrees) prescribe one
+     *  direction. */
     const double least_sine = std::sin(radians(10.));
 
-    /** Sides of one condition that meet in a sharper corner (60 degrees) have no
-     *  common normal there: |sum of n dA| over the sum of dA. */
+    /** Faces of one condition that meet in a sharper corner (60 degrees) have
+     *  no common normal there: |sum of n dA| over the sum of dA. */
     const double least_mean_normal = std::cos(radians(30.));
   } // namespace
 
@@ -40,7 +41,7 @@ namespace geocone::GEOCONE_DIM
     , comm(mesh.triangulation().get_communicator())
   {
     node_positions = &space.node_positions();
-    // Per local dof the conditions that prescribe it; the last one holds it.
+    // Conditions that prescribe each local dof; the last one determines it.
     const auto &list = scene.dirichlet.list;
     std::map<unsigned int, std::vector<unsigned int>> of_dof;
     std::vector<std::vector<unsigned int>>            nodes(list.size());
@@ -48,7 +49,7 @@ namespace geocone::GEOCONE_DIM
       {
         owned_nodes.emplace_back();
         n_nodes.push_back(0);
-        // The least coordinates, and the largest with their signs changed.
+        // Minima of the coordinates and of their negatives.
         std::array<double, 2 * dim> bounds;
         bounds.fill(1e300);
         const auto extend = [&](const Point<dim> &x) {
@@ -104,7 +105,7 @@ namespace geocone::GEOCONE_DIM
                           const std::vector<unsigned int> &nodes) const
   {
     std::map<unsigned int, Tensor<1, dim>> normals;
-    // The sums of N_i n dA, and of N_i dA.
+    // Sums of N_i n dA and of N_i dA.
     Vector normal(space.partitioner()), size(space.partitioner());
     for_each_face_point(
       mesh,
@@ -153,7 +154,7 @@ namespace geocone::GEOCONE_DIM
     Oblique held;
     held.node = node;
 
-    std::vector<Tensor<1, dim>> axes; // of the same span
+    std::vector<Tensor<1, dim>> axes; // with the same span
     const auto                  rest_of = [&axes](Tensor<1, dim> d) {
       for (const Tensor<1, dim> &axis : axes)
         d -= (d * axis) * axis;
@@ -223,7 +224,7 @@ namespace geocone::GEOCONE_DIM
   Constraints::number_shared(
     const std::map<unsigned int, std::vector<unsigned int>> &of_dof)
   {
-    // Of each shared component its dof and the conditions, on all ranks.
+    // Dof and conditions of each shared component, on all ranks.
     std::vector<std::vector<types::global_dof_index>> own;
     for (const auto &[dof, conditions] : of_dof)
       if (conditions.size() > 1)
@@ -253,7 +254,7 @@ namespace geocone::GEOCONE_DIM
     if (shared.empty())
       return;
 
-    // A face belongs to the last condition that holds the component there.
+    // A face belongs to the last condition that prescribes the component there.
     const auto                               &list = scene.dirichlet.list;
     std::vector<std::set<types::boundary_id>> ids(list.size());
     std::vector<double>                       sizes(n_shares, 0.);
@@ -316,7 +317,7 @@ namespace geocone::GEOCONE_DIM
   void
   Constraints::number_unknowns(const Vector *mass)
   {
-    // A function that has but a rounding's share of the mass moves nothing.
+    // A mass within rounding is no mass.
     const double       least   = mass ? 1e-14 * mass->linfty_norm() : 0.;
     const unsigned int n_local = space.n_local_nodes();
     free_row.assign(dim * n_local, 0);
@@ -370,14 +371,14 @@ namespace geocone::GEOCONE_DIM
     if (space.degree() == 1 || !space.is_non_negative())
       return "";
     std::string names;
-    // The end, when formulas have come to all that they are.
+    // At the end, where time functions have their final values.
     const double t    = scene.loading.duration();
     const auto  &list = scene.dirichlet.list;
     for (unsigned int c = 0; c < list.size(); ++c)
       {
         if (list[c]->moves())
           continue;
-        // Half-way between any two places a linear value is the mean of both.
+        // A linear function has at each midpoint the mean of both ends.
         double largest = 0., bend = 0.;
         for (unsigned int d = 0; d < dim; ++d)
           for (std::size_t i = 1;
@@ -430,8 +431,8 @@ namespace geocone::GEOCONE_DIM
         if (!box)
           continue;
         const auto ids = mesh.side_ids(*condition);
-        // The least coordinates, and the largest with their signs changed: of the part of
-        // the sides that is in the box, and of the nodes.
+        // Minima of the coordinates and of their negatives: of the part of the
+        // boundary in the box, and of the nodes.
         std::array<double, 4 * dim> ends;
         ends.fill(std::numeric_limits<double>::max());
         const auto extend = [&](const unsigned int first, const Point<dim> &x) {
@@ -495,9 +496,10 @@ namespace geocone::GEOCONE_DIM
         scene.dirichlet.list[p.condition]->value(p.component, p.place, t);
     for (const Oblique &o : oblique)
       {
-        // One by one, as d_i is of the first axes up to i.
+        // Forward substitution, as d_i is a combination of the first axes up to
+        // i.
         const auto    &held = o.directions;
-        Tensor<1, dim> along; // of the axes
+        Tensor<1, dim> along; // components along the axes
         for (unsigned int i = 0; i < held.size(); ++i)
           {
             const Tensor<1, dim> d = o.axes * held[i].d;
@@ -597,7 +599,8 @@ namespace geocone::GEOCONE_DIM
                       const double               t,
                       std::vector<Reaction>     &result) const
   {
-    // Those that ask for another velocity than the node has bear nothing.
+    // Conditions that prescribe another velocity than the node has carry no
+    // force.
     std::vector<double> size(among.size.size(), 0.);
     double              whole = 0., left = force;
     const double value_n = value(node.condition, node.component, node.node, t);
@@ -654,9 +657,9 @@ namespace geocone::GEOCONE_DIM
           continue;
         const auto    &held  = o.directions;
         Tensor<1, dim> force = taken(residual.begin() + dim * o.node);
-        if (held.size() == dim) // others have it along their axes
+        if (held.size() == dim) // the others have it along their axes
           force = o.axes * force;
-        // f = sum_i along_i d_i, the last one first.
+        // f = sum_i along_i d_i, by back substitution.
         for (unsigned int i = held.size(); i-- > 0;)
           {
             const Tensor<1, dim> d     = o.axes * held[i].d;

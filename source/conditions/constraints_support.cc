@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Whether conditions hold the body: each of its parts against rigid motions, a round one
-// on its axis.
+// Checks that conditions support each part of the body against rigid motions,
+// and nodes of axisymmetric bodies on the axis.
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/base/over_ranks.h>
@@ -19,13 +19,13 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** The connected parts of a body, by its nodes. */
+    /** Connected parts of a body, by its nodes. */
     struct Parts
     {
       std::vector<int>        of_node; ///< per owned node, or -1
       std::vector<double>     n_nodes;
-      std::vector<Point<dim>> centre; ///< mean of the nodes
-      std::vector<double>     size;   ///< root mean square distance to it
+      std::vector<Point<dim>> centre; ///< mean of its nodes
+      std::vector<double>     size;   ///< root mean square radius
     };
 
     Parts
@@ -40,7 +40,7 @@ namespace geocone::GEOCONE_DIM
       for (const unsigned int part : of_vertex)
         n_parts = std::max(n_parts, part + 1);
 
-      // Of a node all cells may be on other ranks; -1 where it has none.
+      // All cells of a node may be on other ranks; -1 if it has none.
       Vector found(space.partitioner());
       for (unsigned int i = 0; i < dim * space.n_local_nodes(); ++i)
         found.local_element(i) = -1.;
@@ -83,13 +83,14 @@ namespace geocone::GEOCONE_DIM
       return parts;
     }
 
-    /** Rigid velocities along the axes, and rotations w x (x - x_c)/size about z or
-     *  about x, y and z. */
+    /** Rigid velocities along the axes, and rotations w x (x - x_c)/size about
+     *  z or about x, y and z. */
     constexpr unsigned int n_rigid = dim + n_rotations;
     using Rigid                    = Eigen::Matrix<double, n_rigid, 1>;
     using Gram                     = Eigen::Matrix<double, n_rigid, n_rigid>;
 
-    /** The velocity along d, at r from the centre of its part, of all of them. */
+    /** Component along d of each rigid velocity, at r from the centre of its
+     *  part. */
     Rigid
     rigid_velocities(const Tensor<1, dim> &d,
                      const Tensor<1, dim> &r,
@@ -106,7 +107,7 @@ namespace geocone::GEOCONE_DIM
       return row;
     }
 
-    /** A free motion of a part around its centre, in words. */
+    /** Description of a free rigid motion of a part around its centre. */
     std::string
     text_of_motion(const Rigid &m, const Point<dim> &centre, const double size)
     {
@@ -123,7 +124,7 @@ namespace geocone::GEOCONE_DIM
             }
           return "translate along (" + text_of_place(along) + ")" + only;
         }
-      // About the point that does not move, in the plane of the fastest rotation.
+      // Rotation about the fixed point in the plane of the fastest rotation.
       unsigned int k = 0;
       for (unsigned int i = 1; i < n_rotations; ++i)
         if (std::abs(m[dim + i]) > std::abs(m[dim + k]))
@@ -194,7 +195,7 @@ namespace geocone::GEOCONE_DIM
     sum_over_ranks(gram, comm);
     for (unsigned int p = 0; p < n_parts; ++p)
       {
-        // Of a round body only its motion along the axis is rigid.
+        // An axisymmetric body has one rigid motion, along its axis.
         if (mesh.is_axisymmetric())
           {
             of_part(p)(0, 0) += 1.;

@@ -9,14 +9,15 @@ namespace geocone::GEOCONE_DIM
 {
   namespace
   {
-    /** Of each local node those that share a cell, a group or a link with it, in order. */
+    /** Sorted local nodes that share a cell, a group or a link with each local
+     *  node. */
     std::vector<std::vector<unsigned int>>
     nodes_that_meet(const MaterialPoints &points,
                     const unsigned int    n_local_nodes,
                     const std::vector<std::array<unsigned int, 3>> &groups,
                     const std::vector<std::vector<unsigned int>>   &links)
     {
-      // Which cells a node has, then which nodes it meets there.
+      // First the cells of each node, then the nodes of these cells.
       const unsigned int                     n = points.n_nodes;
       std::vector<std::vector<unsigned int>> neighbours(n_local_nodes);
       for (unsigned int c = 0; c < points.n_cells(); ++c)
@@ -31,7 +32,7 @@ namespace geocone::GEOCONE_DIM
           neighbours[node].insert(
             neighbours[node].end(), group.begin(), group.end());
       for (unsigned int node = 0; node < n_local_nodes; ++node)
-        // Of an owned node all points may be on other ranks.
+        // All points of an owned node may be on other ranks.
         neighbours[node].push_back(node);
       for (const auto &link : links)
         for (auto other = link.begin() + 1; other != link.end(); ++other)
@@ -91,8 +92,7 @@ namespace geocone::GEOCONE_DIM
           }
     matrix.value.assign(matrix.column.size(), 0.);
 
-    // The columns of a node's components stand side by side: one search finds
-    // both.
+    // The columns of a node's components are adjacent: one search finds all.
     places_of_cell =
       std::size_t(n_dofs) * (one_triangle ? n_dofs + 1 : 2 * n_dofs) / 2;
     places.reserve(points.n_cells() * places_of_cell);

@@ -17,14 +17,15 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** A place as seen from a panel of the body's border. */
+    /** Position relative to a panel of the body's boundary. */
     struct Seen
     {
-      std::array<double, dim - 1> along;  ///< from 0 to 1 beside the panel
+      std::array<double, dim - 1> along;  ///< 0 to 1 within the panel
       double                      beyond; ///< outside the body (m)
       double                      length; ///< of its shortest edge (m)
 
-      /** Not far behind: there another part of the body may be. */
+      /** Whether it is only a short distance behind: farther away may be
+       *  another part of the body. */
       bool
       is_close_behind() const
       {
@@ -61,7 +62,7 @@ namespace geocone::GEOCONE_DIM
       return seen;
     }
 
-    /** Whether a condition gives the velocity across a panel. */
+    /** Whether a condition prescribes the normal velocity of a panel. */
     bool
     holds_normal(const BoundaryCondition &condition, const SidePart &panel)
     {
@@ -84,7 +85,7 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int c = 0; c < list.size(); ++c)
       if (list[c]->moves())
         {
-          std::vector<SidePart> panels = // checks the names, too
+          std::vector<SidePart> panels = // also checks the names
             panels_of_body(*list[c], scene.geometry);
           if (list[c]->holds() != Imposition::On::side)
             continue;
@@ -163,16 +164,16 @@ namespace geocone::GEOCONE_DIM
                                  const double             t,
                                  Vector                  &force) const
   {
-    // Dead loads are per size at the start.
+    // Dead loads are per initial size.
     Tensor<1, dim> f;
     for (unsigned int d = 0; d < dim; ++d)
       if (const auto &traction = load.components[d])
         f[d] = traction->value(point.position, t) * size;
-    // Pressure acts on the side as it is now.
+    // Pressure acts on the current boundary.
     if (load.normal || load.tangential)
       f += area.norm() *
            load.vector_on_side(point.position, area / area.norm(), t);
-    f *= mesh.measure(point.position); // around an axis that of now
+    f *= mesh.measure(point.position); // around an axis, current radius
     for (unsigned int i = 0; i < point.nodes.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
         force.local_element(dim * space.local_node(point.nodes[i]) + d) +=
@@ -247,8 +248,8 @@ namespace geocone::GEOCONE_DIM
           for (const SidePart &segment : parts_of(panel, n))
             {
               part_in_mesh.push_back(0.);
-              // Of a round body the mean is that over the area; on the axis there is
-              // none.
+              // In axisymmetric problems the mean is over the area; there is
+              // none on the axis.
               middles.push_back(segment.middle());
               const double mean_measure = mesh.measure(middles.back());
               for (const BoundaryPoint &point : points_on(mesh, space, segment))

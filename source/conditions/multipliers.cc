@@ -20,14 +20,15 @@ namespace geocone::GEOCONE_DIM
   namespace
   {
     /**
-     * Rows whose pivot is below this part of the largest one depend on the
-     * others, and what they ask for must agree with them to this part of the
-     * largest velocity. Kept, they would be fulfilled to the last digit, by
+     * Relative pivot below which rows are dependent on the others; their
+     * targets must then agree with them to this fraction of the largest
+     * velocity. Otherwise they would be satisfied to the last digit, by
      * multipliers as large as their pivots are small.
      */
     constexpr double rank_tolerance = 1e-4;
 
-    /** A row with less than this part on free functions is on prescribed ones. */
+    /** Fraction on free functions below which a row consists of prescribed
+     *  dofs. */
     constexpr double least_free_part = 1e-6;
 
     VectorXd
@@ -37,8 +38,8 @@ namespace geocone::GEOCONE_DIM
       return x;
     }
 
-    /** A row as the ranks give it: its coefficients by dof, its right-hand side q, and
-     *  the offset that q contains. */
+    /** Assembled row of all ranks: coefficients by dof, right-hand side q, and
+     *  the offset contained in q. */
     struct GivenRow
     {
       std::map<types::global_dof_index, double> coefficients;
@@ -48,11 +49,11 @@ namespace geocone::GEOCONE_DIM
     /** Values of 'node' that mark contributions to the right-hand side. */
     constexpr double is_target = -1., is_offset = -2.;
 
-    /** By condition, component and number. */
+    /** Rows by condition, component and number. */
     using GivenRows = std::map<std::array<unsigned int, 3>, GivenRow>;
 
-    /** The rows that all ranks have given, each the sum of their parts.
-     *  @param contributions of this rank, as Multipliers has them. Collective. */
+    /** Sums the contributions of all ranks to each row. Collective.
+     *  @param contributions of this rank, as in Multipliers */
     GivenRows
     rows_of_all_ranks(const std::vector<std::array<double, 5>> &contributions,
                       const MPI_Comm                            comm)
@@ -79,8 +80,8 @@ namespace geocone::GEOCONE_DIM
       return rows;
     }
 
-    /** The dofs that rows touch, each with its column, and what it is as its owner
-     *  knows: free, prescribed (with its value), or without mass. */
+    /** Dofs involved in rows, each with its column and its status on the owning
+     *  rank: free, prescribed (with its value), or without mass. */
     struct TouchedDofs
     {
       std::map<types::global_dof_index, unsigned int> column;
@@ -114,13 +115,13 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
-    /** The rows, in order, as equations for the free dofs. */
+    /** Rows, in order, as equations for the free dofs. */
     struct Equations
     {
       std::vector<Multipliers::Key> keys;
       MatrixXd                      matrix; ///< columns of TouchedDofs
       VectorXd                      asked;  ///< right-hand sides as given
-      VectorXd target;     ///< less what prescribed dofs contribute
+      VectorXd target;     ///< less contributions of prescribed dofs
       double   scale = 0.; ///< of the velocities (m/s)
 
       Equations(const unsigned int n_rows, const unsigned int n_dofs)
@@ -129,8 +130,8 @@ namespace geocone::GEOCONE_DIM
         , target(n_rows)
       {}
 
-      /** @return the sum of its coefficients, or nothing if no function with mass is
-       *  in it */
+      /** Adds a row. @return the sum of its coefficients, or nothing if it
+       *  contains no function with mass */
       std::optional<double>
       add(const Multipliers::Key &key,
           const GivenRow         &row,
@@ -152,7 +153,7 @@ namespace geocone::GEOCONE_DIM
         keys.push_back(key);
         asked[r] = target[r] = row.target;
         scale                = std::max(scale, std::abs(row.target));
-        // On prescribed nodes but for a rounding.
+        // On prescribed nodes up to rounding.
         const bool is_fixed = free < least_free_part * supported;
         for (const auto &[dof, coefficient] : row.coefficients)
           {
@@ -170,7 +171,7 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
-    /** The numbers of rows that do not depend on each other, in order. */
+    /** Sorted numbers of linearly independent rows. */
     std::vector<int>
     independent_rows(const MatrixXd &matrix)
     {
@@ -182,8 +183,8 @@ namespace geocone::GEOCONE_DIM
       return kept;
     }
 
-    /** The first of the other rows that, as a combination of those kept, asks for
-     *  something else. @param independent,q the rows and targets of those kept */
+    /** First dependent row whose target contradicts the rows kept.
+     *  @param independent,q rows and targets kept */
     std::optional<Multipliers::Refusal>
     disagreement(const Equations        &all,
                  const std::vector<int> &kept,
@@ -316,8 +317,8 @@ namespace geocone::GEOCONE_DIM
                          const Vector   &prescribed)
   {
     comm = force.get_mpi_communicator();
-    // The sums of the sizes, of those that can do work, and what prescribed
-    // velocities let them do.
+    // Sums of magnitudes, of those that can do work, and of the work of
+    // prescribed velocities.
     std::array<double, 3> sums = {};
     for (unsigned int i = 0; i < force.locally_owned_size(); i += dim)
       {
@@ -338,7 +339,7 @@ namespace geocone::GEOCONE_DIM
       return false;
     sum_of_loads = sums[0];
 
-    // The row in the columns of the others, and new columns.
+    // The row in existing columns, and new columns.
     std::vector<int> column(force.locally_owned_size(), -1);
     for (unsigned int j = 0; j < touched.size(); ++j)
       column[touched[j]] = j;
@@ -357,7 +358,7 @@ namespace geocone::GEOCONE_DIM
     q.conservativeResize(n + 1);
     q[n] = velocity - sums[2] / sum_of_loads;
     row_sum.conservativeResize(n + 1);
-    row_sum[n] = 0.; // no component of a condition's
+    row_sum[n] = 0.; // belongs to no component of a condition
     keys.push_back({numbers::invalid_unsigned_int, 0, 0});
     ++given;
     return true;
@@ -391,8 +392,8 @@ namespace geocone::GEOCONE_DIM
   Multipliers::Factors
   Multipliers::factorise(const Vector *scale) const
   {
-    // By Householder reflections on each rank, U_r, and once more for the U_r of
-    // all ranks one below the other.
+    // Householder reflections yield U_r on each rank, then act on the stacked
+    // U_r of all ranks.
     Factors            result;
     const unsigned int n = H.rows(), m = touched.size(), k = std::min(n, m);
     result.root.resize(m);
@@ -507,8 +508,8 @@ namespace geocone::GEOCONE_DIM
     dealii::Utilities::MPI::sum(light, comm, light);
     LightShare   share;
     unsigned int worst = 0;
-    // What is held along one axis and pushed along the other is compared with the
-    // push.
+    // Components prescribed as zero along one axis and nonzero along the other
+    // are compared with the nonzero velocity.
     for (unsigned int r = 0; r < n; ++r)
       {
         const unsigned int c = keys[r].condition;

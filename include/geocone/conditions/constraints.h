@@ -16,27 +16,30 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Prescribed velocities of nodes. These dofs are eliminated; the others, the
-   * free dofs, are the unknowns. A multiplier, the reaction of the support on
-   * the body, is the residual in the row of its dof. Linear constraints on free
-   * dofs stand beside them, as rows with multipliers.
+   * Prescribed velocities of nodes. Their dofs are eliminated; the others, the
+   * free dofs, are the unknowns. The reaction of the support on the body is the
+   * residual in the row of the dof. Linear constraints on free dofs are
+   * additional rows with multipliers.
    *
-   * A normal velocity turns the dofs of its nodes to the normal n of the side,
-   * the mean over its faces at the node weighted by int N_i, or, where another
-   * condition holds another direction, prescribes both of their dofs.
+   * A normal velocity rotates the dofs of its nodes to the normal n of the
+   * boundary, the mean over its faces at the node weighted by int N_i. If
+   * another condition prescribes another direction, both dofs of the node are
+   * prescribed.
    *
-   * Where several conditions prescribe the same component of a node, the last of
-   * them in the list holds it. Those whose value there is the same share its
-   * force: each bears what the stress beside it exerts on its own faces,
+   * If several conditions prescribe the same component of a node, the last of
+   * them in the list determines its value. Conditions with the same value there
+   * share the nodal force: each carries the traction of the adjacent stress on
+   * its own faces,
    *   f_c = int_c N_i (s n) dA,  s the mean over each cell,
-   * and of what is left a part that goes as int_c N_i dA. So each nodal force
-   * counts once, and a support has no part of what another one beside it bears.
+   * and a part of the remainder proportional to int_c N_i dA. Hence each nodal
+   * force counts once, and no support reports the load carried by an adjacent
+   * one.
    */
   class Constraints : public Unknowns
   {
   public:
     /**
-     * Takes the conditions that are imposed on nodes.
+     * Collects the conditions imposed on nodes.
      * @throws InputError if one of them selects no node
      */
     Constraints(const Scene          &scene,
@@ -44,8 +47,8 @@ namespace geocone::GEOCONE_DIM
                 const Space          &space);
 
     /**
-     * Checks that the prescribed dofs hold every connected part of the body
-     * against translation and rotation, which a body without inertia needs.
+     * Checks that the prescribed dofs support every connected part of the body
+     * against translation and rotation, as required without inertia.
      * @param points in the cells of the body
      * @throws InputError naming the free rigid motion and the dofs
      */
@@ -54,23 +57,25 @@ namespace geocone::GEOCONE_DIM
                   const Space          &space,
                   const MaterialPoints &points) const;
 
-    /** @throws InputError if a node on the axis of a round body can leave it */
+    /** @throws InputError if a node of an axisymmetric body can leave the
+     *  axis */
     void
     check_axis(const BackgroundMesh &mesh, const Space &space) const;
 
-    /** A warning, or nothing: values that are not linear in space are not interpolated by
-     *  functions whose coefficients are not values (Bernstein, splines): they are as
-     *  accurate as those of hats. Collective. */
+    /** Warning for values that are not linear in space with shape functions
+     *  whose coefficients are not nodal values (Bernstein, splines): they are
+     *  only as accurate as with linear functions. Empty otherwise.
+     *  Collective. */
     std::string
     warn_of_bent_values() const;
 
-    /** Sets the prescribed components of v to their values at time t. */
+    /** Sets the prescribed components of v at time t. */
     void
     set_values(Vector &v, const double t) const;
 
     /**
      * Numbers the unknowns: the dofs that are not prescribed and have mass.
-     * @param mass lumped mass with ghosts, or null if all have; of a body without
+     * @param mass lumped mass with ghosts; null if all nodes have mass. Without
      * inertia any number > 0 counts
      * @throws InputError if there is none
      */
@@ -78,7 +83,7 @@ namespace geocone::GEOCONE_DIM
     number_unknowns(const Vector *mass);
 
     /**
-     * The reaction of each condition. Collective.
+     * Reaction of each condition. Collective.
      * @param residual residual of the momentum balance in all rows
      * @param stress of the points, to divide the forces of shared nodes
      * @param t time of the values
@@ -95,15 +100,15 @@ namespace geocone::GEOCONE_DIM
          const unsigned int condition,
          const unsigned int component) const;
 
-    /** What the moment of a condition's reaction is about. */
+    /** Reference point of the moment of a condition's reaction. */
     const dealii::Point<dim> &
     centre(const unsigned int condition) const
     {
       return centres[condition];
     }
 
-    /** @name From components along the coordinates to those of the dofs, and back, in the
-     *  owned entries of a vector */
+    /** @name Rotation of the owned entries of a vector from Cartesian
+     *  components to those of the dofs, and back */
     /** @{ */
     void
     turn(Vector &v) const;
@@ -111,7 +116,7 @@ namespace geocone::GEOCONE_DIM
     turn_back(Vector &v) const;
     /** @} */
 
-    /** All that this rank knows, with ghosts, but those of oblique nodes. */
+    /** Prescribed nodes of this rank, with ghosts, except oblique ones. */
     const std::vector<PrescribedNode> &
     prescribed_nodes() const
     {
@@ -119,7 +124,7 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** A direction in which a condition holds a node. */
+    /** A direction in which a condition prescribes the velocity of a node. */
     struct Direction
     {
       unsigned int           condition;
@@ -127,18 +132,17 @@ namespace geocone::GEOCONE_DIM
       dealii::Tensor<1, dim> d;
     };
 
-    /** A node that is held along other directions than the coordinates: some of them,
-     *  the first ones of a turned node, or as many as are independent and hold it
-     *  altogether. */
+    /** A node with prescribed directions not along the coordinates: either some
+     *  directions, which are the first axes of a rotated node, or as many
+     *  independent ones as fix it completely. */
     struct Oblique
     {
       unsigned int           node;
       std::vector<Direction> directions;
-      /** Unit vectors by rows, the first i + 1 of which span the first i + 1
-       *  directions. */
+      /** Orthonormal rows; the first i + 1 span the first i + 1 directions. */
       dealii::Tensor<2, dim> axes;
 
-      /** Whether it is held along more than coordinates. */
+      /** Whether a normal velocity is prescribed. */
       bool
       has_normal() const
       {
@@ -155,56 +159,56 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
-    /** A component that several conditions prescribe. */
+    /** A component prescribed by several conditions. */
     struct Shared
     {
-      std::vector<unsigned int> conditions; ///< the last one holds it
+      std::vector<unsigned int> conditions; ///< the last one governs
       std::vector<double>       size;       ///< int N_i over their faces (m)
-      unsigned int              first = 0;  ///< of all conditions, see Part
+      unsigned int              first = 0;  ///< offset, see Part
     };
 
     /** int N_i n dA over the faces of a condition on a cell. */
     struct Part
     {
-      unsigned int           place; ///< among the conditions of all shared ones
+      unsigned int           place; ///< among all shared conditions
       unsigned int           component;
       dealii::Tensor<1, dim> weight; ///< (m)
     };
 
-    /** Mean unit normals of a condition's sides at its nodes. Collective.
-     *  @throws InputError where its sides meet in a sharp corner */
+    /** Mean unit normals of the boundary of a condition at its nodes.
+     *  Collective.
+     *  @throws InputError if its faces meet in a sharp corner */
     std::map<unsigned int, dealii::Tensor<1, dim>>
     normals_of(const BoundaryCondition         &condition,
                const BackgroundMesh            &mesh,
                const std::vector<unsigned int> &nodes) const;
 
-    /** A node, and what holds it: later directions first, as long as they are
-     *  independent. */
+    /** A node with its independent directions; later ones take precedence. */
     static Oblique
     independent(const unsigned int            node,
                 const std::vector<Direction> &directions);
 
     /** Finds the nodes with normal velocities.
-     *  @param of_dof what conditions along x and y prescribe */
+     *  @param of_dof conditions along x and y per dof */
     void
     find_oblique_nodes(
       const BackgroundMesh                              &mesh,
       const std::vector<std::vector<unsigned int>>      &nodes,
       std::map<unsigned int, std::vector<unsigned int>> &of_dof);
 
-    /** Finds the components that several conditions prescribe, and numbers their
+    /** Finds the components prescribed by several conditions and numbers these
      *  conditions. Collective. */
     void
     number_shared(
       const std::map<unsigned int, std::vector<unsigned int>> &of_dof);
 
-    /** Finds the faces around shared components. Collective. */
+    /** Finds the faces adjacent to shared components. Collective. */
     void
     find_shared(
       const BackgroundMesh                                    &mesh,
       const std::map<unsigned int, std::vector<unsigned int>> &of_dof);
 
-    /** What the stress exerts on the faces of each of the conditions that share
+    /** Traction resultants of the stress on the faces of conditions that share
      *  nodes. Collective. */
     std::vector<double>
     exerted_on_faces(const MaterialPoints      &points,
@@ -219,7 +223,7 @@ namespace geocone::GEOCONE_DIM
            const double               t,
            std::vector<Reaction>     &result) const;
 
-    /** Adds a component of a nodal force to a condition's. */
+    /** Adds a component of a nodal force to the reaction of a condition. */
     void
     add_force(const unsigned int     condition,
               const unsigned int     node,
@@ -227,7 +231,7 @@ namespace geocone::GEOCONE_DIM
               const double           force,
               std::vector<Reaction> &result) const;
 
-    /** The velocity that a condition asks for at a node. */
+    /** Velocity prescribed by a condition at a node. */
     double
     value(const unsigned int condition,
           const unsigned int component,
@@ -247,8 +251,8 @@ namespace geocone::GEOCONE_DIM
     std::vector<unsigned int>              n_nodes;     ///< of all ranks
     std::vector<dealii::Point<dim>>        centres;     ///< per condition
 
-    /** Shared components by their global dof, the same on all ranks, and the
-     *  number of their conditions in all. */
+    /** Shared components by global dof, the same on all ranks, and the total
+     *  number of their conditions. */
     std::map<dealii::types::global_dof_index, Shared> shared;
     unsigned int                                      n_shares = 0;
 

@@ -13,8 +13,9 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Warnings of conditions on nodes whose nodes do not reach as far as the part of the
-   *  sides that is in their box: the velocity is that of a narrower strip. Collective. */
+  /** Warnings for nodal conditions whose nodes do not cover the part of the
+   *  boundary in their box: the velocity is then applied to a narrower strip.
+   *  Collective. */
   std::vector<std::string>
   warn_of_held_width(const Scene          &scene,
                      const BackgroundMesh &mesh,

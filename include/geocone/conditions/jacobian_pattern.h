@@ -14,21 +14,23 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The Jacobian of the free dofs: nodes that share a cell with points meet in it.
-   * It knows where in the matrix the entries of a cell and the diagonal stand.
+   * Sparsity pattern of the Jacobian of the free dofs: nodes couple if they
+   * share a cell with points. Stores the positions of cell entries and of the
+   * diagonal.
    */
   class JacobianPattern
   {
   public:
-    /** Of no cells. */
+    /** Empty pattern. */
     JacobianPattern() = default;
 
     /**
-     * @param groups more nodes that meet
-     * @param links a node, and others whose rows take up its own (Contact::links())
-     * @param one_triangle whether the lower triangle of a symmetric matrix is
-     * enough
-     * @param[out] matrix with the pattern, and zero values
+     * @param groups further nodes that couple
+     * @param links a node, followed by others whose rows include its row
+     * (Contact::links())
+     * @param one_triangle whether only the lower triangle of a symmetric matrix
+     * is stored
+     * @param[out] matrix with the pattern and zero values
      */
     JacobianPattern(const MaterialPoints                           &points,
                     const Unknowns                                 &unknowns,
@@ -38,14 +40,15 @@ namespace geocone::GEOCONE_DIM
                     const bool    one_triangle,
                     SparseMatrix &matrix);
 
-    /** Whether only the entries i <= j of a cell's matrix are taken. */
+    /** Whether only the entries i <= j of a cell's matrix are used. */
     bool
     is_one_triangle() const
     {
       return one_triangle;
     }
 
-    /** matrix += K of a cell, row-major (dim n)^2, rows interleaved as v_x, v_y, ... */
+    /** Adds K of a cell to the matrix, row-major (dim n)^2, rows interleaved as
+     *  v_x, v_y, ... */
     template <int n>
     void
     add_cell(const unsigned int c, const double *K, SparseMatrix &matrix) const
@@ -58,8 +61,8 @@ namespace geocone::GEOCONE_DIM
             matrix.value[*place] += K[m * i + j];
     }
 
-    /** matrix += a value where two free rows meet; of the entries of a symmetric
-     *  matrix those of its other triangle are left out. */
+    /** Adds a value in a free row and column. Of a symmetric matrix, entries of
+     *  the other triangle are skipped. */
     void
     add_entry(const int     row,
               const int     column,
@@ -70,7 +73,7 @@ namespace geocone::GEOCONE_DIM
         matrix.value[matrix.entry(row, column)] += value;
     }
 
-    /** matrix += a value on the diagonal of a free row. */
+    /** Adds a value to the diagonal of a free row. */
     void
     add_diagonal(const int row, const double value, SparseMatrix &matrix) const
     {
@@ -81,13 +84,14 @@ namespace geocone::GEOCONE_DIM
     bool one_triangle = false;
 
     /**
-     * Per cell the places in the matrix of its (dim n_nodes)^2 entries, or of
-     * one of each symmetric pair if one triangle is stored; -1 for prescribed.
+     * Per cell, positions in the matrix of its (dim n_nodes)^2 entries, or of
+     * one entry per symmetric pair if one triangle is stored; -1 for prescribed
+     * dofs.
      */
     std::vector<int> places;
     std::size_t      places_of_cell = 0;
 
-    /** Place of the diagonal entry of each free row. */
+    /** Position of the diagonal entry of each free row. */
     std::vector<int> diagonal;
   };
 } // namespace geocone::GEOCONE_DIM

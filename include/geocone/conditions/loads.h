@@ -13,8 +13,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Nodal integrals of the density over the cells that have points, each stored for
-   * all components:
+   * Computes nodal integrals of the density over the cells with points, each
+   * stored for all components:
    * @param[out] weight_per_g  int rho N_i, which times g is the weight (kg/m)
    * @param[out] lumped_mass  diagonal mass: the row sums int rho N_i, which are
    * positive for P1, P3, Q1, Q2, Q3 (vertex, edge, centre of P3: 1/30, 3/40,
@@ -30,21 +30,22 @@ namespace geocone::GEOCONE_DIM
                     Vector               &lumped_mass);
 
   /**
-   * External forces F(t): weight, tractions and the force of water at rest, on the cells
-   * that have points. Nothing is stored or computed of what the scene does not have.
+   * External forces F(t) on the cells with points: weight, tractions and
+   * hydrostatic water forces. Only loads present in the scene are stored.
    */
   class Loads
   {
   public:
-    /** @param points in the cells on which they act */
+    /** @param points in the loaded cells */
     Loads(const Scene          &scene,
           const BackgroundMesh &mesh,
           const Space          &space,
           const MaterialPoints &points);
 
     /**
-     * F at time t (N/m).
-     * @param stage null: of all loads; else of those that it raises, or of the others
+     * Evaluates F at time t (N/m).
+     * @param stage null: all loads; otherwise those scaled by the load factor
+     * of the stage, or the others
      */
     void
     evaluate(Vector       &force,
@@ -69,7 +70,7 @@ namespace geocone::GEOCONE_DIM
 
     const Scene             &scene;
     std::vector<LoadedPoint> loaded;
-    /** Of each of its lines, under the whole gravity (N/m). */
+    /** Per water surface, at full gravity (N/m). */
     std::vector<Vector> of_water;
   };
 } // namespace geocone::GEOCONE_DIM

@@ -15,26 +15,25 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The conditions of a scene on what moves through the mesh: prescribed
-   * velocities of particles and of sides of the body, which become rows H v = q
-   * with multipliers, and tractions on its sides.
+   * Conditions on moving particles and moving boundary segments: prescribed
+   * velocities, imposed as rows H v = q with multipliers, and tractions.
    */
   class MovingConditions
   {
   public:
-    /** @throws InputError if the body has no such sides */
+    /** @throws InputError if the body has no such boundary segments */
     MovingConditions(const Scene          &scene,
                      const BackgroundMesh &mesh,
                      const Space          &space);
 
-    /** @throws InputError for a condition that holds no particle. Collective. */
+    /** @throws InputError if a condition selects no particle. Collective. */
     void
     check_held_particles(const MaterialPoints &points) const;
 
     /**
      * Adds the tractions at time t. Collective.
      * @param stage,raised as in Loads::evaluate()
-     * @throws StepFailure if a side is no longer in the mesh
+     * @throws StepFailure if a boundary segment has left the mesh
      */
     void
     add_tractions(Vector      &force,
@@ -42,9 +41,9 @@ namespace geocone::GEOCONE_DIM
                   const Stage *stage  = nullptr,
                   const bool   raised = false) const;
 
-    /** The transfer from nodes to particles in a step: it solves for
-     *  v = v^L + part (v_end - v^L), and the velocity of a particle at its end is
-     *  f (v_p + N (v_end - v^L)) + (1 - f) N v_end. */
+    /** Transfer from nodes to particles in a step. It solves for v = v^L + part
+     *  (v_end - v^L); the particle velocity at the end of the step is f (v_p +
+     *  N (v_end - v^L)) + (1 - f) N v_end. */
     struct Transfer
     {
       const Vector &velocity_L; ///< with ghost values
@@ -54,10 +53,10 @@ namespace geocone::GEOCONE_DIM
     };
 
     /**
-     * Makes the rows H v = q, with q at time t. Collective.
-     * @throws StepFailure if a side is no longer in the mesh
-     * @throws InputError for rows that no function supports or that contradict
-     * each other
+     * Assembles the rows H v = q, with q at time t. Collective.
+     * @throws StepFailure if a boundary segment has left the mesh
+     * @throws InputError for rows that have no support in the grid or
+     * contradict each other
      */
     void
     make_rows(const MaterialPoints &points,
@@ -67,73 +66,75 @@ namespace geocone::GEOCONE_DIM
               Constraints          &constraints) const;
 
     /**
-     * Moves the sides over a step h: held ones by their velocity at time t,
-     * loaded ones by that of the nodes. Collective.
+     * Moves the boundary segments over a step h: those with prescribed velocity
+     * by the velocity at time t, loaded ones by that of the nodes. Collective.
      */
     void
     move(const Vector &v, const double h, const double t);
 
-    /** The sides normal to an axis that hold the body across it, on which its soil
-     *  ends. */
+    /** Segments normal to an axis with prescribed normal velocity, at which the
+     *  soil ends. */
     std::vector<SoilLimit>
     soil_limits() const;
 
-    /** The corners of the box around the sides that a condition holds.
-     *  @pre it holds sides */
+    /** Corners of the bounding box of the boundary segments of a condition.
+     *  @pre it has boundary segments */
     std::pair<dealii::Point<dim>, dealii::Point<dim>>
     box_of(const BoundaryCondition &condition) const;
 
-    /** Whether the function of each local node is not zero somewhere on a side that
-     *  is held or loaded; empty without such sides. Collective. */
+    /** Whether the shape function of each local node is nonzero on a loaded or
+     *  prescribed boundary segment; empty without such segments. Collective. */
     std::vector<bool>
     loaded_nodes() const;
 
     /**
-     * Where a point is put that passed a side which holds the body across it, as means
-     * over a side let single points: on the side, or at its end if it came from beside
-     * it. Nothing for points that passed none in the last move().
-     * @param before,after where the point was and came to
+     * Returns a point to the boundary if it has crossed a segment with
+     * prescribed normal velocity; possible because the condition is imposed in
+     * the mean only. The new position is on the segment, or at its end if the
+     * point came from beside it. Empty for points that crossed none in the last
+     * move().
+     * @param before,after position of the point before and after the step
      */
     std::optional<dealii::Point<dim>>
     put_back(const dealii::Point<dim> &before,
              const dealii::Point<dim> &after) const;
 
-    /** Points of all ranks that are more than a tenth of their own size beyond a
-     *  side that holds the body across it, where they cannot be. Collective. */
+    /** Number of points, of all ranks, that lie more than a tenth of their size
+     *  beyond a segment with prescribed normal velocity. Collective. */
     unsigned int
     n_behind(const MaterialPoints &points) const;
 
-    /** The places of the sides, for a checkpoint. */
+    /** Positions of the segments, for a checkpoint. */
     void
     state(StateRow &row);
 
   private:
-    /** A support on a side of the body, and the side. */
+    /** A support and its boundary segment. */
     struct HeldSide
     {
       unsigned int          condition;
       std::vector<SidePart> panels;
-      std::vector<SidePart> before = {}; ///< the last move()
+      std::vector<SidePart> before = {}; ///< before the last move()
     };
 
-    /** A load on sides of the body, and the sides. */
+    /** A load and its boundary segments. */
     struct LoadedSide
     {
       unsigned int  condition;
       MovingSurface surface;
     };
 
-    /** The number of held particles of each condition, around an axis the sum of their
-     *  circumferences (m); of all ranks. Collective. */
+    /** Number of prescribed particles per condition; in axisymmetric problems
+     *  the sum of their circumferences (m). All ranks. Collective. */
     std::vector<double>
     sum_held(const MaterialPoints &points) const;
 
-    /** Makes the parts shorter that a condition holds, as 'Segment shortening' asks. */
+    /** Shortens the segments of a condition by 'Segment shortening'. */
     void
     shorten(const BoundaryCondition &condition,
             std::vector<SidePart>   &panels) const;
 
-    /** @name The rows of supports, as they are at time t */
+    /** @name Rows of supports at time t */
     /** @{ */
     void
     add_rows_of_sides(const double t, Multipliers &rows) const;
@@ -143,8 +144,8 @@ namespace geocone::GEOCONE_DIM
                           const Transfer       &transfer,
                           Multipliers          &rows) const;
 
-    /** Adds a place x, with the functions that are not zero there, to a row of
-     *  a condition for each component that it prescribes. */
+    /** Adds a position x, with the shape functions that are nonzero there, to a
+     *  row for each prescribed component of a condition. */
     void
     add_to_row(const unsigned int                                  condition,
                const Imposition::Share                            &share,
@@ -154,8 +155,8 @@ namespace geocone::GEOCONE_DIM
                const double                                       *values,
                Multipliers                                        &rows) const;
 
-    /** Adds to the row of a held particle the offsets by which N v has to differ from the
-     *  prescribed velocity, so that FLIP gives it to the particle. */
+    /** Adds to the row of a particle the difference between N v and the
+     *  prescribed velocity that gives the particle this velocity by FLIP. */
     void
     add_flip_offsets(const MaterialPoints                               &points,
                      const unsigned int                                  p,
@@ -165,9 +166,9 @@ namespace geocone::GEOCONE_DIM
                      Multipliers    &rows) const;
     /** @} */
 
-    /** Adds the part of a load that acts at a point of a facet.
-     *  @param size of it at the start, on which dead loads act
-     *  @param area its outward normal, as it is, times its size */
+    /** Adds the contribution of a point of a facet to a load.
+     *  @param size initial size, on which dead loads act
+     *  @param area current outward normal times size */
     void
     add_traction(const BoundaryCondition      &load,
                  const double                  size,
@@ -177,9 +178,10 @@ namespace geocone::GEOCONE_DIM
                  Vector                       &force) const;
 
     /**
-     * Refuses a condition of whose parts one lies outside the mesh, where it would
-     * vanish silently. Collective.
-     * @param middles of them @param in_mesh the part of each, as found on this rank
+     * Rejects a condition that has segments outside the mesh, where it would
+     * have no effect. Collective.
+     * @param middles midpoints of the segments @param in_mesh fraction of each
+     * segment found on this rank
      * @throws StepFailure
      */
     void

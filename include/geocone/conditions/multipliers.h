@@ -18,16 +18,16 @@ namespace geocone::GEOCONE_DIM
   struct Unknowns;
 
   /**
-   * General linear constraints H v = q on the free dofs, with multipliers lambda:
-   * the forces H' lambda hold the body. The rows come from velocities at points,
-   * H = A N, and may depend on each other (more points than functions): a pivoted
-   * QR factorisation of H' keeps independent ones, and the others must agree
-   * with them.
+   * General linear constraints H v = q on the free dofs, with multipliers
+   * lambda: H' lambda are the constraint forces on the body. The rows prescribe
+   * velocities at points, H = A N, and may be linearly dependent (more points
+   * than functions): a pivoted QR factorisation of H' selects independent rows,
+   * with which the others must agree.
    */
   class Multipliers
   {
   public:
-    /** What makes a row: a condition, its component, and a number of its own. */
+    /** Identifies a row: condition, component, and a number within them. */
     struct Key
     {
       unsigned int condition;
@@ -35,18 +35,18 @@ namespace geocone::GEOCONE_DIM
       unsigned int number;
     };
 
-    /** A row that cannot be fulfilled. */
+    /** A row that cannot be satisfied. */
     struct Refusal
     {
       Key    key;
-      bool   is_supported; ///< else no function with mass is in it
+      bool   is_supported; ///< false if the row contains no function with mass
       double asked = 0.;   ///< its target (m/s)
-      double left  = 0.;   ///< what the rows that it depends on leave (m/s)
+      double left  = 0.;   ///< value by the rows on which it depends (m/s)
     };
 
     Multipliers() = default;
 
-    /** Rows of one rank as data, without the conditions that made them. */
+    /** Constraints of one rank, given by their matrices. */
     Multipliers(const std::vector<unsigned int> &dofs,
                 const Eigen::MatrixXd           &H,
                 const Eigen::VectorXd           &q)
@@ -69,17 +69,17 @@ namespace geocone::GEOCONE_DIM
     void
     add_target(const Key &key, const double value);
 
-    /** Adds to the right-hand side what is no prescribed velocity: mean_target() does
-     *  not count it. */
+    /** Adds to the right-hand side a term that is no prescribed velocity and is
+     *  excluded from mean_target(). */
     void
     add_offset(const Key &key, const double value);
 
     /**
-     * Makes the rows from what all ranks have added. Prescribed dofs move to the
-     * right-hand side; functions without mass are left out, and the remaining
-     * coefficients of a row scaled so that its sum stays.
-     * @param prescribed a vector that has the values of prescribed dofs
-     * @return the first row that cannot be fulfilled, the same on all ranks, or
+     * Assembles the rows from the contributions of all ranks. Prescribed dofs
+     * move to the right-hand side. Functions without mass are omitted, and the
+     * remaining coefficients of a row are scaled to preserve its sum.
+     * @param prescribed a vector that contains the values of prescribed dofs
+     * @return the first row that cannot be satisfied, the same on all ranks, or
      * nothing. Collective.
      */
     std::optional<Refusal>
@@ -88,10 +88,11 @@ namespace geocone::GEOCONE_DIM
              const Vector      &prescribed);
 
     /**
-     * Adds, after all others, the row F.v/sum |F_i| = velocity of loads that are
-     * raised, whose multiplier is the load factor times the sum, over the nodes, of the
-     * sizes of their forces.
-     * @param force F, with prescribed dofs, too @param prescribed as in assemble()
+     * Adds, as the last row, F.v/sum |F_i| = velocity for load stepping. Its
+     * multiplier is the load factor times the sum, over the nodes, of the
+     * magnitudes of their forces.
+     * @param force F, including prescribed dofs @param prescribed as in
+     * assemble()
      * @return whether the loads can move the body. Collective.
      */
     bool
@@ -100,21 +101,21 @@ namespace geocone::GEOCONE_DIM
               const Unknowns &unknowns,
               const Vector   &prescribed);
 
-    /** Whether the last row is that of raised loads. */
+    /** Whether the last row controls a load factor. */
     bool
     has_loads() const
     {
       return sum_of_loads > 0.;
     }
 
-    /** Their factor. */
+    /** Load factor, from the multiplier of the last row. */
     double
     load_factor(const Eigen::VectorXd &lambda) const
     {
       return lambda[lambda.size() - 1] / sum_of_loads;
     }
 
-    /** Independent rows, and all that were given. */
+    /** Number of independent rows, and of all rows given. */
     unsigned int
     n_rows() const
     {
@@ -126,41 +127,42 @@ namespace geocone::GEOCONE_DIM
       return given;
     }
 
-    /** q - H v. Collective. */
+    /** Defect q - H v. Collective. */
     Eigen::VectorXd
     defect(const Vector &v) const;
 
-    /** H f. Collective. */
+    /** Product H f. Collective. */
     Eigen::VectorXd
     multiply(const Vector &f) const;
 
-    /** f += factor H' lambda, in owned entries. */
+    /** Adds factor H' lambda to f, in owned entries. */
     void
     add_transposed(Vector                &f,
                    const double           factor,
                    const Eigen::VectorXd &lambda) const;
 
     /**
-     * D^{-1/2} H' = Q U of all ranks, Q with orthonormal columns, U upper
-     * triangular. Rows that nearly depend on each other make U ill-conditioned,
-     * but not Q: H D^{-1} H' = U'U would lose twice as many digits.
+     * QR factorisation D^{-1/2} H' = Q U over all ranks, Q with orthonormal
+     * columns, U upper triangular. Nearly dependent rows make U
+     * ill-conditioned, but not Q: H D^{-1} H' = U'U would lose twice as many
+     * digits.
      */
     struct Factors
     {
-      Eigen::VectorXd root; ///< D^{1/2} of the touched dofs
-      Eigen::MatrixXd Q;    ///< rows of the touched dofs
+      Eigen::VectorXd root; ///< D^{1/2} of the dofs involved
+      Eigen::MatrixXd Q;    ///< rows of the dofs involved
       Eigen::MatrixXd U;
     };
 
-    /** @param scale D, or null for 1. Collective. */
+    /** Factorises H'. @param scale D, or null for 1. Collective. */
     Factors
     factorise(const Vector *scale) const;
 
     /**
-     * Takes the forces H' lambda that leave the least residual,
-     *   min_lambda sum_i (R - H' lambda)_i^2 / D_i over the touched dofs,
-     * out of a residual R. What is left is accurate to the rounding of R, however
-     * large the lambda of rows are that nearly depend on each other.
+     * Removes from a residual R the forces H' lambda that minimise
+     *   sum_i (R - H' lambda)_i^2 / D_i over the dofs involved.
+     * The result is accurate to the rounding of R, however large the
+     * multipliers of nearly dependent rows.
      * @return lambda. Collective.
      */
     Eigen::VectorXd
@@ -179,29 +181,30 @@ namespace geocone::GEOCONE_DIM
            const dealii::Point<dim> &centre,
            const Space              &space) const;
 
-    /** By how much a row rests on functions that hold hardly any mass. */
+    /** Contribution of low-mass functions to a row. */
     struct LightShare
     {
-      double             largest   = 0.; ///< of the rows
+      double             largest   = 0.; ///< over all rows
       unsigned int       condition = 0;  ///< its condition
-      dealii::Point<dim> place; ///< of the function with the largest part in it
+      dealii::Point<dim> place;          ///< of the function of largest share
     };
 
     /**
-     * |sum_light H_i v_i| of the worst row over sum_i H_i times the velocity that its
-     * condition asks for along x or y, light functions being those with less than
-     * 1e-3 of the largest mass in the row: 0.02 in sound steps, more than 1 where
-     * the row is fulfilled by a jet. Collective.
+     * Share of low-mass functions in the worst row: |sum_light H_i v_i| over
+     * sum_i H_i times the velocity prescribed by its condition along x or y.
+     * Functions with less than 1e-3 of the largest mass in the row are
+     * low-mass. The share is 0.02 in sound steps, and above 1 if spurious
+     * velocities satisfy the row. Collective.
      */
     LightShare
     light_share(const Vector &v, const Vector &mass, const Space &space) const;
 
-    /** Mean of the velocities that a condition asks for, or 0. */
+    /** Mean of the velocities prescribed by a condition, or 0. */
     double
     mean_target(const unsigned int condition,
                 const unsigned int component) const;
 
-    /** Owned local dofs that rows touch, and their coefficients per row. */
+    /** Owned local dofs involved in rows, and their coefficients per row. */
     const std::vector<unsigned int> &
     dofs() const
     {
@@ -213,7 +216,7 @@ namespace geocone::GEOCONE_DIM
       return H;
     }
 
-    /** q, without what prescribed dofs contribute. */
+    /** Right-hand side q, less contributions of prescribed dofs. */
     const Eigen::VectorXd &
     targets() const
     {
@@ -233,11 +236,10 @@ namespace geocone::GEOCONE_DIM
     std::vector<Key> keys;
     std::vector<unsigned int> touched;
     Eigen::MatrixXd           H;
-    Eigen::VectorXd           q; ///< without what prescribed dofs contribute
+    Eigen::VectorXd           q; ///< less contributions of prescribed dofs
     Eigen::VectorXd           row_sum;
 
-    /** Of a row that was given: its right-hand side without offset and the sum of its
-     *  N. */
+    /** Right-hand side of a given row without offset, and the sum of its N. */
     struct Asked
     {
       Key    key;

@@ -12,17 +12,17 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** A component of a node's velocity that a condition prescribes. */
+  /** A velocity component of a node, prescribed by a condition. */
   struct PrescribedNode
   {
-    unsigned int       node; ///< by the numbers of whoever has it
+    unsigned int       node; ///< in the numbering of the owner of this list
     unsigned int       component;
     unsigned int       condition; ///< index in Scene::dirichlet
     dealii::Point<dim> place;
     bool               mine; ///< whether this rank counts it in sums
   };
 
-  /** The moment about an axis of n_rotations of a unit force along a component. */
+  /** Moment of a unit force along a component about an axis of n_rotations. */
   inline double
   lever(const dealii::Tensor<1, dim> &arm,
         const unsigned int            component,
@@ -32,7 +32,7 @@ namespace geocone::GEOCONE_DIM
     return component == b ? arm[a] : component == a ? -arm[b] : 0.;
   }
 
-  /** Of the nodal forces of a support on the body; or of impulses. */
+  /** Resultant of the nodal forces of a support on the body, or of impulses. */
   struct Reaction
   {
     dealii::Tensor<1, dim> force; ///< sum f_i (N/m)

@@ -13,9 +13,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Which dofs are unknown: those that are neither prescribed nor of a node
-   * without mass, the free dofs, and the linear constraints on them. This is all
-   * that an incremental problem knows of the supports.
+   * Unknowns of an incremental problem: the free dofs, which are neither
+   * prescribed nor of a node without mass, and the linear constraints on them.
+   * The incremental problem depends on the supports through this class only.
    */
   struct Unknowns
   {
@@ -25,7 +25,7 @@ namespace geocone::GEOCONE_DIM
       return free_row[local_dof] >= 0;
     }
 
-    /** Whether a local dof is of a node with mass. */
+    /** Whether the node of a local dof has mass. */
     bool
     has_mass(const unsigned int local_dof) const
     {
@@ -39,8 +39,8 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Per local dof its row among the free ones, or a negative number: where it
-     * is prescribed, or where the node has no mass.
+     * Row of each local dof among the free ones, or a negative number if it is
+     * prescribed or its node has no mass.
      */
     std::vector<int>     free_row;
     static constexpr int prescribed_row = -1, massless_row = -2;
@@ -56,9 +56,9 @@ namespace geocone::GEOCONE_DIM
     Multipliers multipliers;
 
     /**
-     * Nodes whose dofs are not along the coordinates: vectors of the incremental
-     * problem have there the components along other axes, of which the first ones span
-     * what is held.
+     * Nodes with dofs not along the coordinates: there, vectors of the
+     * incremental problem contain components along other axes, the first of
+     * which span the prescribed directions.
      */
     struct TurnedNode
     {
@@ -67,7 +67,7 @@ namespace geocone::GEOCONE_DIM
     };
     std::vector<TurnedNode> turned_nodes;
 
-    /** Where the local nodes are; null in a problem that is replayed. */
+    /** Positions of the local nodes; null in a replayed problem. */
     const std::vector<dealii::Point<dim>> *node_positions = nullptr;
   };
 } // namespace geocone::GEOCONE_DIM

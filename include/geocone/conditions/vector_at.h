@@ -10,7 +10,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** The vector whose components begin at a place. */
+  /** Vector whose components begin at an address. */
   inline dealii::Tensor<1, dim>
   taken(const double *at)
   {
