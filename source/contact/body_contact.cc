@@ -20,27 +20,27 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** What faces a face by less than this part of it is left out. */
+    /** Fraction of a face below which a facing piece is ignored. */
     constexpr double least_piece = 1e-9;
 
-    /** A face that is faced by less than this part of it is left out: dual functions
-     *  on so little of it are known from rounding only. */
+    /** Covered fraction below which a face is ignored: dual functions on so
+     *  small a part consist of rounding errors. */
     constexpr double least_facing_part = dim == 2 ? 1e-6 : 1e-2;
 
-    /** A node touches if the other body faces this part of what the node stands for:
-     *  half at a corner, where faces fit, in three dimensions a quarter. */
+    /** Minimum covered fraction of a node's tributary area for contact: at a
+     *  corner of matching faces it is a half, in three dimensions a quarter. */
     constexpr double least_cover = dim == 2 ? 0.4 : 0.2;
 
-    /** A node that bears less than this part of a uniform pressure on its faces is left
-     *  free, as corners of quadratic triangles and quadratic nodes on an axis, which bear
-     *  nothing of it. */
+    /** Share in a uniform pressure on its faces below which a node is free.
+     *  Corners of quadratic triangles and quadratic nodes on an axis have
+     *  none. */
     constexpr double least_share = 1e-9;
 
-    /** Faces face each other up to this cosine between their normals. */
+    /** Largest cosine between the normals of facing faces. */
     constexpr double facing = -0.1;
 
-    /** On intervals or triangles; products of two shape functions of degree p come out
-     *  exactly, on parallelograms, too. */
+    /** Quadrature on intervals or triangles, exact for products of two shape
+     *  functions of degree p, also on parallelograms. */
     template <int m>
     Quadrature<m>
     rule_of_piece(const bool simplicial, const unsigned int p)
@@ -88,7 +88,7 @@ namespace geocone::GEOCONE_DIM
               std::vector<unsigned int> vertices;
               for (unsigned int v = 0; v < cell->face(f)->n_vertices(); ++v)
                 vertices.push_back(reference.face_to_cell_vertices(f, v, true));
-              if (vertices.size() == 4) // around
+              if (vertices.size() == 4) // in cyclic order
                 std::swap(vertices[2], vertices[3]);
               std::vector<Point<dim>> places, unit;
               for (const unsigned int v : vertices)
@@ -111,7 +111,7 @@ namespace geocone::GEOCONE_DIM
                   face.corners.push_back(space.local_node(
                     nodes[std::max_element(N.begin(), N.end()) - N.begin()]));
                 }
-              // Those that are not zero everywhere on it.
+              // Nodes whose functions do not vanish on it.
               std::vector<double> largest(N.size(), 0.), sum(N.size(), 0.);
               for (const FacePoint &point :
                    points_on_face(mesh, space, cell, f))
@@ -176,7 +176,7 @@ namespace geocone::GEOCONE_DIM
       FlatPart              flat;
       std::vector<FlatPart> shared;
 
-      /** Straight ahead of a place in the plane. */
+      /** Projection onto the plane. */
       Point<dim>
       ahead_of(const Point<dim - 1> &x) const
       {
@@ -212,7 +212,7 @@ namespace geocone::GEOCONE_DIM
           candidates.push_back(at);
       }
 
-    // Where several do, the nearest.
+    // If several do, the nearest.
     const Quadrature<dim - 1> rule =
       rule_of_piece<dim - 1>(mesh.is_simplicial(), space.degree());
     std::vector<PointAhead> points;
@@ -298,7 +298,7 @@ namespace geocone::GEOCONE_DIM
   {
     for (const PlacedFace &at : faces)
       for (unsigned int i = 0; i < at.face->nodes.size(); ++i)
-        // The sides of a corner have nothing to do with what its base stands on.
+        // Lateral faces of a corner are not related to the support of its base.
         if (const auto own = sums.find(at.face->nodes[i]);
             own != sums.end() &&
             at.plane.normal * own->second.normal >=

@@ -115,7 +115,7 @@ namespace geocone
     OfNode best  = at;
     if (m > 1)
       {
-        // Its own problem, by the same equations.
+        // Contact problem of this node alone, by the same equations.
         CondensedContact alone;
         alone.K     = own;
         alone.c     = b;
@@ -136,7 +136,7 @@ namespace geocone
           }
         return best;
       }
-    // It slips against the force that it would take to stick.
+    // It slides against the sticking force.
     for (const double sign : {1., -1.})
       {
         const double slope = own(1, 1) - sign * node.friction * own(0, 1),
@@ -144,7 +144,7 @@ namespace geocone
                        (sign * (node.friction * r[0] + node.adhesion) - r[1]) /
                        slope,
                      r_n = r[0] + own(0, 1) * u_t;
-        // What such a state lacks.
+        // Violation of the assumed state.
         const double lack =
           std::max({sign * u_t * own(1, 1), -node.tension - r_n, 0.}) +
           (slope > 0. ? 0. : 1.);
@@ -225,12 +225,12 @@ namespace geocone
           best       = at;
           best_error = lack;
         }
-      // What is far off is not rounding, which takes a product with K to find.
+      // A large error is not rounding, whose evaluation takes a product with K.
       return best_error <= tolerance ||
              (best_error < 1e-7 && best_error <= of_rounding * rounding(best));
     };
-    // A set that was there before leads to where it led then. With two tangents none
-    // comes again, but for the last one.
+    // A repeated set starts a cycle. With two tangents, where directions vary
+    // continuously, only the last set can repeat.
     std::vector<std::vector<State>> seen;
     const auto                      active_set = [&](std::vector<State> state) {
       for (int step = 0; step < most_steps; ++step)
@@ -248,8 +248,8 @@ namespace geocone
     };
     State all_stick;
     all_stick.contact = Contact::stick;
-    // From the start, from where all of them stick, and from where sweeps lead, as long
-    // as they lead anywhere.
+    // From the initial guess, from all nodes sticking, and from sweeps as long
+    // as they change the result.
     VectorXd swept = u;
     bool     done  = best_error <= tolerance || active_set(states(u)) ||
                 active_set(std::vector<State>(nodes.size(), all_stick));

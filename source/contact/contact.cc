@@ -17,8 +17,8 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Of twins, which are held alike, any direction does that is not this near to a right
-     *  angle. */
+    /** Minimum length of the free part of the normal for twins, which are
+     *  supported alike: any direction not nearly orthogonal is sufficient. */
     constexpr double hardly = 0.1;
   } // namespace
 
@@ -91,7 +91,8 @@ namespace geocone::GEOCONE_DIM
               const double part = other.part * node.share[d][e];
               if (from < 0 || to < 0 || part == 0.)
                 continue;
-              // Both have sorted columns, those of the first are among the second's.
+              // Both rows have sorted columns, and those of the first are a
+              // subset.
               int k = matrix.row_start[to];
               for (int j = matrix.row_start[from];
                    j < matrix.row_start[from + 1];
@@ -159,7 +160,7 @@ namespace geocone::GEOCONE_DIM
           }
         if (n < dim)
           {
-            if (node.is_twin) // u.n is what is free of it
+            if (node.is_twin) // u.n by its free part
               node.least /= part;
             node.normal = free / part;
           }
@@ -176,7 +177,7 @@ namespace geocone::GEOCONE_DIM
             make_corner(list.back(), node);
             list.push_back(node);
           }
-        // else: in the one direction the nearer one counts
+        // else: the nearer one counts
       }
   }
 
@@ -192,7 +193,7 @@ namespace geocone::GEOCONE_DIM
             Force({-node.normal[1], node.normal[0]});
       }
     else
-      // The free directions that are farthest from the normal first.
+      // Starting with the free directions farthest from the normal.
       while (node.n_tangents + 1 < n)
         {
           Force  best;
@@ -249,7 +250,8 @@ namespace geocone::GEOCONE_DIM
     const double rho = at.rho, w = u * n - node.least, p = at.r * n - rho * w;
     result.q = -node.tension * n;
     result.F = at.r - result.q;
-    // What rests without a force is held: it may have no other support.
+    // A node at rest without force counts as supported: it may have no other
+    // support.
     if (!(p >= -node.tension) && !(holds && node.is_closed))
       return result;
     const double mu = rubs ? node.friction : 0.;
@@ -276,7 +278,7 @@ namespace geocone::GEOCONE_DIM
             const Force along = pull / size;
             q_T               = bound * along;
             result.Q += mu * outer_product(along, n);
-            if (dim == 3) // where it slides turns, too
+            if (dim == 3) // sliding direction may rotate
               result.Q +=
                 bound / size *
                 (I - outer_product(n, n) - outer_product(along, along));
@@ -414,7 +416,7 @@ namespace geocone::GEOCONE_DIM
                               : obstacles.velocities()[node.obstacle].at(node.arm);
         if (!is_owned(node))
           continue;
-        // What a support holds does not move against the obstacle, either.
+        // Supported directions do not move relative to the obstacle either.
         const Force      velocity = free_part(node.velocity, node.node);
         const Projection at       = project(node, locals[i], velocity);
         touch[i].force            = locals[i].r;
@@ -507,7 +509,8 @@ namespace geocone::GEOCONE_DIM
       Eigen::MatrixXd::Zero(matrix.n_owned, relaxed ? 0 : obstacles.n_free());
     if (update.rank() == 0)
       return update;
-    // Rows of the matrix are sums over ranks, each of which has those of its cells.
+    // Rows of the matrix are sums over ranks, each with the contributions of
+    // its cells.
     std::vector<unsigned int> dof_of(matrix.global_index.size());
     for (unsigned int dof = 0; dof < unknowns.free_row.size(); ++dof)
       if (unknowns.free_row[dof] >= 0)
@@ -562,7 +565,7 @@ namespace geocone::GEOCONE_DIM
   Contact::apply_tangent(Vector &dst, const Vector &dv) const
   {
     load_partners(dst);
-    // How free obstacles give way.
+    // Response of free obstacles.
     std::vector<RigidMotion> change(obstacles.n_obstacles());
     if (obstacles.n_free() > 0 && !relaxed)
       {

@@ -19,15 +19,15 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** A gap in a corner of particles that counts as none, over the size of a cell: their
-     *  squares breathe with their volume. */
+    /** Gap in a corner of particles that counts as closed, over the size of a
+     *  cell: their squares change with their volume. */
     constexpr double nearly_closed = 1e-3;
 
     constexpr char of_corner[] = "\n  remedy:  hold one of the sides by a "
                                  "boundary condition, or leave the "
                                  "corner out of the body";
 
-    /** A node that comes nearer faster than u_N = least hits in this step. */
+    /** Sets the impact of a node that approaches faster than u_N = least. */
     void
     rebound(const double u_n, const InterfaceLaw &law, ContactNode &node)
     {
@@ -73,7 +73,7 @@ namespace geocone::GEOCONE_DIM
       }
 
     path.reinit(space.partitioner());
-    path.update_ghost_values(); // zeros, which are read
+    path.update_ghost_values(); // zero ghost values are read
     if (has_bonds())
       {
         bonds.reinit(space.partitioner());
@@ -357,8 +357,8 @@ namespace geocone::GEOCONE_DIM
             const Tensor<1, dim>    V = step.bodies[o].without_contact.at(arm);
             const Obstacle::Nearest at =
               nearest(o, node, h * (V - v), others[o]);
-            // Of a background mesh only what is in or on the obstacle: the others
-            // are of the body, and may come as near as they like.
+            // In a background mesh only nodes in or on the obstacle count; the
+            // others belong to the body and may be arbitrarily close.
             if (!mesh_is_body && at.distance > closed_gap * size)
               continue;
             const double gap =
@@ -392,8 +392,8 @@ namespace geocone::GEOCONE_DIM
                                std::string       &refusal,
                                ContactStep       &step) const
   {
-    // What may be met in the step comes before what is nearer but is not, and obstacles
-    // before bodies that are as near.
+    // Contacts that may close in the step come before nearer ones that may not,
+    // and obstacles before bodies at the same distance.
     std::stable_sort(
       near.begin(), near.end(), [](const Near &a, const Near &b) {
         const bool a_is_far = a.gap > a.reach, b_is_far = b.gap > b.reach;
@@ -451,8 +451,8 @@ namespace geocone::GEOCONE_DIM
                           const Vector  &v,
                           const double   h) const
   {
-    // Open, stick, slip, work, dissipation, width, size of F, width that sticks, work
-    // of rebounds; error, penetration, pressure, shear.
+    // Open, stick, slip, work, dissipation, width, size of F, sticking width,
+    // work of rebounds; error, penetration, pressure, shear.
     std::array<double, 9> sums  = {};
     std::array<double, 4> most  = {};
     const auto           &nodes = contact.nodes();
@@ -469,14 +469,14 @@ namespace geocone::GEOCONE_DIM
                              relative = u - nodes[i].velocity;
         most[0]                       = std::max(most[0], touch.error);
         sums[6] += touch.size;
-        // g of the end: that of the beginning is -least h, but where it rebounds.
+        // Final gap from the initial one, -least h, unless the node rebounds.
         if (!nodes[i].rebounds)
           most[1] = std::max(
             most[1], -h * (relative * nodes[i].normal - nodes[i].least));
         if (!contact.bears(i))
           continue;
         const Tensor<1, dim> r = force(contact, i);
-        // Vertices of quadratic tetrahedra stand for no area.
+        // Vertices of quadratic tetrahedra have no tributary area.
         if (const double l = nodes[i].length;
             mesh_is_body && l > 0. && touch.state != Contact::State::open)
           {
@@ -488,7 +488,8 @@ namespace geocone::GEOCONE_DIM
             most[3] =
               std::max(most[3], (r / l - pressure * nodes[i].normal).norm());
           }
-        // A pair of bodies does no work but what friction and impact take.
+        // The work of a pair of bodies is the dissipation by friction and
+        // impact.
         sums[3] += h * (r * (nodes[i].touches_body() ? relative : u));
         sums[4] -= h * (r * relative);
         if (nodes[i].impact < 0.)
@@ -545,7 +546,8 @@ namespace geocone::GEOCONE_DIM
                           Vector         &v_end) const
   {
     const auto &nodes = contact.nodes();
-    // What touches, and the masses, of other ranks too: all of them settle alike.
+    // Includes contacts and masses of other ranks, for the same result on all
+    // ranks.
     Vector closed_nodes(space.partitioner()), of_impulse(space.partitioner());
     for (unsigned int dof = 0; dof < of_impulse.locally_owned_size(); ++dof)
       if (unknowns.is_free(dof))
@@ -575,8 +577,8 @@ namespace geocone::GEOCONE_DIM
                       at.tangents.begin() + at.n_tangents);
         for (const Tensor<1, dim> &along : axes)
           {
-            // Along and against the obstacle or the other body: what was solved for,
-            // what it would be, and how fast a unit impulse makes it.
+            // Relative velocity along the axis: solved, extrapolated, and per
+            // unit impulse.
             double solved = 0., end = 0., mobility = 0.;
             for (unsigned int d = 0; d < dim; ++d)
               {

@@ -15,8 +15,8 @@ namespace geocone::GEOCONE_DIM
 
     using MotionVector = Eigen::Matrix<double, n_motions, 1>;
 
-    /** Of an obstacle at a motion: what its equilibrium lacks, E, and the size of its
-     *  sums. */
+    /** Balance of an obstacle at a motion: out-of-balance force, E, and the
+     *  size of its sums. */
     struct BodyBalance
     {
       MotionVector            R = MotionVector::Zero();
@@ -52,7 +52,7 @@ namespace geocone::GEOCONE_DIM
       });
     }
 
-    /** Of all residuals, each over the diagonal of E at @p scale. */
+    /** Norm of all residuals, each over the diagonal of E at @p scale. */
     double
     norm(const Balances &at, const Balances &scale)
     {
@@ -73,8 +73,10 @@ namespace geocone::GEOCONE_DIM
     n_free_motions = 0;
     for (const ObstacleBody &body : bodies)
       {
-        // What rests goes on to rest, and what falls freely is found in one iteration.
-        // By 'without_contact' a heavy body would be far off in long steps.
+        // Initial guess of free motions: their last velocity, so that an
+        // obstacle at rest remains at rest and free fall takes one iteration.
+        // 'without_contact' would be a poor guess for a heavy body in long
+        // steps.
         motion.push_back(body.without_contact);
         for (unsigned int k = 0; k < n_motions; ++k)
           if (body.is_free[k])
@@ -99,7 +101,7 @@ namespace geocone::GEOCONE_DIM
       return result;
     };
 
-    // In shorter steps where it must.
+    // Backtracking line search.
     Balances now = balance();
     for (unsigned int iteration = 0; iteration < 50 && !is_solved(now);
          ++iteration)
@@ -119,7 +121,7 @@ namespace geocone::GEOCONE_DIM
             if (norm(now, old) <= (1. - 0.1 * step) * norm(old, old))
               break;
           }
-        if (norm(now, old) >= norm(old, old)) // rounding, or nothing better
+        if (norm(now, old) >= norm(old, old)) // rounding, or no improvement
           break;
       }
     for (unsigned int o = 0; o < bodies.size(); ++o)

@@ -23,22 +23,26 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Functions that are smaller at a particle do not count as moved by it. */
+    /** Value of a shape function below which its node does not move the
+     *  particle. */
     constexpr double least_function = 1e-12;
 
-    /** Squares side by side are farther apart than this part of the sum of both halves,
-     *  Gauss points, too. */
+    /** Minimum distance of adjacent squares, over the sum of both half sides,
+     *  valid also for Gauss points. */
     constexpr double beside = 0.4;
 
-    /** Surfaces that differ by less than this part of half a particle are one. */
+    /** Surfaces are flush if they differ by less than this fraction of half a
+     *  particle. */
     constexpr double flush = 0.2;
 
     /**
-     * How far a particle is from obstacles that go on where another one ends, whose node
-     * moves the particle, too; infinite without any.
-     * @param near from the particle, by obstacle @param own the obstacle of the node
-     * @param of_node from the node to it @param arm from the node to the particle
-     * @param tolerance by which both surfaces may differ there
+     * Distance from a particle to obstacles that continue the surface of
+     * another one whose node also moves the particle; infinite without any.
+     * @param near from the particle, by obstacle @param own the obstacle of the
+     * node
+     * @param of_node from the node to it @param arm from the node to the
+     * particle
+     * @param tolerance of the difference between both surfaces
      */
     double
     along_others(const std::vector<Obstacle::Nearest> &near,
@@ -56,8 +60,8 @@ namespace geocone::GEOCONE_DIM
       return least;
     }
 
-    /** Where a particle is for those that it touches: what stays in the mesh of soil
-     *  that moves has been displaced. */
+    /** Position of a particle in contact: fixed quadrature points in moving
+     *  soil are displaced. */
     Point<dim>
     position_of(const Scene          &scene,
                 const MaterialPoints &points,
@@ -78,7 +82,7 @@ namespace geocone::GEOCONE_DIM
   {
     const auto        &list = scene.obstacles.list;
     const unsigned int n    = list.size();
-    // Where nodes are in an obstacle that has others beside it.
+    // Nodes in obstacles with neighbours.
     std::vector<std::vector<Obstacle::Nearest>> of_node(n);
     const auto others = scene.obstacles.neighbours(moved, margin);
     for (unsigned int o = 0; o < n && n > 1; ++o)
@@ -158,7 +162,7 @@ namespace geocone::GEOCONE_DIM
       size = std::min(size, BackgroundMesh::size_of(cell));
     size = Utilities::MPI::min(size, mesh.triangulation().get_communicator());
 
-    // By material which body is one side of a contact, which the other.
+    // First and other bodies of each contact, by material.
     const auto                                     &list = scene.contacts.list;
     const unsigned int                              n = scene.materials.size();
     std::set<std::pair<unsigned int, unsigned int>> known;
@@ -232,8 +236,8 @@ namespace geocone::GEOCONE_DIM
     for (const Share &share : shares)
       of_place[share.place][share.is_first].push_back(share.x);
 
-    // Others have more of the particles at places that they share: the number of
-    // the place, the side, and coordinates, in the plane of corners of hulls only.
+    // Other ranks have further particles at shared positions. Sent: number of
+    // the position, side, and coordinates, in the plane of hull corners only.
     const auto &layout = *space.partitioner();
     const auto  number = [&](const unsigned int place) {
       return layout.local_to_global(dim * nodes[place][pair.first]);
@@ -281,7 +285,7 @@ namespace geocone::GEOCONE_DIM
                        const std::vector<Share>          &shares,
                        const std::vector<Tensor<1, dim>> &normal) const
   {
-    // How far both sides reach from the place.
+    // Extent of both sides from the position.
     std::array<Vector, 2> nearest;
     for (Vector &of_side : nearest)
       {

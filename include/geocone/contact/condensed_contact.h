@@ -11,29 +11,30 @@
 namespace geocone
 {
   /**
-   * The laws of contact with friction of n nodes on what is left of a linear body when
-   * all other unknowns are eliminated: find u, r = K u + c with
+   * Frictional contact of n nodes with a linear body whose other unknowns are
+   * eliminated: find u, r = K u + c with
    *   0 <= r_N + tension _|_ u_N - least >= 0,
    *   |r_T| <= mu r_N + adhesion, u_T against r_T where it slides,
-   * in the axes n and t of each node, or in n alone. K (kg/(m s)) is dense
-   * and small.
+   * in the axes n and t of each node, or in n alone. K (kg/(m s)) is dense and
+   * small.
    *
-   * An active set, by linear systems, ends at the solution in a few steps where it does
-   * not go round in circles: from the start, from nodes that all stick, and from where
-   * sweeps of Gauss and Seidel lead, which solve node after node exactly. With two
-   * tangents, in three dimensions, it is Newton's method for the way in which nodes slide.
+   * An active-set method, which solves linear systems, reaches the solution in
+   * a few steps unless it cycles. It starts from the given state, from all
+   * nodes sticking, and from the result of Gauss-Seidel sweeps, which solve
+   * node after node exactly. With two tangents, in three dimensions, it is
+   * Newton's method for the slip directions.
    */
   struct CondensedContact
   {
     struct Node
     {
       unsigned int first      = 0; ///< of its components in u and r: u_N, u_T
-      unsigned int n_tangents = 0; ///< of these without friction none
+      unsigned int n_tangents = 0; ///< 0 for nodes without friction
 
       double least    = 0.; ///< (m/s)
       double friction = 0.; ///< mu
-      double adhesion = 0.; ///< borne besides while closed (N/m)
-      double tension  = 0.; ///< the largest pull, at most adhesion/mu (N/m)
+      double adhesion = 0.; ///< additional, while closed (N/m)
+      double tension  = 0.; ///< largest tension, at most adhesion/mu (N/m)
     };
 
     Eigen::MatrixXd   K;
@@ -41,19 +42,21 @@ namespace geocone
     std::vector<Node> nodes;
 
     /**
-     * @param[in,out] u in: a start; out: the solution, or the last iterate (m/s)
+     * Solves the contact problem.
+     * @param[in,out] u in: initial guess; out: the solution, or the last
+     * iterate (m/s)
      * @return whether it is solved to rounding
      */
     bool
     solve(Eigen::VectorXd &u) const;
 
-    /** The largest of what the laws lack at a node, over the largest force: of the root
-     *  functions of Contact. */
+    /** Largest violation of the laws at a node, by the root functions of
+     *  Contact, over the largest force. */
     double
     error(const Eigen::VectorXd &u) const;
 
   private:
-    /** What of error() may be rounding of K u. */
+    /** Rounding error of K u in error(). */
     double
     rounding(const Eigen::VectorXd &u) const;
 
@@ -67,12 +70,12 @@ namespace geocone
     {
       Contact contact = Contact::open;
 
-      /** Of a node that slides: the direction d of r_T, and what d changes by times the
-       *  bound, per r_T - rho u_T: zero with one tangent. */
+      /** Slip direction d of r_T, and the derivative of d times the bound with
+       *  respect to r_T - rho u_T: zero with one tangent. */
       Eigen::VectorXd direction;
       Eigen::MatrixXd turn;
 
-      /** Whether both ask for the same equations. */
+      /** Whether both lead to the same equations. */
       bool
       operator==(const State &other) const
       {
@@ -81,27 +84,28 @@ namespace geocone
       }
     };
 
-    /** The states that u and r show. */
+    /** Contact states by u and r. */
     std::vector<State>
     states(const Eigen::VectorXd &u) const;
 
-    /** u where the states hold, all of them by equations. */
+    /** u that satisfies the equations of all these states. */
     Eigen::VectorXd
     solve_for(const std::vector<State> &state) const;
 
-    /** A sweep over the nodes. @return the largest change of a force over the largest
-     *  force */
+    /** Gauss-Seidel sweep over the nodes. @return the largest change of a force
+     *  over the largest force */
     double
     sweep(Eigen::VectorXd &u) const;
 
-    /** Of a node at most: its normal and two tangents. */
+    /** Vector of at most a normal and two tangential components of a node. */
     using OfNode = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;
 
     /** rho of the tangents: the mean of their stiffness. */
     double
     tangential_rho(const Node &node) const;
 
-    /** u of a node for which the others are as they are. @param b r at u = 0 of it */
+    /** Solves for u of one node, with the others fixed. @param b r for u = 0 at
+     *  this node */
     OfNode
     solve_node(const Node &node, const OfNode &b) const;
   };

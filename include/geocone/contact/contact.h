@@ -21,61 +21,65 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** A gap that counts as none, over the size of a cell. */
+  /** Gap that counts as closed, over the size of a cell. */
   constexpr double closed_gap = 1e-9;
 
-  /** Boundaries of obstacles that are nearer than this part of a cell meet. */
+  /** Distance below which boundaries of obstacles are joined, over the size of
+   *  a cell. */
   constexpr double meeting = 1e-3;
 
-  /** Normals with a larger cosine between them count as one (10 degrees). */
+  /** Normals with a larger cosine between them count as parallel (10
+   *  degrees). */
   const double parallel = std::cos(radians(10.));
 
-  /** A node of which a support holds some directions touches in the others, if the
-   *  normal's part along these is longer (10 degrees). */
+  /** Minimum length of the free part of the normal for contact of a node with
+   *  partial support (10 degrees). */
   const double along_support = std::cos(radians(10.));
 
-  /** A node that may touch an obstacle, or another body, in a step. */
+  /** A node that may be in contact with an obstacle or another body in a
+   *  step. */
   struct ContactNode
   {
     unsigned int node; ///< local, also a ghost
 
-    /** Number of the obstacle; of a pair of bodies, which come after them. */
+    /** Number of the obstacle, or of the contact pair; pairs are numbered after
+     *  obstacles. */
     unsigned int           obstacle;
     dealii::Tensor<1, dim> normal; ///< out of the obstacle, or the other body
     dealii::Tensor<1, dim> arm;    ///< from the obstacle's centre (m)
 
-    /** Unit vectors across the normal and each other in which it may slide: as many as
-     *  supports leave free. */
+    /** Unit vectors orthogonal to the normal and each other in which it may
+     *  slide, in free directions only. */
     std::array<dealii::Tensor<1, dim>, dim - 1> tangents;
     unsigned int                                n_tangents = 0;
 
     dealii::Tensor<1, dim>
       velocity; ///< of the obstacle, or other body, here (m/s)
 
-    /** A node of the other body, and its part of the velocity here. */
+    /** A node of the other body and its weight in the velocity here. */
     struct Partner
     {
       unsigned int node; ///< local, also a ghost
       double       part;
     };
-    std::vector<Partner> partners; ///< of an obstacle none
+    std::vector<Partner> partners; ///< empty for obstacles
 
-    /** Whether the other body's node is in the same place of another layer of the mesh:
-     *  what holds one of both holds the other one alike. */
+    /** Whether the other body's node is at the same position in another layer
+     *  of the mesh: supports act on both alike. */
     bool is_twin = false;
 
-    double length = 0.; ///< of the boundary that the node stands for (m), or 0
+    double length = 0.; ///< tributary length of the boundary (m), or 0
 
-    /** Least relative normal velocity: -g/h for a gap g, or -e u_N of the beginning
-     *  where the node rebounds (m/s). */
+    /** Lower bound of the relative normal velocity: -g/h for a gap g, or -e u_N
+     *  with the initial u_N if the node rebounds (m/s). */
     double least    = 0.;
     bool   rebounds = false; ///< whether e > 0
 
-    /** Of a node that hits in this step and rebounds: its u_N at the beginning. */
+    /** Initial u_N of a node that hits in this step and rebounds. */
     double impact = 0.;
 
-    /** Of a corner, where a node is in two contacts with other normals n and m: the part
-     *  of its force that is this one's, n k' with k.n = 1, k.m = 0; else the identity. */
+    /** Share of the force of a corner node, which has two contacts with normals
+     *  n and m: n k' with k.n = 1, k.m = 0; otherwise the identity. */
     dealii::Tensor<2, dim> share =
       dealii::Tensor<2, dim>(dealii::unit_symmetric_tensor<dim>());
     bool is_corner = false;
@@ -87,15 +91,16 @@ namespace geocone::GEOCONE_DIM
       return !partners.empty();
     }
 
-    bool is_closed = false; ///< at the beginning
+    bool is_closed = false; ///< at the beginning of the step
 
     double friction = 0.; ///< mu
-    double adhesion = 0.; ///< borne besides friction, while closed (N/m)
-    double tension  = 0.; ///< largest pull, of what is closed at first (N/m)
+    double adhesion = 0.; ///< besides friction, while closed (N/m)
+    double tension  = 0.; ///< largest tension, if initially closed (N/m)
   };
 
-  /** A node of a first body that may touch the other one, without what depends on the
-   *  step, the gap, and of meshes that are bodies the size of the faces there (m). */
+  /** A node of a first body that may contact the other one, without the values
+   *  that depend on the step; the gap and, for body-fitted meshes, the size of
+   *  the faces there (m). */
   struct FacingNode
   {
     ContactNode node;
@@ -103,56 +108,59 @@ namespace geocone::GEOCONE_DIM
     double      size = 0.;
   };
 
-  /** What may touch in a step. */
+  /** Potential contacts of a step. */
   struct ContactStep
   {
-    /** All of this rank, with ghosts; in a corner two of the same node, one after the
-     *  other, the nearer one first, with normals that are not parallel. */
+    /** Contact nodes of this rank, with ghosts. A corner node has two
+     *  consecutive entries with non-parallel normals, the nearer contact
+     *  first. */
     std::vector<ContactNode>  nodes;
     std::vector<ObstacleBody> bodies; ///< the obstacles
     bool has_pairs = false;           ///< whether bodies may touch, on any rank
   };
 
   /**
-   * Unilateral contact with friction of nodes and rigid obstacles, or other bodies,
-   * without an unknown of its own. In the rows of a node that may touch, the residual R(v) of
-   * the momentum balance is the force r that the obstacle exerts. Signorini's and
-   * Coulomb's laws for it and the relative velocity u,
+   * Unilateral frictional contact of nodes with rigid obstacles or other
+   * bodies, without additional unknowns. In the rows of a contact node, the
+   * residual R(v) of the momentum balance is the force r exerted by the
+   * obstacle. Signorini's and Coulomb's laws for r and the relative velocity u,
    *   0 <= r_N + t  _|_  w_N = u_N - least >= 0,
    *   |r_T| <= mu r_N + c,  and u_T against r_T where it slides,
-   * with a pull t that is borne where the node is closed at the beginning, mu t <= c,
-   * are the roots of (Alart and Curnier 1991, for any rho > 0)
+   * with a sustainable tension t if the node is closed at the beginning, mu t
+   * <= c, are the roots of (Alart and Curnier 1991, for any rho > 0)
    *   F_N = r_N - q,                     q = max(r_N - rho w_N, -t),
-   *   F_T = r_T - [r_T - rho u_T] in +-b,  b = mu q + c (0 where q = -t),
-   * which takes the place of R in these rows, so that one Newton iteration solves
-   * for plasticity and contact. dF = A dr + B dv: rows of the Jacobian are
-   * combined by the 2 x 2 matrices A, and B comes to the diagonal; both are the
-   * identity's multiples or zero but for sliding nodes. rho is rho_of().
+   *   F_T = r_T - [r_T - rho u_T] in +-b,  b = mu q + c (0 where q = -t).
+   * F replaces R in these rows, so that one Newton iteration solves for
+   * plasticity and contact. dF = A dr + B dv: the 2 x 2 matrices A combine rows
+   * of the Jacobian, and B is added to the diagonal. Both are zero or multiples
+   * of the identity except for sliding nodes. rho is given by rho_of().
    *
-   * So F = r - q, q the projection of p = r - rho (u - least n). A free obstacle has no
-   * unknowns here either: its velocity y at the end of the step, which is G_i y at node
-   * i, is that for which the projected forces are in equilibrium with its own,
+   * Equivalently F = r - q, with q the projection of p = r - rho (u - least n).
+   * A free obstacle has no unknowns here either: its velocity y at the end of
+   * the step, which is G_i y at node i, balances the projected forces,
    *   M (y - y_0)/h + sum_i G_i' q_i = 0:
-   * a function of v, found by a few equations of its own. (By the forces r, which are
-   * far off before Newton's method has converged, a light obstacle would be thrown
-   * about.) With Q = dq/dp and E = M/h + sum rho G' Q G,
+   * a function of v, found from a few equations of its own. (The forces r are
+   * far off before Newton's method has converged and would accelerate a light
+   * obstacle erratically.) With Q = dq/dp and E = M/h + sum rho G' Q G,
    *   dF = (1 - Q) dr + rho Q (dv - G dy),   E dy = -sum G' Q (dr - rho dv):
-   * a part U W' of one column per free motion in the Jacobian, U = rho Q G, W' = E^-1 sum
-   * G' Q (K - rho), K the rows of the Jacobian before they are combined.
+   * a part U W' of one column per free motion in the Jacobian, U = rho Q G, W'
+   * = E^-1 sum G' Q (K - rho), K the rows of the Jacobian before they are
+   * combined.
    *
-   * Another body moves at node i by sum_j P_ij v_j, and bears -P_ij r_i at its node j.
-   * So P_ij r_i comes to the residual there before r_i gives way to F_i, and P_ij times
-   * the rows of i to the rows of j: the multipliers of the contact, which are the r_i by
-   * the dual functions of BodyContact, are condensed out.
+   * Another body moves at node i by sum_j P_ij v_j, with the force -P_ij r_i at
+   * its node j. P_ij r_i is added to the residual there before F_i replaces
+   * r_i, and P_ij times the rows of i to the rows of j: the multipliers of the
+   * contact, which are the r_i by the dual functions of BodyContact, are
+   * condensed out.
    *
-   * A node in a corner is in two contacts with normals n_1 and n_2, each an entry of its
-   * own. Without friction its force is r = a_1 n_1 + a_2 n_2, of which each takes its share
-   * n_i k_i' r; the first one also what is along the edge, which is no force. F and A are
-   * the sums of both.
+   * A corner node has two contacts with normals n_1 and n_2, each an entry of
+   * its own. Without friction its force is r = a_1 n_1 + a_2 n_2, of which each
+   * entry has the share n_i k_i' r; the first one also has the component along
+   * the edge, which vanishes in equilibrium. F and A are the sums of both.
    *
-   * A node of which a support holds some directions is in contact only in the other
-   * ones: where the normal is along them, or the nodes are twins. Where only one is
-   * free, there is no friction.
+   * A node supported in some directions is in contact only in the others, and
+   * only if the normal is along them or the nodes are twins. With a single free
+   * direction there is no friction.
    */
   class Contact
   {
@@ -161,21 +169,22 @@ namespace geocone::GEOCONE_DIM
       : unknowns(unknowns)
     {}
 
-    /** @throws StepFailure if a node that touches another body is held */
+    /** @throws StepFailure if a support acts on a node in contact with another
+     *  body */
     void
     begin_step(ContactStep step);
 
-    /** The nodes that meet those of other bodies in the Jacobian: of each first the
-     *  node, then its partners. */
+    /** Nodes that couple with those of other bodies in the Jacobian: each node,
+     *  followed by its partners. */
     std::vector<std::vector<unsigned int>>
     links() const;
 
     /**
-     * Replaces the forces r in the rows of contact by F, and keeps both.
+     * Replaces the forces r in the rows of contact nodes by F, and stores both.
      * @param[in,out] residual in owned rows
      * @param scale the diagonal of the elastic Jacobian (kg/(m s))
-     * @param rubs whether there is friction
-     * @param holds whether what is closed at the beginning stays so. Collective.
+     * @param rubs whether friction is included
+     * @param holds whether initially closed contacts are bilateral. Collective.
      */
     void
     replace(Vector       &residual,
@@ -184,23 +193,23 @@ namespace geocone::GEOCONE_DIM
             const bool    rubs,
             const bool    holds);
 
-    /** A and B of the last replace() in place of the Jacobian's rows. Collective
-     *  where obstacles are free.
-     *  @return what free obstacles add to it */
+    /** Applies A and B of the last replace() to the rows of the Jacobian.
+     *  Collective if obstacles are free.
+     *  @return contribution of free obstacles */
     LowRank
     linearise(const JacobianPattern &pattern, SparseMatrix &matrix) const;
 
-    /** The same for a product: dst = A dst + B dv, in owned rows.
+    /** Applies A and B to a product: dst = A dst + B dv, in owned rows.
      *  @param dv with its ghosts. Collective. */
     void
     apply_tangent(Vector &dst, const Vector &dv) const;
 
-    /** Sums over what touches, and may touch, on this rank. */
+    /** Sums over active and potential contacts on this rank. */
     struct Sums
     {
       double of_errors = 0.; ///< |F|^2
-      double of_bodies = 0.; ///< the same of free obstacles
-      double of_sizes  = 0.; ///< what errors are compared with
+      double of_bodies = 0.; ///< of_errors of free obstacles
+      double of_sizes  = 0.; ///< reference for errors
     };
     Sums
     sums() const
@@ -222,26 +231,27 @@ namespace geocone::GEOCONE_DIM
       slip
     };
 
-    /** Of an owned node, at the last replace(). */
+    /** State of an owned node at the last replace(). */
     struct Touch
     {
       dealii::Tensor<1, dim> force; ///< of the obstacle on the body (N/m)
       State                  state = State::open;
       double                 error = 0.; ///< |F| (N/m)
-      double size = 0.; ///< |r| + rho |u|, of what F is made of (N/m)
+      double size = 0.; ///< |r| + rho |u|, the reference for F (N/m)
       dealii::Tensor<1, dim> relative; ///< u, in free directions (m/s)
       double                 rho = 0.; ///< (kg/(m s))
     };
 
     /** @name For ContactDirection */
     /** @{ */
-    /** The owned nodes that touch at the last replace(), or are no farther away than
-     *  the forces there could move them. Collective. */
+    /** Selects the owned nodes that are in contact at the last replace(), or
+     *  within the distance over which the forces there could move them.
+     *  Collective. */
     std::vector<unsigned int>
     choose(const MPI_Comm comm) const;
 
-    /** Takes the laws of these nodes out of linearise(), and the motions of obstacles:
-     *  there r + rho du stands in place of dF. Collective. */
+    /** Replaces dF by r + rho du in linearise() for these nodes and freezes the
+     *  motions of obstacles. Collective. */
     void
     relax(const std::vector<unsigned int> &chosen);
 
@@ -251,16 +261,16 @@ namespace geocone::GEOCONE_DIM
       return dim * node.node < row_A[0].locally_owned_size();
     }
 
-    /** Changes the velocities of free obstacles from which the next replace() begins to
-     *  look for them. */
+    /** Changes the initial guess of the velocities of free obstacles in the
+     *  next replace(). */
     void
     change_motions(const Eigen::VectorXd &change)
     {
       obstacles.change(change);
     }
 
-    /** Calls f(number, G) for each free motion of a node's obstacle, of which the node
-     *  has the velocity G. */
+    /** Calls f(number, G) for each free motion of a node's obstacle; G is the
+     *  velocity of the node by this motion. */
     template <typename Function>
     void
     for_motions_of(const ContactNode &node, const Function &f) const
@@ -279,32 +289,33 @@ namespace geocone::GEOCONE_DIM
       return list;
     }
 
-    /** Of each of nodes(); nothing of those that are not owned. */
+    /** State of each of nodes(); meaningless for nodes that are not owned. */
     const std::vector<Touch> &
     touches() const
     {
       return touch;
     }
 
-    /** Whether there is a force: also where what is closed at first is pulled open. */
+    /** Whether there is a force, including tension in initially closed
+     *  contacts. */
     bool
     bears(const unsigned int i) const
     {
       return touch[i].state != State::open || list[i].tension > 0.;
     }
 
-    /** Of all ranks. Collective. */
+    /** Properties over all ranks. Collective. */
     ContactTraits
     traits(const MPI_Comm comm) const;
 
-    /** The velocities of the obstacles, at the last replace(). */
+    /** Velocities of the obstacles at the last replace(). */
     const ObstacleMotions &
     motions() const
     {
       return obstacles;
     }
 
-    /** What of a vector is along the free directions of a node. */
+    /** Part of a vector along the free directions of a node. */
     dealii::Tensor<1, dim>
     free_part(const dealii::Tensor<1, dim> &x, const unsigned int node) const;
 
@@ -312,15 +323,16 @@ namespace geocone::GEOCONE_DIM
     using Force  = dealii::Tensor<1, dim>;
     using Matrix = dealii::Tensor<2, dim>;
 
-    /** Of an owned node: what replace() starts from, of free directions only. */
+    /** Input of replace() at an owned node, in free directions only. */
     struct Local
     {
       Force  r, v;
       double rho = 0.;
     };
 
-    /** rho: of a pair 1/rho = 1/d_i + sum P_ij^2/d_j, d the mean of IncrementalProblem::
-     *  scale() at a node; a light body gives way, whichever of both it is. */
+    /** rho: for a pair 1/rho = 1/d_i + sum P_ij^2/d_j, d the mean of
+     *  IncrementalProblem::scale() at a node. The lighter body dominates,
+     *  whichever of the two it is. */
     double
     rho_of(const ContactNode &node, const Vector &scale) const;
 
@@ -328,19 +340,22 @@ namespace geocone::GEOCONE_DIM
     Force
     free_part(const Vector &v, const unsigned int node) const;
 
-    /** Of the other body at a node, in its free directions. @param v with ghosts */
+    /** Velocity of the other body at a node, in its free directions. @param v
+     *  with ghosts */
     Force
     velocity_of_partners(const ContactNode &node, const Vector &v) const;
 
-    /** In how many directions no support holds a node. */
+    /** Number of unsupported directions of a node. */
     unsigned int
     n_free(const unsigned int node) const;
 
-    /** Chooses the tangents of a node, whose normal is of its free directions. */
+    /** Chooses the tangents of a node whose normal is in its free
+     *  directions. */
     void
     make_tangents(ContactNode &node) const;
 
-    /** Makes two entries of the same node, whose normals are not parallel, a corner. */
+    /** Makes a corner of two entries of the same node with non-parallel
+     *  normals. */
     static void
     make_corner(ContactNode &a, ContactNode &b);
 
@@ -348,11 +363,12 @@ namespace geocone::GEOCONE_DIM
     void
     load_partners(Vector &residual) const;
 
-    /** The same for rows of the Jacobian. */
+    /** Adds P' times the rows of contact nodes to the Jacobian's rows of other
+     *  bodies. */
     void
     add_rows_to_partners(SparseMatrix &matrix) const;
 
-    /** q of a node, F, and Q. */
+    /** Projection q of a node, F, and Q. */
     struct Projection
     {
       Force  q, F;
@@ -364,7 +380,7 @@ namespace geocone::GEOCONE_DIM
             const Local       &at,
             const Force       &velocity) const;
 
-    /** sum G' q, sum rho G' Q G and the size of the sums, of each obstacle at its
+    /** Sums G' q, rho G' Q G and magnitudes for each obstacle at its present
      *  motion. Collective. */
     std::vector<double>
     sums_of_nodes(const std::vector<Local> &locals, const MPI_Comm comm) const;
@@ -373,14 +389,15 @@ namespace geocone::GEOCONE_DIM
     void
     combine_rows(const unsigned int node, SparseMatrix &matrix) const;
 
-    /** What free obstacles add to the Jacobian. @param matrix before linearise() */
+    /** Contribution of free obstacles to the Jacobian. @param matrix before
+     *  linearise() */
     LowRank
     low_rank(const SparseMatrix &matrix) const;
 
     const Unknowns          &unknowns;
     std::vector<ContactNode> list;
     std::vector<Touch>       touch;
-    std::vector<Matrix>      rho_Q; ///< of owned ones
+    std::vector<Matrix>      rho_Q; ///< of owned nodes
     std::array<Vector, dim>  row_A; ///< A by component of F, at the node's dofs
     ObstacleMotions          obstacles;
     bool                     has_pairs  = false; ///< of bodies, on any rank

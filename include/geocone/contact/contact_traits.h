@@ -6,14 +6,15 @@
 
 namespace geocone
 {
-  /** Properties of the contact in a step that decide how the step is solved. */
+  /** Properties of the contact in a step on which the solution strategy
+   *  depends. */
   struct ContactTraits
   {
     bool exists           = false; ///< there may be contact
     bool of_bodies        = false; ///< between deformable bodies
     bool has_friction     = false; ///< a node has friction or adhesion
     bool moves_obstacles  = false; ///< motions of obstacles are unknowns
-    bool obstacles_loaded = false; ///< these carry loads of their own
+    bool obstacles_loaded = false; ///< obstacles carry loads
   };
 } // namespace geocone
 

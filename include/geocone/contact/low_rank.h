@@ -8,12 +8,12 @@
 
 namespace geocone
 {
-  /** A part U W' of a Jacobian, by the owned free rows and columns. */
+  /** Low-rank part U W' of a Jacobian, by the owned free rows and columns. */
   struct LowRank
   {
     Eigen::MatrixXd U, W;
 
-    /** The same on all ranks. */
+    /** Number of columns, the same on all ranks. */
     unsigned int
     rank() const
     {

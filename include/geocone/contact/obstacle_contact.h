@@ -19,21 +19,21 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** What touches in a step, of all ranks. */
+  /** Contact statistics of a step, over all ranks. */
   struct ContactReport
   {
     unsigned int open = 0, stick = 0, slip = 0; ///< nodes
     double       error = 0.; ///< largest |F| over the sum of |r| + rho |u|
     double       penetration = 0.; ///< greatest (m)
-    /** Where the mesh is the body: width of what is closed, and of what of it sticks
-     *  (m), greatest pressure and shear traction (Pa). */
+    /** For body-fitted meshes: width of closed and of sticking contact (m),
+     *  largest pressure and shear traction (Pa). */
     double width = 0., stick_width = 0., pressure = 0., shear = 0.;
-    double work        = 0.; ///< of the step, of the forces on the body (J/m)
-    double dissipation = 0.; ///< of the step, of friction and impact (J/m)
+    double work        = 0.; ///< of the contact forces on the body (J/m)
+    double dissipation = 0.; ///< by friction and impact (J/m)
 
-    /** What the force of an impact on a node that rebounds does at the mean of its
-     *  velocities before and after, over what it does at the last one, which work and
-     *  dissipation count (J/m, not positive). */
+    /** Work of impact forces on rebounding nodes by the mean of the velocities
+     *  before and after, less their work by the final velocity, which is
+     *  included in work and dissipation (J/m, not positive). */
     double of_rebound = 0.;
 
     void
@@ -61,16 +61,16 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * The obstacles of a scene as they move, and the nodes that may touch them or other
-   * bodies: of a mesh that is the body those of its boundary, which carry the gap with them; of
-   * a background mesh those in or on the obstacle, with the gap of the nearest
-   * particle that they move.
+   * Moving obstacles of a scene and the nodes that may contact them or other
+   * bodies. In a body-fitted mesh these are boundary nodes, which carry the gap
+   * with them. In a background mesh they are the nodes in or on the obstacle,
+   * with the gap of the nearest particle that they move.
    */
   class ObstacleContact
   {
   public:
-    /** @param supports of a mesh that is the body, which has to stay; null where
-     *  particles are
+    /** @param supports for a body-fitted mesh, which must outlive this object;
+     *  null for particles
      *  @throws InputError if the body overlaps with an obstacle. Collective. */
     ObstacleContact(const Scene          &scene,
                     const BackgroundMesh &mesh,
@@ -78,14 +78,15 @@ namespace geocone::GEOCONE_DIM
                     const Unknowns       *supports);
 
     /**
-     * Of a mesh that is the body: these cells of this rank are there from now on, with
-     * what bounds them. Nodes that come to the body have moved nothing.
+     * Sets the cells of the body in a body-fitted mesh: these cells of this
+     * rank, with their boundary, are present from now on. New nodes of the body
+     * have zero displacement.
      * @throws InputError if an obstacle overlaps with them. Collective.
      */
     void
     take_body(const std::vector<BackgroundMesh::Cell> &cells);
 
-    /** Whether there are obstacles, or bodies that may touch each other. */
+    /** Whether there are obstacles or contacts between bodies. */
     bool
     exists() const
     {
@@ -93,13 +94,14 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * The nodes and the obstacles of a step from t to t + h.
+     * Potential contact nodes and obstacles of a step from t to t + h.
      * @param velocity_n at t_n, with ghosts
-     * @param solved_h what is solved for: theta h by the theta-scheme
-     * @param gaps of a background mesh: per obstacle the gap to it of the nearest
-     * particle that a node moves, by its first dof, with ghosts
-     * @param facing of a background mesh: the nodes of bodies that may touch
-     * @throws StepFailure if a node touches three things at once, or see
+     * @param solved_h time increment of the solution: theta h by the
+     * theta-scheme
+     * @param gaps for a background mesh: per obstacle, the gap of the nearest
+     * particle moved by a node, by its first dof, with ghosts
+     * @param facing for a background mesh: the nodes of bodies that may touch
+     * @throws StepFailure if a node has three contacts at once; also see
      * BodyContact::find(), ParticleBodies::find()
      */
     ContactStep
@@ -110,18 +112,19 @@ namespace geocone::GEOCONE_DIM
           const std::vector<Vector> &gaps   = {},
           std::vector<FacingNode>    facing = {}) const;
 
-    /** What came of a step, before commit(). Collective. */
+    /** Statistics of a step, before commit(). Collective. */
     ContactReport
     report(const Contact &contact, const Vector &v, const double h) const;
 
-    /** The force of each obstacle on the body, then of each other body on the first one
-     *  of a contact, and their moments, about the given centre or that of the obstacle,
-     *  or the origin. Collective. */
+    /** Forces of each obstacle on the body, then of each other body on the
+     *  first one of a contact, with moments about the given centre, that of the
+     *  obstacle, or the origin. Collective. */
     std::vector<Reaction>
     reactions(const Contact &contact) const;
 
-    /** Adds to the displacements of supports those of a step: of the obstacles, then of
-     *  the first body of each contact against the other one, the mean of what touches.
+    /** Adds the displacements of supports in a step: of the obstacles, then,
+     *  for each contact, of the first body against the other one, averaged over
+     *  active contacts.
      *  @param first number of the first of these supports. Collective. */
     void
     add_displacements(const Contact                       &contact,
@@ -131,12 +134,13 @@ namespace geocone::GEOCONE_DIM
                       std::vector<dealii::Tensor<1, dim>> &supports) const;
 
     /**
-     * For the theta-scheme: nodes that touch keep the velocity against the obstacle
-     * that was solved for, where the one at the end of the step is larger. Extrapolated
-     * like others they would rebound in each step, and their forces alternate.
-     * @param unknowns what is held stays as it is @param v solved for @param mass of the
-     *  nodes @param[in,out] v_end
-     * @return the kinetic energy that this takes (J/m), >= 0. Collective.
+     * Limits the final velocity of contact nodes relative to the obstacle, for
+     * the theta-scheme: nodes in contact retain the velocity at theta if the
+     * extrapolated one is larger. Otherwise they would rebound in each step,
+     * with alternating forces.
+     * @param unknowns prescribed dofs do not change @param v velocity at theta
+     * @param mass of the nodes @param[in,out] v_end
+     * @return the kinetic energy removed (J/m), >= 0. Collective.
      */
     double
     settle(const Contact  &contact,
@@ -145,10 +149,11 @@ namespace geocone::GEOCONE_DIM
            const Vector   &mass,
            Vector         &v_end) const;
 
-    /** Takes the velocities of the obstacles, and moves them and, where the mesh is
-     *  the body, its nodes.
-     *  @param moves whether places change, and not velocities only
-     *  @throws StepFailure if an obstacle enters what is held. Collective. */
+    /** Adopts the velocities of the obstacles and moves them and, for a
+     *  body-fitted mesh, its nodes.
+     *  @param moves whether to change positions, in addition to velocities
+     *  @throws StepFailure if an obstacle penetrates supported nodes.
+     *  Collective. */
     void
     commit(const Contact &contact,
            const Vector  &v,
@@ -156,22 +161,23 @@ namespace geocone::GEOCONE_DIM
            const double   solved_h,
            const bool     moves);
 
-    /** Up to which distance boundaries of obstacles meet, see Neighbours (m). */
+    /** Distance up to which boundaries of obstacles are joined, see Neighbours
+     *  (m). */
     double
     margin() const
     {
       return meeting * size;
     }
 
-    /** What the obstacles have moved. */
+    /** Displacements of the obstacles since the start. */
     const std::vector<RigidMotion> &
     moved() const
     {
       return displacement;
     }
 
-    /** @name The state: of the obstacles what they have moved, and their velocities;
-     *  where the mesh is the body, displacements of its nodes, since the start */
+    /** @name State: displacements since the start and velocities of the
+     *  obstacles; for a body-fitted mesh also the displacements of its nodes */
     /** @{ */
     void
     state(StateRow &row)
@@ -184,13 +190,13 @@ namespace geocone::GEOCONE_DIM
       return path;
     }
 
-    /** Whether what touches may bear a pull. */
+    /** Whether contacts may carry tension. */
     bool
     has_bonds() const;
 
-    /** By the first dof of each node one more than the number of what it touched at the
-     *  end of the last step, or 0. What it bears by that must not depend on a gap that
-     *  is an error of the second order, of an obstacle that turns. */
+    /** Bonds of nodes: by the first dof, one plus the number of the contact at
+     *  the end of the last step, or 0. The tension of a bond must not depend on
+     *  the second-order error of the gap to a rotating obstacle. */
     Vector &
     bonds_of_nodes()
     {
@@ -206,22 +212,23 @@ namespace geocone::GEOCONE_DIM
     const bool            mesh_is_body;
     const Unknowns       *supports;
 
-    /** @throws InputError if an obstacle overlaps with these nodes of a body whose mesh
-     *  it is. Collective. */
+    /** @throws InputError if an obstacle overlaps with these nodes of a
+     *  body-fitted mesh. Collective. */
     void
     check_overlap(const std::vector<unsigned int> &nodes) const;
 
-    /** Whether boundary conditions hold a node of the mesh against something with this
+    /** Whether boundary conditions prescribe the velocity of a node along this
      *  normal. */
     bool
     is_held(const unsigned int            node,
             const dealii::Tensor<1, dim> &normal) const;
 
-    /** Where a node of the body is, or of the background mesh. */
+    /** Current position of a node of a body-fitted mesh, or position in a
+     *  background mesh. */
     dealii::Point<dim>
     place(const unsigned int node) const;
 
-    /** The obstacle's centre as it is. */
+    /** Current centre of the obstacle. */
     dealii::Point<dim>
     centre(const unsigned int obstacle) const
     {
@@ -229,34 +236,37 @@ namespace geocone::GEOCONE_DIM
              displacement[obstacle].centre;
     }
 
-    /** A contact of a node, and its gap (m). */
+    /** A contact of a node and its gap (m). */
     struct Near
     {
       ContactNode contact;
       double      gap;
-      double      reach; ///< what the gap may be to be closed in the step (m)
+      double      reach; ///< largest gap closed in the step (m)
     };
-    /** Near::reach. @param u_n relative velocity at the beginning of the step, of h */
+    /** Near::reach. @param u_n relative normal velocity at the beginning of the
+     *  step h */
     double
     reach(const double h, const double u_n) const;
 
     using NearBodies = std::map<unsigned int, Near>; ///< by node
 
-    /** The part of an obstacle's boundary that is nearest to a node.
-     *  @param approach of the obstacle against the node (m) */
+    /** Part of an obstacle's boundary that is nearest to a node.
+     *  @param approach of the obstacle relative to the node (m) */
     Obstacle::Nearest
     nearest(const unsigned int            obstacle,
             const unsigned int            node,
             const dealii::Tensor<1, dim> &approach,
             const Neighbours             &others) const;
 
-    /** Of a mesh that is the body, after a step. No force would tell it.
-     *  @throws StepFailure if an obstacle has entered a node that boundary conditions
-     *  hold against it. Collective. */
+    /** Checks supported nodes of a body-fitted mesh after a step, which
+     *  penetration would not affect otherwise.
+     *  @throws StepFailure if an obstacle has penetrated a node supported
+     *  against it. Collective. */
     void
     check_held(const Contact &contact, const Vector &v, const double h) const;
 
-    /** The nodes that may touch obstacles, or other bodies. Collective. */
+    /** Adds the nodes that may contact obstacles or other bodies.
+     *  Collective. */
     void
     add_nodes(const Vector              &velocity_n,
               const double               h,
@@ -264,35 +274,36 @@ namespace geocone::GEOCONE_DIM
               const NearBodies          &bodies,
               ContactStep               &step) const;
 
-    /** Of a node: the contact that is nearest, and where another one may be closed with
-     *  it, with another normal, that one, too.
-     *  @param[in,out] refusal why that cannot be */
+    /** Adds the nearest contact of a node and, if it may also be closed, a
+     *  second one with another normal.
+     *  @param[in,out] refusal reason if that is impossible */
     void
     add_nearest(std::vector<Near> &near,
                 std::string       &refusal,
                 ContactStep       &step) const;
 
-    /** The nodes of bodies whose mesh they are that may touch. Collective. */
+    /** Potential contact nodes between bodies with body-fitted meshes.
+     *  Collective. */
     std::vector<FacingNode>
     find_facing(const Vector &velocity_n, const double h) const;
 
-    /** The nodes that may touch other bodies. */
+    /** Potential contacts of nodes with other bodies. */
     NearBodies
     near_bodies(const Vector                  &velocity_n,
                 const double                   h,
                 const std::vector<FacingNode> &facing) const;
 
-    /** Sets what the interface bears at a node, of which the rest is known. */
+    /** Sets the strength of the interface at a node, by its other data. */
     void
     bear(const InterfaceLaw &law, ContactNode &node) const;
 
-    /** The force on a node: what supports hold of it is theirs. */
+    /** Contact force on a node, without the part carried by supports. */
     static dealii::Tensor<1, dim>
     force(const Contact &contact, const unsigned int i);
 
     std::vector<unsigned int> candidates; ///< local nodes, with ghosts
     std::vector<bool> had_cells;    ///< nodes of the body, before take_body()
-    std::optional<NodeSides> sides; ///< of a mesh that is the body
+    std::optional<NodeSides> sides; ///< of a body-fitted mesh only
     double                   size = 0.; ///< of a cell (m)
     std::vector<RigidMotion> displacement, velocity;
     Vector                   path;  ///< of the nodes of the body (m)

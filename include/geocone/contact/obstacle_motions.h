@@ -15,16 +15,16 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** How an obstacle moves in a step. */
+  /** Motion of an obstacle in a step. */
   struct ObstacleBody
   {
-    /** Its velocity y_0 at the end where nothing touches it. */
+    /** Velocity y_0 at the end of the step without contact. */
     RigidMotion without_contact;
 
     std::array<bool, RigidMotion::n_components> is_free = {};
 
-    RigidMotion inertia;    ///< M/h of what is free
-    RigidMotion velocity_n; ///< of what is free, at the start
+    RigidMotion inertia;    ///< M/h of free motions
+    RigidMotion velocity_n; ///< of free motions, at the start
 
     unsigned int
     n_free() const
@@ -34,12 +34,12 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * The velocities y of the obstacles at the end of a step: driven ones as they are
-   * driven, of free ones those for which the forces q_i of the nodes that touch them are
-   * in equilibrium with their own,
+   * Velocities y of the obstacles at the end of a step. Those of driven
+   * obstacles are prescribed; those of free ones balance the forces q_i of the
+   * contact nodes,
    *   M (y - y_0)/h + sum_i G_i' q_i(y) = 0,
-   * as many equations as motions are free, found by Newton's method with E = M/h + sum rho G' Q G. Who
-   * knows the nodes gives the sums; see Contact.
+   * with as many equations as free motions, solved by Newton's method with E =
+   * M/h + sum rho G' Q G. The sums are supplied by the caller; see Contact.
    */
   class ObstacleMotions
   {
@@ -50,14 +50,14 @@ namespace geocone::GEOCONE_DIM
     void
     begin_step(std::vector<ObstacleBody> bodies);
 
-    /** Of each obstacle in turn: sum G' q, sum rho G' Q G by rows, and the size of what
-     *  is added, at the present motions, of all ranks. */
+    /** Sums for each obstacle in turn: sum G' q, sum rho G' Q G by rows, and
+     *  the sum of magnitudes, at the present motions, over all ranks. */
     using Sums = std::function<std::vector<double>()>;
     static constexpr unsigned int n_sums =
       n_motions + n_motions * n_motions + 1;
 
-    /** Finds the motions of the free ones, from the last ones. Collective as the sums
-     *  are. */
+    /** Solves for the free motions, starting from the last ones. Collective if
+     *  the sums are. */
     void
     find(const Sums &sums);
 
@@ -77,7 +77,7 @@ namespace geocone::GEOCONE_DIM
     bool
     are_loaded() const;
 
-    /** Of all obstacles. */
+    /** Number of free motions of all obstacles. */
     unsigned int
     n_free() const
     {
@@ -90,14 +90,14 @@ namespace geocone::GEOCONE_DIM
       return motion;
     }
 
-    /** E^-1 of an obstacle, zero for what is driven. */
+    /** E^-1 of an obstacle, zero for driven motions. */
     const Matrix &
     mobility(const unsigned int obstacle) const
     {
       return inverse_E[obstacle];
     }
 
-    /** What the equilibrium lacks (N/m), over all obstacles. */
+    /** Out-of-balance force (N/m), over all obstacles. */
     double
     error() const
     {
@@ -115,8 +115,8 @@ namespace geocone::GEOCONE_DIM
           f(k, number++);
     }
 
-    /** M/h of the free motions, and what the equilibrium of each lacks without the
-     *  forces of nodes: M/h (y - y_0). */
+    /** M/h of the free motions and their out-of-balance forces without contact:
+     *  M/h (y - y_0). */
     void
     balance(Eigen::VectorXd &inertia, Eigen::VectorXd &lack) const;
 
@@ -128,7 +128,7 @@ namespace geocone::GEOCONE_DIM
     Kinetic
     kinetic() const;
 
-    /** Changes the velocities from which the next find() begins. */
+    /** Changes the initial velocities of the next find(). */
     void
     change(const Eigen::VectorXd &by);
 
@@ -136,7 +136,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<ObstacleBody> bodies;
     std::vector<RigidMotion>  motion;
     std::vector<Matrix>       inverse_E;
-    std::vector<unsigned int> first_free; ///< number of an obstacle's first one
+    std::vector<unsigned int> first_free; ///< first number per obstacle
     unsigned int              n_free_motions = 0;
     double                    lack_of_all    = 0.;
   };

@@ -15,11 +15,13 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Per obstacle the gap to it of the nearest particle that a node moves (m), by the
-   * node's first dof, for ObstacleContact::begin(). A particle is a square of its
-   * volume. Collective.
-   * Where one obstacle ends and another one goes on, the particles before both count.
-   * @param moved what the obstacles have moved since the start
+   * Gap between each obstacle and the nearest particle moved by a node (m), by
+   * the node's first dof, for ObstacleContact::begin(). A particle is a square
+   * of its volume. Collective.
+   *
+   * If another obstacle continues the surface of an obstacle, the particles in
+   * front of both count.
+   * @param moved displacements of the obstacles since the start
    * @param margin see Neighbours
    */
   std::vector<Vector>
@@ -36,16 +38,17 @@ namespace geocone::GEOCONE_DIM
                           const MPI_Comm        comm);
 
   /**
-   * Where bodies of particles touch. Each has a layer of the background mesh, so that in
-   * a place that both reach there is a node of each. The normal there is that of the plane
-   * which parts the particles that move the two nodes with the greatest margin: along
-   * the shortest way between their convex hulls. Unlike gradients of volume it does not
-   * mind sides of the mesh, edges of a body and how densely it is filled. Where no
-   * plane parts them, in a notch, it is that of the gradients,
+   * Contact between bodies of particles. Each body has its own layer of the
+   * background mesh, so that at a position within reach of both there is a node
+   * of each. The normal there is that of the plane that separates the particles
+   * of both nodes with the largest margin: along the shortest line between
+   * their convex hulls. Unlike gradients of volume it does not depend on
+   * boundaries of the mesh, edges of a body and the density of particles. If no
+   * plane separates them, as in a notch, the normal is that of the gradients,
    *   n = a_other - a_first,   a = sum_p V_p grad N_i = int N_i n dA  of a body.
-   * Along n the gap is what is between the nearest particles of both, squares of their
-   * volume; and the length that the node stands for is the smaller one of -n.a of the first
-   * body and n.a of the other one.
+   * The gap is the distance along n between the nearest particles of both,
+   * squares of their volume. The tributary length of the node is the smaller of
+   * -n.a of the first body and n.a of the other one.
    */
   class ParticleBodies
   {
@@ -55,55 +58,57 @@ namespace geocone::GEOCONE_DIM
                    const Space          &space);
 
     /**
-     * The nodes of first bodies that may touch the other ones, of this rank and its
-     * ghosts: in each place those of the pair that is nearest.
+     * Finds the nodes of first bodies that may contact the other ones, of this
+     * rank and its ghosts: at each position those of the nearest pair.
      * @param unknowns which nodes have mass
-     * @throws StepFailure if three bodies touch in one place, or if a body whose points
-     * stay in the mesh has moved too far for it. Collective.
+     * @throws StepFailure if three bodies meet at one position, or if a body
+     * with fixed quadrature points has moved too far for it. Collective.
      */
     std::vector<FacingNode>
     find(const MaterialPoints &points, const Unknowns &unknowns) const;
 
-    /** @throws InputError if particles of two bodies are in the same place at the
-     *  start. Collective. */
+    /** @throws InputError if particles of two bodies overlap at the start.
+     *  Collective. */
     void
     check_start(const MaterialPoints &points, const Unknowns &unknowns) const;
 
   private:
-    /** Two bodies, by the contact between them. */
+    /** Two bodies in contact, as layers of the mesh. */
     struct Pair
     {
       unsigned int contact;
       unsigned int first, other; ///< layers
     };
 
-    /** A particle that moves the node of a pair in a place. */
+    /** A particle that moves the node of a pair at a position. */
     struct Share
     {
       unsigned int       place;
       bool               is_first; ///< of the first body
       dealii::Point<dim> x;
-      double             half; ///< of its square's side (m)
+      double             half; ///< half the side of its square (m)
     };
 
-    /** Of all particles that move nodes of a pair where both have mass. */
+    /** Shares of all particles that move nodes of a pair, where both have
+     *  mass. */
     std::vector<Share>
     shares_of(const Pair           &pair,
               const MaterialPoints &points,
               const Unknowns       &unknowns) const;
 
-    /** The normals by place; zero where no plane parts the bodies. Each rank gets the
-     *  corners of all hulls, of which there are few. Collective. */
+    /** Normals by position; zero if no plane separates the bodies. Each rank
+     *  receives the corners of all hulls, which are few. Collective. */
     std::vector<dealii::Tensor<1, dim>>
     normals(const Pair &pair, const std::vector<Share> &shares) const;
 
-    /** The gaps by place along the normals. Collective. */
+    /** Gaps by position along the normals. Collective. */
     std::vector<double>
     gaps(const Pair                                &pair,
          const std::vector<Share>                  &shares,
          const std::vector<dealii::Tensor<1, dim>> &normal) const;
 
-    /** @throws StepFailure if points that stay have moved by half a cell. Collective. */
+    /** @throws StepFailure if fixed quadrature points have moved by half a
+     *  cell. Collective. */
     void
     check_fixed(const MaterialPoints &points) const;
 
@@ -113,8 +118,8 @@ namespace geocone::GEOCONE_DIM
 
     std::vector<Pair> pairs;
 
-    /** By place the local nodes of the layers, and by local node the place and the
-     *  layer. */
+    /** Local nodes of the layers by position, and position and layer by local
+     *  node. */
     std::vector<std::vector<unsigned int>> nodes;
     std::vector<unsigned int>              place_of, layer_of;
   };
