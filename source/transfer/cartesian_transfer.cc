@@ -17,14 +17,15 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Cells around the points in which they may move until the next sort. */
+    /** Number of cells by which points may move until the next sort. */
     constexpr int margin = 2;
 
-    /** Nodes are read and written by four values, the mass up to three beyond. */
+    /** Nodes are read and written by four values, up to three beyond the last
+     *  mass. */
     constexpr unsigned int mass_padding = 4;
 
-    /** A side of the grid: only the first and the last function are not zero at the ends
-     *  of an axis. */
+    /** A side of the grid: at the ends of an axis, only the first and the last
+     *  function are nonzero. */
     struct GridSide
     {
       std::string  name;
@@ -43,7 +44,8 @@ namespace geocone::GEOCONE_DIM
       return sides;
     }
 
-    /** @throws InputError for a condition on sides that the grid has not */
+    /** @throws InputError for a condition on sides that are not sides of the
+     *  grid */
     void
     check_grid_sides(const BoundaryCondition     &condition,
                      const std::vector<GridSide> &sides)
@@ -74,7 +76,7 @@ namespace geocone::GEOCONE_DIM
   {
     const std::vector<GridSide> sides = sides_of_grid(grid);
 
-    // The last condition in the list that prescribes a component holds it.
+    // The last condition in the list that prescribes a component determines it.
     std::map<std::array<unsigned int, dim + 1>, PrescribedNode> of_component;
     for (unsigned int c = 0; c < conditions.list.size(); ++c)
       {
@@ -171,7 +173,7 @@ namespace geocone::GEOCONE_DIM
   void
   CartesianTransfer::sort_by_cell(std::vector<PointArrays> &groups)
   {
-    // Where the points are, with room to move in.
+    // Range of the points, with a margin for motion.
     for (unsigned int d = 0; d < dim; ++d)
       {
         const CartesianGrid::Axis &axis = grid.axes[d];
@@ -189,7 +191,8 @@ namespace geocone::GEOCONE_DIM
         if (cells[d].end < cells[d].begin)
           cells[d] = {0, 0};
       }
-    // Columns have the same rows on all ranks, so that shared ones are alike.
+    // Columns have the same rows on all ranks, so that shared ones are
+    // identical.
     for (unsigned int d = 1; d < dim; ++d)
       {
         int rows[2] = {cells[d].size() > 0
@@ -254,7 +257,7 @@ namespace geocone::GEOCONE_DIM
     write.fill(0.);
     mass.fill(0.);
 
-    // A column counts on the lowest rank that stores it.
+    // A column is counted on the lowest rank that stores it.
     const auto all = Utilities::MPI::all_gather(
       comm, std::array<int, 2>{{stored[0].begin, stored[0].end}});
     stored_columns.clear();
@@ -425,7 +428,7 @@ namespace geocone::GEOCONE_DIM
   std::size_t
   CartesianTransfer::n_stored_cells() const
   {
-    // A cell has the place of the lowest of its functions.
+    // A cell has the index of the lowest of its functions.
     return n_nodes();
   }
 
@@ -449,7 +452,7 @@ namespace geocone::GEOCONE_DIM
   {
     if (n_ranks == 1)
       return;
-    // What this rank shares with each other one: columns, all their rows.
+    // Columns shared with each other rank, with all their rows.
     const unsigned int       stride = column_size();
     std::vector<Range>       shared(n_ranks);
     Range                    all = {stored[0].end, stored[0].begin};
@@ -517,7 +520,7 @@ namespace geocone::GEOCONE_DIM
         }
     MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
 
-    // Summed in the order of the ranks, so that all get the same to the last bit.
+    // Summation in the order of the ranks, for identical results on all ranks.
     for (const Shared &array : arrays)
       std::fill_n(array.values + array.per_node * offset(all.begin),
                   array.per_node * static_cast<std::size_t>(all.size()) *

@@ -94,7 +94,8 @@ namespace geocone::GEOCONE_DIM
     const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
     for (unsigned int g = 0; g < groups.size(); ++g)
       {
-        // Points in other ranks' cells go there, the others know their place.
+        // Points in cells of other ranks are sent there; the others have their
+        // unit coordinates.
         PointArrays              &group = groups[g];
         std::vector<unsigned int> owner(group.n_points(), rank);
         unsigned int              n_staying = 0;
@@ -296,7 +297,7 @@ namespace geocone::GEOCONE_DIM
     if (Utilities::MPI::n_mpi_processes(comm) == 1)
       return;
     const unsigned int n_nodes = space.n_local_nodes();
-    // Momentum, force, and the mass (as both components of a vector).
+    // Momentum, force, and mass (in all components of a vector).
     for (unsigned int part = 0; part < (with_mass ? 3 : 2); ++part)
       {
         exchanged.zero_out_ghost_values();

@@ -11,18 +11,18 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The transfer on a uniform grid, which finds cells by a multiplication. Ranks
-   * own slabs of columns, cut such that each has about the same number of points,
-   * anew in each sort(); in space, of slices. Columns of nodes are contiguous, so that what two
-   * ranks share is one piece of memory. Only the nodes around the points are
-   * stored.
+   * Transfer on a uniform grid, where cells are found by a multiplication. Each
+   * rank owns a slab of columns (in space: of slices). Slabs are chosen anew in
+   * each sort() such that the numbers of points are about equal. Columns of
+   * nodes are contiguous, so that the nodes shared by two ranks are contiguous
+   * in memory. Only the nodes around the points are stored.
    */
   class CartesianTransfer : public GridTransfer
   {
   public:
     /**
      * @param conditions the prescribed velocities, on sides of the grid
-     * @throws InputError for sides that the grid has not
+     * @throws InputError for sides that are not sides of the grid
      */
     CartesianTransfer(const MPI_Comm            comm,
                       const CartesianGrid      &grid,
@@ -98,26 +98,28 @@ namespace geocone::GEOCONE_DIM
       }
     };
 
-    /** Cuts the columns of cells into slabs of about equal numbers of points. */
+    /** Divides the columns of cells into slabs with about equal numbers of
+     *  points. */
     void
     cut_slabs(const std::vector<PointArrays> &groups);
 
-    /** Sends the points that are not in this rank's slab. */
+    /** Sends points outside this rank's slab to their ranks. */
     void
     migrate(std::vector<PointArrays> &groups) const;
 
     void
     sort_by_cell(std::vector<PointArrays> &groups);
 
-    /** Chooses the stored functions, and the prescribed ones among them. */
+    /** Chooses the stored functions and finds the prescribed ones among
+     *  them. */
     void
     store_nodes();
 
-    /** Functions stored of a column. */
+    /** Number of stored functions per column. */
     std::size_t
     column_size() const;
 
-    /** Values of all stored nodes, so many per node. */
+    /** Nodal values of all stored nodes, with their number per node. */
     struct Shared
     {
       double      *values;
@@ -132,7 +134,7 @@ namespace geocone::GEOCONE_DIM
     GridIndex
     n_functions() const;
 
-    /** The place of a function among the stored ones. @pre it is one of them */
+    /** Index of a function among the stored ones. @pre it is one of them */
     std::size_t
     stored_place_of(const std::array<unsigned int, dim> &function) const;
 
@@ -144,12 +146,12 @@ namespace geocone::GEOCONE_DIM
     const CartesianGrid    grid;
     const TransferKernels &kernels;
 
-    /** Of the whole grid, by their numbers in it, number_in_grid(). */
+    /** Prescribed functions of the whole grid, by number_in_grid(). */
     std::vector<PrescribedNode> prescribed_functions;
 
-    std::vector<int>   slab_begin;  ///< first column of cells of each rank
-    Range              cells[dim];  ///< where this rank's points may be
-    Range              stored[dim]; ///< functions, from which `read` etc. begin
+    std::vector<int>   slab_begin;     ///< first column of cells of each rank
+    Range              cells[dim];     ///< range of this rank's points
+    Range              stored[dim];    ///< functions; `read` etc. begin here
     std::vector<Range> stored_columns; ///< of all ranks
 
     std::vector<unsigned int>        count, order;  ///< of sort_by_cell()

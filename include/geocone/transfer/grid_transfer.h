@@ -21,15 +21,15 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The nodes of an explicit step, and how points give to them and take from
-   * them. A node has node_size doubles to read, as many to write, and a mass, at the
-   * same place of three arrays:
+   * Nodes of an explicit step and the transfer between points and nodes. Three
+   * arrays hold for each node, at the same index, node_size doubles to read, as
+   * many to write, and a mass:
    *   read:  velocity and its change in the step, for the points;
    *   write: momentum and force, from the points;
    *   mass.
-   * Nodes that several ranks store hold the sums of all ranks after exchange().
-   * Points go to the rank that owns their place in sort(), and not before: the
-   * stored nodes reach at least a cell farther than the points.
+   * After exchange(), nodes stored by several ranks hold the sums of all ranks.
+   * Points are sent to the rank that owns their position in sort() only: the
+   * stored nodes extend at least a cell beyond the points.
    */
   class GridTransfer
   {
@@ -37,14 +37,14 @@ namespace geocone::GEOCONE_DIM
     virtual ~GridTransfer() = default;
 
     /**
-     * Sends points to their ranks, sorts them by cell, and stores the nodes around
-     * them, with nothing in write and mass. Collective.
+     * Sends points to their ranks, sorts them by cell and stores the nodes
+     * around them, with zero write and mass. Collective.
      */
     virtual void
     sort(std::vector<PointArrays> &groups) = 0;
 
-    /** Whether sort() must come before the next step, for points that have
-     *  moved to these bounds on this rank (not collective). */
+    /** Whether the next step requires a sort(), for points moved to these
+     *  bounds on this rank (not collective). */
     virtual bool
     must_sort(const PassSums &sums) const = 0;
 
@@ -66,22 +66,23 @@ namespace geocone::GEOCONE_DIM
                    const bool           with_mass) = 0;
     virtual void
     scatter_affine(const TransferBlock &points, BlockScratch &scratch) = 0;
-    /** Numbers of the cells of the points, below n_stored_cells(). */
+    /** Finds the cells of the points, as numbers below n_stored_cells(). */
     virtual void
     find_cells(const TransferBlock &points, unsigned int *cells) const = 0;
     /** @} */
 
-    /** @name Means over the points of a cell, weighted by volume (B-bar) */
+    /** @name Volume averages over the points of a cell (B-bar) */
     /** @{ */
     void
     clear_cells();
     void
     add_to_cells(const TransferBlock &points, const double *values);
-    /** Sums over the ranks, where the points of a cell may be on several. Collective. */
+    /** Sums over the ranks if the points of a cell may be on several.
+     *  Collective. */
     virtual void
     exchange_cells()
     {}
-    /** The means of the cells of the points; 0 where no point has a volume. */
+    /** Means of the cells of the points; 0 if no point has a volume. */
     void
     average(const TransferBlock &points, double *means) const;
     virtual std::size_t
@@ -89,48 +90,50 @@ namespace geocone::GEOCONE_DIM
     /** @} */
 
     /**
-     * Sums over the ranks what their points have written: everything, and the
-     * masses if @p with_mass. Collective.
+     * Sums the nodal values written by the points over the ranks; masses only
+     * if
+     * @p with_mass. Collective.
      */
     virtual void
     exchange(const bool with_mass) = 0;
 
-    /** Whether points may be at x, where all stored nodes are. */
+    /** Whether x is in the region covered by stored nodes. */
     virtual bool
     reaches(const dealii::Point<dim> &x) const = 0;
 
-    /** A place that reaches() accepts. */
+    /** A position accepted by reaches(). */
     virtual dealii::Point<dim>
     stored_place() const = 0;
 
-    /** Whether sort() must come before every step. */
+    /** Whether every step requires a sort(). */
     virtual bool
     moves_each_step() const
     {
       return false;
     }
 
-    /** How often sort() has handed over cells between ranks, and numbered nodes anew. */
+    /** Number of times that sort() has redistributed cells between ranks and
+     *  renumbered nodes. */
     virtual unsigned int
     n_repartitions() const
     {
       return 0;
     }
 
-    /** Whether points know their cells (PointState::cell and unit), which sort()
-     *  finds. */
+    /** Whether points store their cells (PointState::cell and unit), found by
+     *  sort(). */
     virtual bool
     keeps_cells() const
     {
       return false;
     }
 
-    /** The place of the domain that is nearest to x. */
+    /** Nearest position of the domain to x. */
     virtual dealii::Point<dim>
     nearest_in_domain(const dealii::Point<dim> &x) const = 0;
 
-    /** Whether points of any place may be given to any rank before sort(), or
-     *  each must be given one that owns() its place. */
+    /** Whether any rank accepts points at any position before sort(); otherwise
+     *  a point must be given to the rank that owns() its position. */
     virtual bool
     takes_any_point() const
     {
@@ -142,7 +145,7 @@ namespace geocone::GEOCONE_DIM
       return true;
     }
 
-    /** Smallest side of a cell (m). */
+    /** Smallest edge of a cell (m). */
     virtual double
     cell_size() const = 0;
 
@@ -152,26 +155,26 @@ namespace geocone::GEOCONE_DIM
     virtual unsigned long
     n_cells() const = 0;
 
-    /** Bytes of the nodes. */
+    /** Memory of the nodes in bytes. */
     virtual std::size_t
     memory() const = 0;
 
-    /** What the kernels are called, for the log. */
+    /** Name of the kernels, for the log. */
     virtual std::string
     description() const = 0;
 
-    /** Aligned, so that no node lies across two lines of the cache. */
+    /** Aligned, so that no node spans two cache lines. */
     dealii::AlignedVector<double> read, write, mass;
 
-    /** Ranges [begin, end) of the nodes that this rank counts in sums. */
+    /** Ranges [begin, end) of the nodes that this rank includes in sums. */
     std::vector<std::array<unsigned int, 2>> mine;
 
     std::vector<PrescribedNode> prescribed;
 
-    /** Per condition the centre of the bounding box of all nodes it selects. */
+    /** Centre of the bounding box of all nodes of each condition. */
     std::vector<dealii::Point<dim>> centres;
 
-    /** Points (group, number) that sort() has found outside the mesh. */
+    /** Points (group, number) found outside the mesh by sort(). */
     std::vector<std::array<unsigned int, 2>> lost;
 
     unsigned int

@@ -15,15 +15,15 @@ namespace geocone::GEOCONE_DIM
   class Constraints;
 
   /**
-   * The transfer on any mesh: each step looks for the cell of
-   * each point, first in the cell where it was, then in those that share a vertex
-   * with it, then everywhere, and evaluates the functions there once. Where ranks have
-   * too unequal numbers of points they hand over cells.
+   * Transfer on an arbitrary mesh. Each step finds the cell of each point,
+   * first in its previous cell, then in those that share a vertex with it, then
+   * everywhere, and evaluates the functions there once. If the numbers of
+   * points on the ranks are too unequal, cells are redistributed.
    */
   class MeshTransfer : public GridTransfer
   {
   public:
-    /** @throws InputError for sides that the mesh has not */
+    /** @throws InputError for sides that do not exist in the mesh */
     MeshTransfer(const Scene    &scene,
                  BackgroundMesh &mesh,
                  Space          &space,
@@ -85,7 +85,7 @@ namespace geocone::GEOCONE_DIM
     void
     exchange(const bool with_mass) override;
 
-    /** Points may be anywhere until the next sort() finds them. */
+    /** Always true: points may be anywhere until the next sort() finds them. */
     bool
     reaches(const dealii::Point<dim> &) const override
     {
@@ -125,7 +125,7 @@ namespace geocone::GEOCONE_DIM
   private:
     using Cell = BackgroundMesh::Cell;
 
-    /** The functions at a point: local nodes, values, gradients. */
+    /** Shape functions at points: local nodes, values, gradients. */
     struct Functions
     {
       std::vector<unsigned int> nodes;
@@ -134,20 +134,21 @@ namespace geocone::GEOCONE_DIM
       std::array<std::vector<double>, dim> slopes;
     };
 
-    /** Makes room for the nodes of this rank, and finds what conditions prescribe. */
+    /** Allocates the nodes of this rank and finds the prescribed ones. */
     void
     store_nodes(const Constraints &constraints);
 
-    /** Hands over cells between ranks. @param groups of points that know their cells,
-     *  or have none. Collective. */
+    /** Redistributes cells between ranks. @param groups of points that store
+     *  their cells, or have none. Collective. */
     void
     hand_over(const std::vector<PointArrays> &groups);
 
-    /** Evaluates the functions of all points of a group, and its padding. */
+    /** Evaluates the functions at all points of a group, including its
+     *  padding. */
     void
     evaluate(const PointArrays &group, Functions &functions) const;
 
-    /** Those of a point of a block. */
+    /** Functions at a point of a block. */
     PointFunctions
     functions_at(const TransferBlock &points, const unsigned int k) const;
 

@@ -8,27 +8,29 @@
 #include <geocone/transfer/transfer_kernels.h>
 
 /*
- * Where four points are on a grid, and the values there of the functions that reach
- * them: what every kernel of a transfer begins with. P: Pack of an architecture.
+ * Positions of four points on a grid and the values there of the functions with
+ * support at them: the first part of every kernel of a transfer. P: Pack of an
+ * architecture.
  */
 namespace geocone::GEOCONE_DIM
 {
-  /** A value of each function of each direction, at four points. */
+  /** One value per function and direction, at four points. */
   template <int p>
   using ValuesAtFour = double[dim][p + 1][4];
 
-  /** What a direction of a grid has for all points. */
+  /** Data of one direction of a grid that is common to all points. */
   template <typename P, int p>
   struct PackedAxis
   {
     P origin, inverse_size, last, first, stride;
 
-    /** Of the intervals p - 1 ... n_intervals - p, which are of one type. */
+    /** Coefficients of the intervals p - 1 ... n_intervals - p, which are of
+     *  one type. */
     P inner_first, inner_last, inner[2 * p + 1][p + 1];
   };
 
-  /** A grid as functions of degree p are found on it; a copy, which stores to
-   *  points and nodes cannot change. */
+  /** Grid data for finding functions of degree p; a copy, which stores to
+   *  points and nodes cannot alias. */
   template <typename P, int p>
   struct PackedGrid : GridView
   {
@@ -63,12 +65,13 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** The (p + 1)^dim functions that live at four points, k, k + 1, ... of a block. */
+  /** The (p + 1)^dim functions with support at four points, k, k + 1, ... of a
+   *  block. */
   template <typename P, int p>
   struct NodesOfFour
   {
     int             first[4];       ///< of them, among those that are stored
-    int             lowest[dim][4]; ///< functions of the directions, among all
+    int             lowest[dim][4]; ///< functions per direction, among all
     ValuesAtFour<p> N, dN;
 
     NodesOfFour(const PackedGrid<P, p> &grid,
@@ -82,7 +85,7 @@ namespace geocone::GEOCONE_DIM
           const PackedAxis<P, p> &axis = grid.at[d];
           const P                 u =
             (P::load(points.x[d] + k) - axis.origin) * axis.inverse_size;
-          // Zero comes second, so that it is taken for what is not a number.
+          // Zero comes second, so that it replaces NaN.
           const P interval =
             whole_part(min(max(u, P(0.)), axis.last), lowest[d]);
           xi[d] = u - interval;
@@ -98,7 +101,7 @@ namespace geocone::GEOCONE_DIM
           find_each(grid.axes[d], lowest[d], xi[d], N[d], dN[d]);
     }
 
-    /** Where the first node of a point has its doubles. */
+    /** Address of the doubles of the first node of a point. */
     const double *
     read(const GridView &grid, const int m) const
     {
@@ -111,8 +114,8 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** Value and slope at xi, of the polynomials with coefficients c(0), ... of one
-     *  and then of the other. */
+    /** Evaluates value and slope at xi, of the polynomials with coefficients
+     *  c(0), ... of one and then of the other. */
     template <typename Coefficients>
     static void
     evaluate(const Coefficients &c, const P &xi, P &value, P &slope)
@@ -125,8 +128,8 @@ namespace geocone::GEOCONE_DIM
         slope = slope * xi + c(power);
     }
 
-    /** Of points on intervals with the same coefficients: one function after the
-     *  other. */
+    /** For points on intervals with the same coefficients: function by
+     *  function. */
     static void
     find(const P (&c)[2 * p + 1][p + 1],
          const P &xi,
@@ -142,8 +145,7 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Of points of which some are near an end of the grid: one point after the
-     *  other. */
+    /** If some points are near an end of the grid: point by point. */
     static void
     find_each(const GridAxis &axis,
               const int (&interval)[4],

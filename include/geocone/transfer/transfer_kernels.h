@@ -9,8 +9,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * One direction of a uniform grid, with the splines (or hats) of a degree p on
-   * it, as kernels read it. On the interval i, with xi in [0, 1],
+   * One direction of a uniform grid with splines (or hats) of degree p, in the
+   * layout of the kernels. On the interval i, with xi in [0, 1],
    *   N_f = sum_k coefficients[type[i]][k][f] xi^k,   k = 0 ... p,
    *   dN_f/dx = sum_k coefficients[type[i]][p + 1 + k][f] xi^k,  k = 0 ... p - 1,
    * f = 0 ... p (padded by zeros to 4) for the functions i, ..., i + p.
@@ -20,23 +20,23 @@ namespace geocone::GEOCONE_DIM
     double               origin       = 0.; ///< (m)
     double               inverse_size = 1.; ///< 1/h (1/m)
     int                  n_intervals  = 0;
-    int                  first        = 0; ///< lowest function that is stored
+    int                  first        = 0; ///< lowest stored function
     const unsigned char *type         = nullptr;
     const double        *coefficients = nullptr;
     const double        *places = nullptr; ///< Greville abscissae (m), for APIC
   };
 
   /**
-   * The doubles of a node, for vectors of four: in the plane (v_x, v_y, dv_x, dv_y)
-   * to read and (m v, force) to write; in space (v, 0) and (dv, 0), (m v, 0) and
-   * (force, 0). The second quantity begins at change_of_node.
+   * Number of doubles of a node, for vectors of four: in the plane (v_x, v_y,
+   * dv_x, dv_y) to read and (m v, force) to write; in space (v, 0) and (dv, 0),
+   * (m v, 0) and (force, 0). The second quantity begins at change_of_node.
    */
   constexpr unsigned int node_size      = 4 * (dim - 1);
   constexpr unsigned int change_of_node = node_size / 2;
 
   /**
-   * The stored part of a grid: functions axes[d].first, ... per direction, those of
-   * the last direction one after another. A node has node_size doubles, and its mass.
+   * Stored part of a grid: functions axes[d].first, ... per direction,
+   * contiguous in the last direction. A node has node_size doubles and a mass.
    */
   struct GridView
   {
@@ -47,36 +47,38 @@ namespace geocone::GEOCONE_DIM
     double               *mass   = nullptr;
   };
 
-  /** What a block of points holds between the parts of a pass; in cache. */
+  /** Data of a block of points between the stages of a pass; fits into the
+   *  cache. */
   struct BlockScratch
   {
     static constexpr unsigned int size = PointBlock::capacity;
 
-    /** What nodes gave to each point: the doubles of a node, then for each direction
-     *  the slopes of the first four, which begin with those of v. */
+    /** Values gathered at each point: the doubles of a node, then for each
+     *  direction the slopes of the first four, which begin with those of v. */
     static constexpr unsigned int n_gathered = node_size + 4 * dim;
     alignas(32) double gathered[n_gathered * size];
 
-    /** What nodes get: (m v, 0, ...) times N, then for each direction d times dN/dx_d
-     *  the last four, which end or begin with -V s_d as those of a node do. */
+    /** Values scattered to nodes: (m v, 0, ...) times N, then for each
+     *  direction d times dN/dx_d the last four, which end or begin with -V s_d
+     *  as those of a node do. */
     static constexpr unsigned int n_given = 4 + 4 * dim;
     alignas(32) double given[n_given * size];
 
     alignas(32) double l[dim * dim][size];
 
-    /** Around an axis: the strain increment out of the plane, and the force that
-     *  the stress there exerts along x, -V s_zz/r (N). */
+    /** Axisymmetric: hoop strain increment, and the force along x of the hoop
+     *  stress, -V s_zz/r (N). */
     alignas(32) double l_zz[size];
     alignas(32) double hoop_force[size];
 
-    /** With B-bar, at each point or its mean over the points of the cell: the divergence
-     *  of v (1/s), and the mean stress tr s/dim (Pa). */
+    /** With B-bar, at each point or its mean over the points of the cell: the
+     *  divergence of v (1/s), and the mean stress tr s/dim (Pa). */
     alignas(32) double divergence[size];
     alignas(32) double mean_stress[size];
     alignas(32) double work[size], wave_modulus[size];
   };
 
-  /** The arrays of a block of points, and of their affine velocities (APIC). */
+  /** Arrays of a block of points and of their affine velocities (APIC). */
   struct TransferBlock
   {
     unsigned int              n;     ///< a multiple of PointBlock::lanes
@@ -86,10 +88,10 @@ namespace geocone::GEOCONE_DIM
     std::array<double *, n_mandel>  s; ///< in the order of tensor_component
     double                         *volume, *mass;
     std::array<double *, dim * dim> c; ///< C_ij at dim i + j; null without APIC
-    const unsigned int *cell; ///< null where points do not know their cells
+    const unsigned int             *cell; ///< null if points do not store cells
   };
 
-  /** Sums and extremes of a pass, which the time stepper reads. */
+  /** Sums and extrema of a pass, for the time stepper. */
   struct PassSums
   {
     double work         = 0.; ///< stress work (J/m)
@@ -101,10 +103,10 @@ namespace geocone::GEOCONE_DIM
     double lower[3] = {1e300, 1e300, 1e300};
     double upper[3] = {-1e300, -1e300, -1e300};
 
-    /** Sum of values that are not finite if one of the points is not. */
+    /** Sum of values, which is not finite if one of the points is not. */
     double check = 0.;
 
-    /** For checkpoints; Row: StateRow. */
+    /** Reads or writes a checkpoint; Row: StateRow. */
     template <typename Row>
     void
     state(Row &row)
@@ -118,52 +120,53 @@ namespace geocone::GEOCONE_DIM
     add(const PassSums &other);
   };
 
-  /** What update_points() does with the gathered values. */
+  /** Options of update_points() for the gathered values. */
   struct Update
   {
     bool strain, velocity, position;
   };
 
   /**
-   * The innermost loops of the explicit material point method, in one of several
-   * versions for the instructions that the machine has. All work on the blocks of
-   * at most PointBlock::capacity points. Nothing is allocated, and points cost no
-   * call of their own.
+   * Innermost loops of the explicit material point method, in several versions
+   * for different instruction sets. All kernels process blocks of at most
+   * PointBlock::capacity points, without allocations and without a function
+   * call per point.
    */
   struct TransferKernels
   {
-    const char *name; ///< of the instructions
+    const char *name; ///< of the instruction set
 
     /** @name By the degree of the functions, 1 to 3 */
     /** @{ */
 
-    /** Values and slopes from the nodes: sum_i q_i (N_i, dN_i/dx, ...). */
+    /** Gathers values and slopes from the nodes: sum_i q_i (N_i, dN_i/dx,
+     *  ...). */
     void (*gather[4])(const GridView &, const TransferBlock &, BlockScratch &);
 
-    /** The values only. */
+    /** Gathers the values only. */
     void (*gather_values[4])(const GridView &,
                              const TransferBlock &,
                              BlockScratch &);
 
     /**
-     * The affine velocity of APIC: per direction d the column
+     * Computes the affine velocity of APIC: per direction d the column
      *   C_d = sum_i v_i N_i (x_i - x)_d / sum_i N_i (x_i - x)_d^2,
-     * for a tensor product the usual B D^{-1}; the gradient where the sum
-     * vanishes, as it does at the ends of the grid. Not for degree 1, where C is
-     * the gradient and noise of nodes with little mass grows from step to step.
+     * for a tensor product the usual B D^{-1}; the gradient if the sum
+     * vanishes, as it does at the ends of the grid. Not for degree 1, where C
+     * is the gradient and noise of low-mass nodes grows from step to step.
      */
     void (*gather_affine[4])(const GridView &,
                              const TransferBlock &,
                              BlockScratch &);
 
     /**
-     * To the nodes, of what is given (a | b_x | b_y ...), see BlockScratch:
+     * Scatters the values (a | b_x | b_y ...) to the nodes, see BlockScratch:
      *   node += N a + sum_d dN/dx_d b_d,
      * and N m to the masses unless they are null.
      */
     void (*scatter[4])(const GridView &, const TransferBlock &, BlockScratch &);
 
-    /** The same of a and the masses only. */
+    /** Scatters a and the masses only. */
     void (*scatter_values[4])(const GridView &,
                               const TransferBlock &,
                               BlockScratch &);
@@ -175,7 +178,8 @@ namespace geocone::GEOCONE_DIM
     /** @} */
 
     /**
-     * From the gathered (v, dv) of a point with velocity v_p:
+     * Updates points from the gathered (v, dv), with v_p the velocity of a
+     * point:
      *   strain:   l = dt grad v
      *   velocity: v_p <- f (v_p + dv) + (1 - f) v
      *   position: x <- x + dt v.
@@ -186,33 +190,35 @@ namespace geocone::GEOCONE_DIM
                           const TransferBlock &,
                           BlockScratch &);
 
-    /** BlockScratch::divergence of the gathered slopes. */
+    /** Computes BlockScratch::divergence from the gathered slopes. */
     void (*find_divergence)(const TransferBlock &, BlockScratch &);
 
-    /** B-bar: l <- l + (dt BlockScratch::divergence - tr l)/dim I. */
+    /** Replaces the divergence by its mean (B-bar):
+     *    l <- l + (dt BlockScratch::divergence - tr l)/dim I. */
     void (*replace_divergence)(const double dt,
                                const TransferBlock &,
                                BlockScratch &);
 
-    /** V <- det(I + l) V, times 1 + l_zz around an axis, the stress work, and the
-     *  extremes. */
+    /** Updates volumes, V <- det(I + l) V, times 1 + l_zz around an axis,
+     *  stress work and extrema. */
     void (*finish)(const TransferBlock &, BlockScratch &, PassSums &);
 
     /** Bounds of positions and velocities. */
     void (*bound)(const TransferBlock &, PassSums &);
 
-    /** The values that scatter() takes: (m v, -V s), and the hoop force; parts of
-     *  it, or all. */
+    /** Computes the values scattered by scatter(): (m v, -V s) and the hoop
+     *  force; momentum, force or both. */
     void (*prepare_scatter)(const bool momentum,
                             const bool force,
                             const TransferBlock &,
                             BlockScratch &);
 
-    /** B-bar: s <- s + (BlockScratch::mean_stress - tr s/dim) I of those values. */
+    /** Replaces the mean stress in these values (B-bar):
+     *    s <- s + (BlockScratch::mean_stress - tr s/dim) I. */
     void (*replace_mean_stress)(const TransferBlock &, BlockScratch &);
   };
 
-  /** The best version that this machine has; see machine_has_avx2(). */
+  /** Fastest version supported by this machine; see machine_has_avx2(). */
   const TransferKernels &
   transfer_kernels();
 } // namespace geocone::GEOCONE_DIM

@@ -10,11 +10,11 @@
 #include <geocone/transfer/transfer_kernels.h>
 
 /*
- * The versions of the kernels: a unit per architecture includes this file and
- * instantiates make_transfer_kernels(). Vectors run over four points, or over the
- * four values of a node, which needs no lists of the points of a cell.
- * Everything here is a template over the architecture, or a member of one: a
- * plain inline function might be taken from the unit of another one.
+ * Versions of the kernels: one unit per architecture includes this file and
+ * instantiates make_transfer_kernels(). Vectors run over four points, or over
+ * the four values of a node, which needs no lists of the points of a cell.
+ * Everything here is a template over the architecture, or a member of one: the
+ * linker might replace a plain inline function by that of another unit.
  */
 namespace geocone::GEOCONE_DIM
 {
@@ -28,7 +28,7 @@ namespace geocone::GEOCONE_DIM
     template <int p>
     using Nodes = NodesOfFour<P, p>;
 
-    /** A sum over the functions of the directions 0 ... d, and its slopes. */
+    /** Sum over the functions of the directions 0 ... d, and its slopes. */
     template <int d>
     struct Sum
     {
@@ -42,9 +42,9 @@ namespace geocone::GEOCONE_DIM
     };
 
     /**
-     * sum q N over the functions of the directions 0 ... d at the mth of four points,
-     * q four doubles of a node, and the same with dN in place of N for one direction
-     * after the other.
+     * Computes sum q N over the functions of the directions 0 ... d at the mth
+     * of four points, q four doubles of a node, and the same with dN in place
+     * of N for each direction.
      */
     template <int p, int d, bool with_slopes>
     static Sum<d>
@@ -133,7 +133,8 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** N_i (x_i - x)/sum_i N_i (x_i - x)^2, or dN_i/dx where that is 0/0. */
+    /** Moments N_i (x_i - x)/sum_i N_i (x_i - x)^2, or dN_i/dx if this is
+     *  0/0. */
     template <int p>
     static void
     find_moments(const GridView    &grid,
@@ -159,9 +160,9 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Adds a N of n points, the mth of four and the next ones, to the functions of the
-     * directions 0 ... d, unless there is no a, and b_e dN for each direction. Points
-     * that have their nodes in common read and write them once.
+     * Adds a N of n points, the mth of four and the next ones, to the functions
+     * of the directions 0 ... d, unless there is no a, and b_e dN for each
+     * direction. Points with the same nodes read and write them once.
      */
     template <int p, int d, int n, bool has_a, bool has_b>
     static void
@@ -223,7 +224,7 @@ namespace geocone::GEOCONE_DIM
           P              masses[4];
           if (grid.mass != nullptr)
             {
-              // The functions of the last direction, point by point.
+              // Functions of the last direction, point by point.
               for (int i = 0; i < 4; ++i)
                 masses[i] =
                   i <= p ? P::load(at.N[dim - 1][i]) * P::load(points.mass + k)
@@ -244,7 +245,7 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** What scatter() does with n points that have their nodes in common. */
+    /** Scatters n points with the same nodes. */
     template <int p, bool with_slopes, int n>
     static void
     give(const GridView &grid,
@@ -279,8 +280,8 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** Functions of the last direction by four: beyond the p + 1st, zeros are
-     *  added. */
+    /** Adds masses to functions of the last direction by four: beyond the p +
+     *  1st, zeros are added. */
     template <int p, int d, int n>
     static void
     add_masses(const GridView &grid,
@@ -322,7 +323,7 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** What scatter_affine() does with the mth of four points. */
+    /** Scatters the affine momentum of the mth of four points. */
     template <int p>
     static void
     add_affine(const GridView      &grid,
@@ -403,7 +404,7 @@ namespace geocone::GEOCONE_DIM
       for (unsigned int k = 0; k < points.n; k += 4)
         {
           const double *in = scratch.gathered + next * k;
-          // Four doubles of four points, as four points of each.
+          // Four doubles of four points, as four vectors over points.
           const auto load = [&](const unsigned int place, P *values) {
             for (unsigned int i = 0; i < 4; ++i)
               values[i] = P::load(in + next * i + place);
@@ -436,7 +437,7 @@ namespace geocone::GEOCONE_DIM
         }
     }
 
-    /** det(I + l) of four points. */
+    /** det(I + l) at four points. */
     static P
     volume_ratio(const P (&l)[dim * dim])
     {
@@ -464,7 +465,7 @@ namespace geocone::GEOCONE_DIM
               l[i]   = P::load(scratch.l[i] + k);
               strain = max(strain, abs(l[i]));
             }
-          // Nothing, unless around an axis.
+          // Zero unless axisymmetric.
           const P zz = P::load(scratch.l_zz + k);
           strain     = max(strain, abs(zz));
           const P J  = volume_ratio(l) * (P(1.) + zz);
@@ -472,7 +473,8 @@ namespace geocone::GEOCONE_DIM
           const P V1 = J * V;
           V1.store(points.volume + k);
           work += P(0.5) * (V + V1) * P::load(scratch.work + k);
-          // Points without mass fill up the last block: 1e-300 keeps them quiet.
+          // The last block is padded by points without mass; 1e-300 avoids a
+          // division by zero.
           speed2 = max(speed2,
                        P::load(scratch.wave_modulus + k) * V1 /
                          max(P::load(points.mass + k), P(1e-300)));
@@ -534,12 +536,12 @@ namespace geocone::GEOCONE_DIM
                     const TransferBlock &points,
                     BlockScratch        &scratch)
     {
-      // Of the four doubles that slopes are added to, in which forces are.
+      // Position of forces among the four doubles to which slopes are added.
       constexpr unsigned int forces = change_of_node % 4;
       for (unsigned int k = 0; k < points.n; k += 4)
         {
           double *const out = scratch.given + BlockScratch::n_given * k;
-          // Four doubles of each of four points.
+          // Stores four doubles of each of four points.
           const auto store = [&](P(&values)[4], const unsigned int place) {
             transpose(values[0], values[1], values[2], values[3]);
             for (unsigned int m = 0; m < 4; ++m)
