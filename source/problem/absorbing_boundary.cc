@@ -16,7 +16,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** @throws InputError for a law without wave speeds that stay as they are */
+    /** @throws InputError for a law without constant wave speeds */
     void
     check_constant_stiffness(const Materials &materials)
     {
@@ -32,7 +32,7 @@ namespace geocone::GEOCONE_DIM
             "boundaries/Names'");
     }
 
-    /** The dashpots of nodes, summed over faces and ranks. */
+    /** Dashpots of nodes, summed over faces and ranks. */
     class DashpotSums
     {
     public:
@@ -41,7 +41,7 @@ namespace geocone::GEOCONE_DIM
         , beside(space.partitioner())
       {}
 
-      /** Adds those of a law at a point of a face. */
+      /** Adds the dashpots of a law at a point of a face. */
       void
       add(const Material &law, const double rho, const FacePoint &point)
       {
@@ -94,7 +94,7 @@ namespace geocone::GEOCONE_DIM
       }
 
     private:
-      Vector diagonal, beside; ///< the latter in the order of rotations
+      Vector diagonal, beside; ///< off-diagonals in the order of rotations
     };
   } // namespace
 
@@ -108,7 +108,7 @@ namespace geocone::GEOCONE_DIM
     if (!exists())
       return;
     check_constant_stiffness(scene.materials);
-    // Of cells that have points, whose stages may have changed it.
+    // From the points in the cells, since stages may have changed the soil.
     constexpr unsigned int    none = numbers::invalid_unsigned_int;
     std::vector<unsigned int> of_cell;
     if (body != nullptr)
@@ -122,7 +122,8 @@ namespace geocone::GEOCONE_DIM
                                  const FacePoint            &point) {
       if (body != nullptr)
         return of_cell[cell->active_cell_index()];
-      // Within the body, not on its border; of another body there is none here.
+      // Evaluated inside the body, not on its boundary. Other bodies do not
+      // matter here.
       const unsigned int material = scene.regions.material_at(
         point.position - 1e-6 * cell->diameter() * point.normal);
       return scene.contacts.body_of(material) == mesh.layer_of(cell) ? material

@@ -13,30 +13,32 @@ namespace geocone::GEOCONE_DIM
 {
   namespace
   {
-    /** The part of the elastic modulus below which a point counts as soft. */
+    /** Fraction of the elastic modulus below which a point counts as soft. */
     constexpr double softest = 1e-9;
 
-    /** Differences that are rounding, over the greatest stress, and the steps after
-     *  which no more is to be had. Two or three are the rule. */
+    /** Rounding error of the differences, over the largest stress, and the
+     *  number of steps after which no improvement is expected. Two or three are
+     *  the rule. */
     constexpr double       pressure_rounding = 1e-13;
     constexpr unsigned int most_steps        = 100;
 
-    /** Steps after which cells that went to and fro begin again, with steps that are
-     *  shortened. */
+    /** Number of steps after which oscillating cells restart with shortened
+     *  steps. */
     constexpr unsigned int whole_steps = 20;
 
-    /** A step is too long if the differences are not less at its end and the functional
-     *  rises there by more than this part of its fall at the beginning. */
+    /** A step is too long if the differences do not decrease and the slope of
+     *  the functional at its end is positive and larger than this fraction of
+     *  its initial fall. */
     constexpr double overshoot = 0.5;
 
-    /** Differences over the greatest stress that Newton's method takes away in whole
-     *  steps: slopes may be rounding there. */
+    /** Differences over the largest stress within which Newton's method uses
+     *  full steps: slopes may be rounding there. */
     constexpr double near_solution = 1e-9;
 
-    /** The least part of a step that is left at once. */
+    /** Minimum fraction of a step left by one shortening. */
     constexpr double shortest = 0.1;
 
-    /** NaN stays. */
+    /** Maximum that retains NaN. */
     void
     take_larger(double &largest, const double x)
     {
@@ -111,7 +113,7 @@ namespace geocone::GEOCONE_DIM
     M                        = Eigen::Map<const decltype(result.modes)>(
       &points.volumetric_modes[first * n_m], n, n_m);
     result.point.assign(n_m, -1);
-    // Gauss and Jordan's elimination with the largest pivots, by columns.
+    // Gauss-Jordan elimination with the largest pivots, by columns.
     for (unsigned int step = 0; step < n_m; ++step)
       {
         double       largest = 0.;
@@ -173,7 +175,7 @@ namespace geocone::GEOCONE_DIM
     const auto         n     = static_cast<unsigned int>(fitted.size());
     for (unsigned int q = 0; q < n; ++q)
       change[first + q] = (fitted[q] - mean[first + q]) / k[first + q];
-    // The points with M_j = 1 take what is left of sum V M_j t.
+    // The points with M_j = 1 take the remainder of sum V M_j t.
     for (const int q : basis.point)
       if (q >= 0)
         change[first + q] = 0.;
@@ -234,7 +236,7 @@ namespace geocone::GEOCONE_DIM
     largest_difference = 0.;
     for (unsigned int step = 0; !unequal.empty(); ++step)
       {
-        // Cells in a row are asked at once.
+        // Contiguous cells are evaluated together.
         for (auto cell = unequal.begin(); cell != unequal.end();)
           {
             const unsigned int first = *cell;

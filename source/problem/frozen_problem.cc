@@ -31,7 +31,7 @@ namespace geocone::GEOCONE_DIM
       return std::vector<int>(values.begin(), values.end());
     }
 
-    /** Mandel vectors, number by number. */
+    /** Flattens Mandel vectors. */
     std::vector<double>
     flat(const std::vector<Mandel> &values)
     {
@@ -41,7 +41,7 @@ namespace geocone::GEOCONE_DIM
       return result;
     }
 
-    /** Points, number by number. */
+    /** Flattens points. */
     std::vector<double>
     flat(const std::vector<Point<dim>> &values)
     {
@@ -70,10 +70,10 @@ namespace geocone::GEOCONE_DIM
       return result;
     }
 
-    /** What a frozen file says that it is. */
+    /** Format identifier of frozen files. */
     const std::string frozen_format = "geocone-1";
 
-    /** What is wrong with the text of a section Materials; empty: nothing. */
+    /** Error in the text of a section Materials; empty if there is none. */
     std::string
     objection_to_materials(const std::string &text)
     {
@@ -236,7 +236,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** A frozen file that may come from anywhere. */
+    /** A frozen file from any source. */
     struct FrozenFile
     {
       explicit FrozenFile(const std::string &name)
@@ -244,7 +244,8 @@ namespace geocone::GEOCONE_DIM
         , file(name, Hdf5File::Access::read)
       {}
 
-      /** @throws RunError, unless something @p holds, with what is wrong */
+      /** Checks a condition. @throws RunError with @p what is wrong unless it
+       *  @p holds */
       void
       check(const bool holds, const std::string &what) const
       {
@@ -278,13 +279,14 @@ namespace geocone::GEOCONE_DIM
       const Hdf5File    file;
     };
 
-    /** Arrays of numbers that become vectors and a matrix once their lengths hold. */
+    /** Arrays of numbers, converted to vectors and a matrix after their lengths
+     *  are checked. */
     struct FlatArrays
     {
       std::vector<double> stress, position, H, q;
     };
 
-    /** Reads all but the arrays. */
+    /** Reads all except the arrays. */
     void
     read_step(const FrozenFile &in, FrozenProblem &frozen)
     {
@@ -314,7 +316,7 @@ namespace geocone::GEOCONE_DIM
       frozen.points.n_nodes = n_nodes[0];
     }
 
-    /** Reads all arrays, whose lengths are still to be checked. */
+    /** Reads all arrays, whose lengths remain to be checked. */
     FlatArrays
     read_arrays(const FrozenFile &in, FrozenProblem &frozen)
     {
@@ -376,7 +378,8 @@ namespace geocone::GEOCONE_DIM
                "the histories of its points differ in length");
     }
 
-    /** Of former files the volumetric gradients are one for all points of a cell. */
+    /** Copies volumetric gradients to points: older files have one set per
+     *  cell. */
     void
     give_points_gradients_of_cells(MaterialPoints &p)
     {

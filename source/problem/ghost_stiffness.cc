@@ -121,7 +121,8 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** A function at a flat surface is half full, the next ones are more or less. */
+    /** Minimum fill of the third function: at a flat surface a function is half
+     *  full. */
     constexpr double half_full = 0.4;
   } // namespace
 
@@ -141,8 +142,8 @@ namespace geocone::GEOCONE_DIM
             const auto is_last = [&](const unsigned int d) {
               return place[d] + 2 == mesh.grid()[d].size();
             };
-            // The lines of functions along a direction, by their first ones; those
-            // that the next cell has, too, are left to it.
+            // Lines of functions along a direction, by their first ones; those
+            // shared with the next cell are left to it.
             for (unsigned int line = 0; line < nodes.size(); ++line)
               {
                 const GridIndex first   = index_in_grid(line, n_along);
@@ -161,7 +162,7 @@ namespace geocone::GEOCONE_DIM
                 for (unsigned int i = 0; i <= p; ++i)
                   for (const bool up : {true, false})
                     {
-                      // Of the cells that all three reach, the outermost one.
+                      // The outermost of the cells in the support of all three.
                       if (up ? i < 2 || (i < p && place[along] > 0)
                              : i + 2 > p || (i > 0 && !is_last(along)))
                         continue;

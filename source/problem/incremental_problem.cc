@@ -36,7 +36,8 @@ namespace geocone::GEOCONE_DIM
         &inertia.emplace(points, unknowns, *lumped_mass, consistent_part));
     if (has_contact)
       contact_term.emplace(unknowns);
-    // What any rank has counts for all: it decides on collective calls.
+    // A property of any rank counts for all, since collective calls depend on
+    // it.
     std::vector<unsigned int> any = {!points.values.empty(),
                                      !ghost.stencils().empty()};
     Utilities::MPI::max(any, layout->get_mpi_communicator(), any);
@@ -94,7 +95,8 @@ namespace geocone::GEOCONE_DIM
       {
         contact_term->replace(
           dst, v, scale(), law.obstacles_rub, law.contact_holds);
-        // What obstacles ask of a body at rest is a part of what is compared with.
+        // Forces required by obstacles on a body at rest are part of the
+        // reference.
         const Contact::Sums sums_of_contact = contact_term->sums();
         sums.push_back(sums_of_contact.of_errors + sums_of_contact.of_bodies);
         sums[of_contact]     = sums_of_contact.of_errors;
@@ -133,7 +135,7 @@ namespace geocone::GEOCONE_DIM
     elastic_diagonal.reinit(layout);
     for (const Term *term : terms)
       term->add_elastic_diagonal(elastic_diagonal);
-    if (contact_term) // which asks at nodes of other ranks, too
+    if (contact_term) // which needs nodes of other ranks
       elastic_diagonal.update_ghost_values();
     return elastic_diagonal;
   }

@@ -157,7 +157,8 @@ namespace geocone::GEOCONE_DIM
                                      double                  *K) const
   {
     constexpr int m = dim * n;
-    // Forces B' by_zz along the columns of the hoop strain, and alike for its rows.
+    // Adds forces B' by_zz along the columns of the hoop strain, and likewise
+    // its rows.
     double column[m] = {}, row[m] = {};
     add_force<n>(&points.gradients[m * p], C.by_zz, column);
     add_force<n>(&points.gradients[m * p], C.of_zz, row);
@@ -656,7 +657,7 @@ namespace geocone::GEOCONE_DIM
   SpatialMandel
   InternalForces::whole_stress_n(const unsigned int p) const
   {
-    // Laws of the plane do not ask for s_zz, which frozen problems do not have.
+    // Plane-strain laws do not need s_zz, and frozen problems do not have it.
     const Material &law = materials[points.material[p]];
     return law.is_spatial()
              ? law.whole_stress(points.stress[p], points.history_of(p))

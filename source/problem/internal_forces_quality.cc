@@ -1,7 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// What is checked of a state that a solver has found, whichever it was.
+// Checks of a solved state, independent of the solver.
 #include <geocone/base/log.h>
 #include <geocone/problem/internal_forces.h>
 
@@ -103,7 +103,7 @@ namespace geocone::GEOCONE_DIM
       ArrayView<double>(of_ranks.data(), of_ranks.size()));
     for (std::size_t i = 0; i < of_ranks.size(); ++i)
       largest.*FlowCheck::numbers()[i] = of_ranks[i];
-    // y is rounding where nothing flows.
+    // y is rounding without plastic flow.
     const double stress_scale = largest.stress + largest.size,
                  strain_scale =
                    std::max(largest.flow, stress_scale * largest.compliance);

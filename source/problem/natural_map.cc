@@ -9,14 +9,14 @@ namespace geocone::GEOCONE_DIM
 {
   namespace
   {
-    /** rho of laws with edges over that of cones, whose best is smaller: there the places
-     *  that are projected hop between planes and edges where rho is small, and beyond them
-     *  where it is large (of 2G, 0.1 to 0.25 do in one layer of cells; 0.03 and 0.4 go in
-     *  circles). */
+    /** Ratio of rho for laws with edges to that of cones, whose optimum is
+     *  smaller. For laws with edges, projections alternate between planes and
+     *  edges if rho is small, and beyond the edges if it is large (of 2G, 0.1
+     *  to 0.25 work in one layer of cells; 0.03 and 0.4 cycle). */
     constexpr double rho_with_edges = 5.;
 
-    /** Derivative of the projection by |z_t| through the cone, as a difference
-     *  quotient. @param strain the size of elastic strains */
+    /** Derivative of the projection with respect to |z_t| through the cone, by
+     *  a difference quotient. @param strain the size of elastic strains */
     template <typename ConeOf, typename Project>
     Mandel
     slope_by_slip(const ConeOf  &cone_of,
@@ -143,7 +143,7 @@ namespace geocone::GEOCONE_DIM
           }
         if (mode[p] == Mode::elastic)
           {
-            // J = I, where the linear law is solved at once.
+            // J = I, for which the linear law is solved at once.
             iterate[p] = points.stress[p] + elasticity.stress(strain[p]);
             slope[p]   = elasticity.stiffness();
           }

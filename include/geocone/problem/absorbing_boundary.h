@@ -14,36 +14,40 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Sides through which elastic waves leave and come in (Lysmer and Kuhlemeyer 1969;
-   * Joyner and Chen 1975): dashpots with the traction
+   * Absorbing boundaries, which transmit outgoing and incoming elastic waves
+   * (Lysmer and Kuhlemeyer 1969; Joyner and Chen 1975): dashpots with the
+   * traction
    *   rho (c_p n n' + c_s (1 - n n')) (2 v_in - v),
-   * c_p and c_s the speeds of the pressure and the shear wave in the cell at the side, v_in
-   * the velocity of the wave that comes in. Waves along the normal leave
-   * entirely. Integrated with row sums, so that each node has its dashpot C_i, dim x dim.
+   * c_p and c_s the speeds of pressure and shear waves in the adjacent cell,
+   * v_in the velocity of the incoming wave. Waves along the normal are absorbed
+   * completely. Integrated with row sums, so that each node has its dashpot
+   * C_i, dim x dim.
    */
   class AbsorbingBoundary : public Term
   {
   public:
-    /** @param body the points of the cells that there are, whose soil it is; null where
-     *  they move: then it is that of the regions @throws InputError if a part has no
-     *  face */
+    /** @param body points in the cells of the body, which determine the soil;
+     *  null if they move: then the soil is that of the regions @throws
+     *  InputError if a part has no face */
     AbsorbingBoundary(const Scene          &scene,
                       const BackgroundMesh &mesh,
                       const Space          &space,
                       const MaterialPoints *body);
 
-    /** Whether the scene has any. */
+    /** Whether the scene has absorbing boundaries. */
     bool
     exists() const
     {
       return !conditions.list.empty();
     }
 
-    /** @throws InputError if dofs of one of its nodes are turned. Collective. */
+    /** @throws InputError if dofs of one of its nodes are rotated.
+     *  Collective. */
     void
     check(const Unknowns &unknowns) const;
 
-    /** @param t when the step is solved for @param unknowns of the problem */
+    /** @param t time for which the step is solved @param unknowns of the
+     *  problem */
     void
     begin_step(const double t, const Unknowns &unknowns);
 
@@ -61,11 +65,11 @@ namespace geocone::GEOCONE_DIM
     void
     add_elastic_diagonal(Vector &dst) const override;
 
-    /** Of its forces on the body per second (W/m). Collective. */
+    /** Power of the dashpot forces on the body (W/m). Collective. */
     double
     power(const Vector &v) const;
 
-    /** Of a node of this rank, by one condition. */
+    /** Dashpot of a node of this rank, by one condition. */
     struct Dashpot
     {
       unsigned int           node, condition;
@@ -77,12 +81,12 @@ namespace geocone::GEOCONE_DIM
       return dashpots;
     }
 
-    /** What waves that come in exert at time t: 2 C v_in (N/m). */
+    /** Force of incoming waves at time t: 2 C v_in (N/m). */
     void
     incoming_force(const double t, Vector &force) const;
 
   private:
-    /** dst_i += C_i x_i */
+    /** Computes dst_i += C_i x_i. */
     void
     add_product(Vector &dst, const Vector &x) const;
 

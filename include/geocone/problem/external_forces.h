@@ -8,7 +8,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** The external forces of a step, -F: weight and tractions. */
+  /** External forces of a step, -F: weight and tractions. */
   class ExternalForces : public Term
   {
   public:
@@ -27,7 +27,7 @@ namespace geocone::GEOCONE_DIM
         part.add(-1., *force);
     }
 
-    /** F, or null. */
+    /** Forces F, or null. */
     const Vector *
     vector() const
     {

@@ -23,8 +23,8 @@ namespace geocone::GEOCONE_DIM
   public:
     Freezer();
 
-    /** @throws InputError for steps that the programme does not have, and for what
-     *  frozen problems cannot have */
+    /** @throws InputError for steps outside the programme, and for features
+     *  that frozen problems cannot represent */
     void
     check(const Scene &scene) const;
 
@@ -39,13 +39,13 @@ namespace geocone::GEOCONE_DIM
       return failures || !steps.empty();
     }
 
-    /** The step of the programme whose problems come next. */
+    /** Sets the step of the programme for the problems that follow. */
     void
     set_step(const unsigned int number);
 
     /**
-     * Takes a problem that a solver has tried. Collective.
-     * @param start where it began
+     * Writes a problem after an attempt to solve it, if chosen. Collective.
+     * @param start initial guess
      */
     void
     take(const IncrementalProblem &problem,

@@ -12,9 +12,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * An incremental problem as data: what a step asked of its solver, without the
-   * scene, the mesh and the method. It can be written, read and solved again
-   * with other options.
+   * An incremental problem as data: all input of the solver in a step, without
+   * the scene, the mesh and the method. It can be written, read and solved
+   * again with other options.
    */
   struct FrozenProblem
   {
@@ -23,20 +23,20 @@ namespace geocone::GEOCONE_DIM
 
     bool   particles       = false; ///< whether the points moved
     double h               = 0.;    ///< step (s)
-    double consistent_part = 0.;    ///< of the mass
+    double consistent_part = 0.;    ///< of the mass, c of Inertia
 
-    /** Only what an incremental problem takes of them. */
+    /** Only the data used by an incremental problem. */
     MaterialPoints points;
 
     /** @name By dof, dim per node */
     /** @{ */
-    /** 0, Unknowns::prescribed_row or Unknowns::massless_row. */
+    /** Kind: 0, Unknowns::prescribed_row or Unknowns::massless_row. */
     std::vector<int>    kind;
     std::vector<double> mass;       ///< lumped (kg/m); empty without inertia
     std::vector<double> force;      ///< F (N/m); empty without loads
     std::vector<double> velocity_L; ///< vL (m/s)
-    std::vector<double> prescribed; ///< where the kind says so (m/s)
-    std::vector<double> start;      ///< where the solver began (m/s)
+    std::vector<double> prescribed; ///< of prescribed dofs (m/s)
+    std::vector<double> start;      ///< initial guess (m/s)
     /** @} */
 
     /** GhostStencil by stencil: three nodes; three coefficients and k. */
@@ -52,7 +52,7 @@ namespace geocone::GEOCONE_DIM
     void
     write(const std::string &file_name) const;
 
-    /** Reads one. @throws RunError naming the file and what is wrong in it */
+    /** Reads a file. @throws RunError naming the file and the error in it */
     static FrozenProblem
     read(const std::string &file_name);
   };

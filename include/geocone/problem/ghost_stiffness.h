@@ -11,7 +11,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Three functions of a row or a column of splines, of which the last one has
+  /** Three functions of a row or a column of splines, the last of which has
    *  hardly any material. */
   struct GhostStencil
   {
@@ -21,16 +21,16 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * A viscous force that keeps light functions with their neighbours. A function
-   * that only the tail of a few particles reaches has next to no mass and
-   * stiffness: a load on it is taken by velocities a thousand times those around,
-   * at no cost ("jets"). With the two functions next to it towards the material, at
-   * Greville abscissae x0, x1, x2, x2 its own,
+   * Viscous force that couples low-mass functions to their neighbours. A
+   * function reached only by the tail of a few particles has almost no mass and
+   * stiffness: a load on it causes velocities a thousand times those around, at
+   * no cost (spurious velocities). With its two neighbours towards the
+   * material, at Greville abscissae x0, x1, and x2 its own,
    *   g = v2 - (1 + a) v1 + a v0 = c.v,   a = (x2 - x1)/(x1 - x0),
-   * which is zero for linear fields, and a step h has the force and the work
+   * which is zero for linear fields. Force and work in a step h are
    *   R += k h c g,   k = gamma E (1 - fill/0.2),   W = h^2 sum k g^2 >= 0.
-   * It has no memory; forces and moments of a stencil add up to nothing, so those
-   * of supports remain the load.
+   * It has no memory. Forces and moments of a stencil are self-equilibrated, so
+   * that the reactions of supports remain equal to the load.
    */
   class GhostStiffness : public Term
   {
@@ -68,7 +68,7 @@ namespace geocone::GEOCONE_DIM
       return all;
     }
 
-    /** The nodes that meet in its matrix. */
+    /** Groups of nodes that couple in its matrix. */
     std::vector<std::array<unsigned int, 3>>
     node_groups() const;
 
@@ -79,7 +79,7 @@ namespace geocone::GEOCONE_DIM
          const Vector       &v,
          const unsigned int  component);
 
-    /** part += k h c g(v), in ghosts, too. */
+    /** Computes part += k h c g(v), including ghosts. */
     void
     add_forces(Vector &part, const Vector &v) const;
 
@@ -89,18 +89,19 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Where a space of splines may need ghost stiffness: all triples of functions side
-   * by side, each on the rank of one cell that all three reach.
+   * Candidates for ghost stiffness in a space of splines: all triples of
+   * adjacent functions, each on the rank of one cell in the support of all
+   * three.
    */
   class GhostPlaces
   {
   public:
     GhostPlaces(const BackgroundMesh &mesh, const Space &space);
 
-    /** Functions with a smaller part of their integral in the material are light. */
+    /** Fill below which a function is low-mass. */
     static constexpr double least_fill = 0.2;
 
-    /** sum_p V_p N_i(x_p)/int N_i of a local node.
+    /** Fill sum_p V_p N_i(x_p)/int N_i of a local node.
      *  @param volume see stencils() */
     double
     fill(const Vector &volume, const unsigned int node) const
@@ -109,10 +110,10 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * Stencils of the light functions with mass, in all directions in which the
-     * functions next to them are fuller.
-     * @param volume at the dofs of each node sum_p V_p N_i (m^2) and
-     * sum_p V_p E_p N_i (N), with ghosts
+     * Stencils of the low-mass functions with mass, in all directions in which
+     * their neighbours have a larger fill.
+     * @param volume at the dofs of each node sum_p V_p N_i (m^2) and sum_p V_p
+     * E_p N_i (N), with ghosts
      * @param is_wanted by local node; empty: all
      * @param gamma of the stiffness
      */
@@ -122,7 +123,7 @@ namespace geocone::GEOCONE_DIM
              const std::vector<bool> &is_wanted,
              const double             gamma) const;
 
-    /** Light functions with mass, of all ranks. Collective. */
+    /** Number of low-mass functions with mass, of all ranks. Collective. */
     unsigned int
     n_light(const Vector &volume, const Unknowns &unknowns) const;
 

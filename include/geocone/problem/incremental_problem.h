@@ -20,34 +20,36 @@ namespace geocone::GEOCONE_DIM
 {
   struct FrozenProblem;
 
-  /** What residual() has found, summed over the ranks. */
+  /** Results of residual(), summed over the ranks. */
   struct ResidualReport
   {
     double       norm       = 0.; ///< Euclidean norm over the free rows (N/m)
-    double       force_norm = 0.; ///< greatest norm of a part of R (N/m)
+    double       force_norm = 0.; ///< largest norm of a part of R (N/m)
     unsigned int n_cone     = 0;  ///< points on the smooth part of the cone
     unsigned int n_apex     = 0;  ///< points at the apex
     unsigned int n_switched = 0;  ///< points whose mode differs from last time
 
     double local_error = 0.; ///< see InternalForces::local_error()
 
-    /** Of the nodes that may touch: the norm of F (N/m), and the sum of what it is made of,
-     *  Contact::Touch::size. Forces of contact may be small beside those of soil. */
+    /** Over potential contact nodes: norm of F (N/m) and the sum of its
+     *  reference Contact::Touch::size. Contact forces may be small compared
+     *  with those of the soil. */
     double contact_norm = 0., contact_size = 0.;
   };
 
   /**
-   * One implicit step as a root-finding problem for the velocities v of the free
-   * dofs (backward Euler):
+   * One implicit step as a root-finding problem for the velocities v of the
+   * free dofs (backward Euler):
    *   R(v) = M (v - vL)/h + sum_p V_p B_p' s_p(v) - F - H' lambda,   H v = q.
-   * It is a sum of terms (Inertia, InternalForces, ExternalForces, GhostStiffness)
-   * and of the reactions of linear constraints; prescribed velocities are eliminated. The
-   * multipliers are functions of v: those that leave the least residual in the
-   * metric of scale(), which at the solution are the multipliers. It knows points,
-   * weights, gradients and constraints, and never asks whether they are FEM or MPM.
-   * The state at t_n is const; trial states live in the terms, and are those of the
-   * last residual(). Where nodes may touch obstacles, Contact puts its equations in
-   * the place of R in their rows.
+   * The residual is a sum of terms (Inertia, InternalForces, ExternalForces,
+   * GhostStiffness) and of the reactions of linear constraints; prescribed
+   * velocities are eliminated. The multipliers are functions of v: they
+   * minimise the residual in the metric of scale(), and at the solution they
+   * are the exact multipliers. The problem consists of points, weights,
+   * gradients and constraints, independent of FEM or MPM. The state at t_n is
+   * const; trial states are stored in the terms and belong to the last
+   * residual(). In the rows of potential contact nodes, Contact replaces R by
+   * its equations.
    */
   class IncrementalProblem
   {
@@ -55,10 +57,10 @@ namespace geocone::GEOCONE_DIM
     /**
      * @param lumped_mass the diagonal of Inertia, or null for a quasi-static
      * problem
-     * @param consistent_part c of Inertia, not zero only for points with N and
+     * @param consistent_part c of Inertia, nonzero only for points with N and
      * mass
      * @param ghosts stencils of GhostStiffness
-     * @param has_contact whether something may touch, the same on all ranks
+     * @param has_contact whether there may be contact, the same on all ranks
      */
     IncrementalProblem(
       const MaterialPoints &points,
@@ -70,22 +72,22 @@ namespace geocone::GEOCONE_DIM
       std::vector<GhostStencil> ghosts          = {},
       const bool                has_contact     = false);
 
-    /** One more term, which has to stay. */
+    /** Adds a term, which must outlive the problem. */
     void
     add(Term &term)
     {
       terms.push_back(&term);
     }
 
-    /** Its terms refer to each other's data. */
+    /** Not copyable: its terms refer to each other's data. */
     IncrementalProblem(const IncrementalProblem &) = delete;
 
     /**
      * Sets the data of a step of size h.
      * @param force F at its end, or null for none
      * @param velocity_L vL, velocities at t_n
-     * @param prescribed velocities at its end, where they are prescribed
-     * @param touching what may touch, see Contact
+     * @param prescribed prescribed velocities at its end
+     * @param touching potential contacts, see Contact
      */
     void
     begin_step(const double  h,
@@ -96,20 +98,21 @@ namespace geocone::GEOCONE_DIM
 
     /**
      * Evaluates trial states and R(v) in all rows by a local law; in prescribed
-     * rows it is the reaction, in those of contact F. @p v needs its ghosts.
+     * rows R is the reaction, in rows of contact nodes F. @p v needs its
+     * ghosts.
      */
     ResidualReport
     residual(Vector &dst, const Vector &v, const LocalLaw &law = {});
 
-    /** The law that linearises the complementarity problem itself at each
-     *  residual(), for the arguments of NaturalMap. */
+    /** Local law that linearises the complementarity problem in each
+     *  residual(); arguments as for NaturalMap. */
     NaturalMap
     make_natural_map(const double rho, const std::vector<Mandel> &start) const
     {
       return NaturalMap(points, materials, {h}, rho, start);
     }
 
-    /** Of the step that has begun, all ranks together. Collective. */
+    /** Properties of the current step, over all ranks. Collective. */
     StepTraits
     traits() const;
 
@@ -127,34 +130,35 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * The pattern of the Jacobian on the free dofs, with zero values.
-     * @param one_triangle whether the lower triangle of a symmetric one is enough
+     * Sparsity pattern of the Jacobian on the free dofs, with zero values.
+     * @param one_triangle whether only the lower triangle of a symmetric one is
+     * stored
      */
     SparseMatrix
     make_pattern(const bool one_triangle);
 
-    /** What the rows of the Jacobian stand for. Collective. */
+    /** Nodes of the rows of the Jacobian. Collective. */
     NodalRows
     nodal_rows() const;
 
-    /** Whether other nodes meet in the step's Jacobian than in the last pattern.
-     *  Collective where there is contact. */
+    /** Whether the couplings of the step differ from those of the last pattern.
+     *  Collective with contact. */
     bool
     needs_pattern() const;
 
     /**
      * Generalised Jacobian dR/dv = M/h + h sum V B' C B at the last residual(),
      * with C replaced by (1 - w) C + w D, w the elastic blend.
-     * @return what free obstacles add to it
+     * @return contribution of free obstacles
      */
     LowRank
     linearise(SparseMatrix &matrix, const double elastic_blend = 0.) const;
 
-    /** dst = (dR/dv) dv in all rows, at the last residual(). */
+    /** Computes dst = (dR/dv) dv in all rows, at the last residual(). */
     void
     apply_tangent(Vector &dst, const Vector &dv) const;
 
-    /** Sets the prescribed components of v to their values at the step's end. */
+    /** Sets the prescribed components of v at the end of the step. */
     void
     set_prescribed(Vector &v) const;
 
@@ -171,7 +175,7 @@ namespace geocone::GEOCONE_DIM
       return lambda;
     }
 
-    /** The mass, where there is inertia. */
+    /** Inertia term of a dynamic problem. */
     const Inertia &
     inertia_term() const
     {
@@ -184,7 +188,7 @@ namespace geocone::GEOCONE_DIM
       return contact_term.has_value();
     }
 
-    /** @name What touches, where something may */
+    /** @name Contact, if there may be any */
     /** @{ */
     const Contact &
     contact() const
@@ -204,7 +208,7 @@ namespace geocone::GEOCONE_DIM
       return ghost;
     }
 
-    /** The points with their trial states. */
+    /** Internal forces, with the trial states of the points. */
     const InternalForces &
     internal_forces() const
     {
@@ -218,11 +222,11 @@ namespace geocone::GEOCONE_DIM
       return points.stress;
     }
 
-    /** The diagonal of the elastic Jacobian M/h + h sum V B'DB (kg/(m s)). */
+    /** Diagonal of the elastic Jacobian M/h + h sum V B'DB (kg/(m s)). */
     const Vector &
     scale();
 
-    /** sum R_i^2 / scale_i over the free dofs. */
+    /** Merit function sum R_i^2 / scale_i over the free dofs. */
     double
     merit(const Vector &residual);
 
@@ -245,14 +249,15 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * The problem as data, on the first rank; it lacks what only the time stepper
-     * knows (materials' parameters, whether points move). Collective.
+     * Exports the problem as data, on the first rank, without the data of the
+     * time stepper (parameters of materials, whether points move). Collective.
      */
     FrozenProblem
     freeze(const Vector &start) const;
 
   private:
-    /** The same problem for the stresses alone needs all of the data. */
+    /** Reduction formulates the same problem for the stresses alone and uses
+     *  all of the data. */
     friend class Reduction;
 
     const MaterialPoints                                            &points;
@@ -282,7 +287,8 @@ namespace geocone::GEOCONE_DIM
     Links links_now; ///< of the step, Contact::links()
     Links links;     ///< of the pattern
 
-    /** Of H in the metric of scale(), for the present step, or empty. */
+    /** Factors of H in the metric of scale(), for the present step, or
+     *  empty. */
     Multipliers::Factors row_factors;
   };
 } // namespace geocone::GEOCONE_DIM

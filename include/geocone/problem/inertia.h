@@ -9,29 +9,30 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The inertia of a step, M (v - vL)/h. The mass is M = (1 - c) diag(m) + c M_c,
-   * with M_c the sum of m_p N_p' N_p over the points.
+   * Inertia term of a step, M (v - vL)/h. The mass is M = (1 - c) diag(m) + c
+   * M_c, with M_c the sum of m_p N_p' N_p over the points.
    */
   class Inertia : public Term
   {
   public:
     /**
      * @param lumped_mass m
-     * @param consistent_part c, not zero only for points with N and mass
+     * @param consistent_part c, nonzero only for points with N and mass
      */
     Inertia(const MaterialPoints &points,
             const Unknowns       &unknowns,
             const Vector         &lumped_mass,
             const double          consistent_part);
 
-    /** @param step h (s) @param velocity_n vL, which has to stay */
+    /** @param step h (s) @param velocity_n vL, which must outlive the step */
     void
     begin_step(const double step, const Vector &velocity_n);
 
     void
     residual(Vector &part, const Vector &v, const LocalLaw &law) override;
 
-    /** Also 1e-6 of |M vL/h|^2: a body in free flight has nothing else. */
+    /** Adds also 1e-6 |M vL/h|^2, the only reference of a body in free
+     *  flight. */
     void
     add_sizes(const Vector &part, std::vector<double> &sizes) const override;
 
@@ -46,7 +47,7 @@ namespace geocone::GEOCONE_DIM
     void
     add_elastic_diagonal(Vector &dst) const override;
 
-    /** dst = M x in all rows. @p x needs its ghosts. */
+    /** Computes dst = M x in all rows. @p x needs its ghosts. */
     void
     apply_mass(Vector &dst, const Vector &x) const;
 
@@ -56,7 +57,7 @@ namespace geocone::GEOCONE_DIM
       return mass;
     }
 
-    /** c. */
+    /** Fraction c of the consistent mass. */
     double
     consistent_part() const
     {

@@ -20,10 +20,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * How well a computed state satisfies the cone law, whatever solver made it:
-   * maxima over all points, with z = S (s - s_n) - h B v recomputed from the
-   * state, y = Psi(z), the stress scale max |s| + max k, and the strain scale
-   * max |y|, at least stress scale/2G (y is rounding where nothing flows).
+   * Accuracy of a computed state with respect to the cone law, independent of
+   * the solver: maxima over all points, with z = S (s - s_n) - h B v recomputed
+   * from the state, y = Psi(z), the stress scale max |s| + max k, and the
+   * strain scale max |y|, at least stress scale/2G (without plastic flow y is
+   * rounding).
    */
   struct Quality
   {
@@ -32,17 +33,18 @@ namespace geocone::GEOCONE_DIM
     double dual_violation  = 0.; ///< max(0, a |y_t| - y_n) / strain scale
     double complementarity = 0.; ///< |<y, s + (k/a) n>| / (both scales)
 
-    /** max(0, |s_t| - a s_n - k) of the exact cone (Pa): not zero where friction
-     *  lags or remembers, while the other numbers are those of the law that was
-     *  solved. */
+    /** max(0, |s_t| - a s_n - k) of the exact cone (Pa): nonzero with lagged
+     *  friction or friction with memory, for which the other numbers refer to
+     *  the law that was solved. */
     double cone_excess = 0.;
 
-    /** |s - P_C(s - 2G y)| / stress scale of the exact law: natural_map where that is
-     *  what was solved. */
+    /** |s - P_C(s - 2G y)| / stress scale of the exact law; equals natural_map
+     *  if this law was solved. */
     double exact_natural_map = 0.;
 
-    /** Plastic work by which the strength that was solved for differs from the exact one,
-     *  over the plastic work, of a step; see InternalForces::excess_work(). */
+    /** Plastic work due to the difference between the strength used and the
+     *  exact one, over the plastic work of a step; see
+     *  InternalForces::excess_work(). */
     double excess_share = 0.;
 
     void
@@ -71,15 +73,14 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * The internal forces of a step,
+   * Internal forces of a step,
    *   sum_p V_p B_p' s_p(v),   s_p(v) = material(h B_p v, state at t_n).
-   * Undrained soil has an excess pore pressure beside it,
-   *   p_p(v) = p_p - K_w/n tr(h B_p v),
-   * and what is in equilibrium is the total stress s_p - p_p I; the law, its modes and
-   * its checks are those of the effective stress s_p.
-   * Where soil dilates, B-bar comes with CellPressures.
-   * The state at t_n is const; the trial states, which are those of the last
-   * residual(), live here.
+   * Undrained soil additionally has an excess pore pressure,
+   *   p_p(v) = p_p - K_w/n tr(h B_p v).
+   * The total stress s_p - p_p I enters the equilibrium; the law, its modes and
+   * its checks use the effective stress s_p. With dilatant soil, B-bar includes
+   * CellPressures. The state at t_n is const; the trial states stored here are
+   * those of the last residual().
    */
   class InternalForces : public Term
   {
@@ -96,7 +97,8 @@ namespace geocone::GEOCONE_DIM
     void
     residual(Vector &part, const Vector &v, const LocalLaw &law) override;
 
-    /** part = sum V B's of the stresses at t_n, in all owned rows (N/m). */
+    /** Computes part = sum V B's of the stresses at t_n, in all owned rows
+     *  (N/m). */
     void
     forces_at_start(Vector &part) const;
 
@@ -111,14 +113,13 @@ namespace geocone::GEOCONE_DIM
     void
     add_elastic_diagonal(Vector &dst) const override;
 
-    /** Adds how many points of this rank are on the smooth part of the cone, at
-     *  the apex, and in another mode than at the residual before. */
+    /** Counts the points of this rank on the smooth part of the cone, at the
+     *  apex, and in another mode than at the previous residual. */
     void
     count_modes(double *counts) const;
 
-    /** Largest |R| of NaturalMap over the stress scale, or what is left in
-     *  CellPressures::difference(); 0 for the return map alone.
-     *  Collective. */
+    /** Largest |R| of NaturalMap over the stress scale, or
+     *  CellPressures::difference(); 0 for the return map alone. Collective. */
     double
     local_error() const;
 
@@ -130,32 +131,35 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * The size N of the rounding in the residual's norm at a velocity (N/m),
+     * Rounding error N of the residual norm at a velocity (N/m),
      *   N^2 = eps^2 sum_p sum_i |grad N_i|^2 (V_p K_p h sum_j |grad N_j| |v_j|)^2
-     * with K_p = 2 (lambda + G): the terms of the strain e_p = h B_p v have the
-     * relative error eps, but their sum is smaller by the size of the cell over
-     * that of the body, and K_p is much larger than the stiffness to shear where
-     * volume hardly changes. Collective.
+     * with K_p = 2 (lambda + G). The terms of the strain e_p = h B_p v have the
+     * relative error eps, but their sum is smaller by the ratio of the sizes of
+     * cell and body, and in nearly isochoric deformation K_p is much larger
+     * than the shear stiffness. Collective.
      * @param v with its ghosts, as for residual()
      */
     double
     rounding_floor(const Vector &v) const;
 
-    /** Checks of the trial states; the same on all ranks.
-     *  @param excess_work as the function excess_work() finds it (J/m) */
+    /** Checks the trial states; the same on all ranks.
+     *  @param excess_work result of excess_work() (J/m) */
     Quality
     quality(const double excess_work) const;
 
-    /** Names a point whose trial state is not a number, or nothing. Collective. */
+    /** Description of a point whose trial state is NaN, or empty.
+     *  Collective. */
     std::string
     not_a_number() const;
 
-    /** sum V |z_t| ||s_t| - a s_n - k| over the plastic points where friction lags or has
-     *  a memory (J/m): 0 for the exact law. Collective. */
+    /** Excess work sum V |z_t| ||s_t| - a s_n - k| over the plastic points with
+     *  lagged friction or friction with memory (J/m): 0 for the exact law.
+     *  Collective. */
     double
     excess_work() const;
 
-    /** @p excess_work over the plastic work of the step, 0 for the exact law. Collective. */
+    /** Ratio of @p excess_work to the plastic work of the step, 0 for the exact
+     *  law. Collective. */
     double
     excess_share(const double excess_work) const;
 
@@ -166,7 +170,7 @@ namespace geocone::GEOCONE_DIM
     {
       return stress;
     }
-    /** Less the excess pore pressure: what is in equilibrium. */
+    /** Total stress: trial stress less the excess pore pressure. */
     const std::vector<Mandel> &
     total_stress() const
     {
@@ -182,16 +186,16 @@ namespace geocone::GEOCONE_DIM
     {
       return mode;
     }
-    /** History variables, laid out as those of the points at t_n. */
+    /** History variables, in the layout of those of the points at t_n. */
     std::vector<double>
     trial_history() const;
 
-    /** -z: the plastic part of the strain increment of a point. */
+    /** Plastic part -z of the strain increment of a point. */
     SpatialMandel
     plastic_strain_increment(const unsigned int point) const;
 
-    /** @name Stress of a point, the trial one and at t_n, with s_zz of laws that are
-     *  spatial (else 0) */
+    /** @name Full stress tensor of a point, trial and at t_n; s_zz is 0 unless
+     *  the law is three-dimensional */
     /** @{ */
     SpatialMandel
     whole_stress(const unsigned int point) const;
@@ -199,7 +203,7 @@ namespace geocone::GEOCONE_DIM
     whole_stress_n(const unsigned int point) const;
     /** @} */
 
-    /** Of a point in the step, per volume (J/m^3). */
+    /** Work at a point in the step, per volume (J/m^3). */
     struct Work
     {
       double elastic; ///< s:S(s - s_n), and p (p - p_n)/(K_w/n) of the fluid
@@ -209,21 +213,22 @@ namespace geocone::GEOCONE_DIM
     work(const unsigned int point) const;
     /** @} */
 
-    /** Calls f(p, dof, column of B_p for a local dof) for all that are not 0. */
+    /** Calls f(p, dof, column of B_p for a local dof) for all nonzero
+     *  columns. */
     void
     for_each_strain_column(
       const std::function<
         void(const unsigned int, const unsigned int, const Mandel &)> &f) const;
 
   private:
-    /** Points from begin to end share a material. */
+    /** Points from begin to end, of one material. */
     struct Run
     {
       unsigned int begin, end, material;
     };
     std::vector<Run> runs;
 
-    /** What a run asks of its material at the last residual(). */
+    /** Increment of a run for its material, at the last residual(). */
     Increment
     increment_of(const Run &run) const;
 
@@ -233,8 +238,8 @@ namespace geocone::GEOCONE_DIM
       return {h, friction_lag};
     }
 
-    /** Asks the materials, run by run, of all points, or with tangents of those from
-     *  begin to before end. */
+    /** Updates the materials, run by run, at all points, or with tangents at
+     *  those in [begin, end). */
     void
     update_materials(const bool with_tangent) const;
     void
@@ -242,7 +247,7 @@ namespace geocone::GEOCONE_DIM
     void
     update_material(const Run &run, const bool with_tangent) const;
 
-    /** Makes the tangents of the last residual(), if it has not made them. */
+    /** Computes the tangents of the last residual() if necessary. */
     void
     update_tangents() const
     {
@@ -250,8 +255,8 @@ namespace geocone::GEOCONE_DIM
         update_materials(true);
     }
 
-    /** strain[p] = factor B_p v for the points of a cell, and around an axis the hoop
-     *  strain. */
+    /** Computes strain[p] = factor B_p v for the points of a cell, and in
+     *  axisymmetric problems the hoop strain. */
     template <int n>
     void
     strains_of_cell(const unsigned int   c,
@@ -260,8 +265,8 @@ namespace geocone::GEOCONE_DIM
                     std::vector<Mandel> &strain,
                     std::vector<double> &strain_zz) const;
 
-    /** cell_f += sum B_p' s_p, s_p the stress times the weight, in the plane and, of
-     *  round bodies, along the hoop. */
+    /** Computes cell_f += sum B_p' s_p, s_p the stress times the weight, in the
+     *  plane and, in axisymmetric problems, the hoop stress. */
     template <int n, typename WeightedStress, typename WeightedHoopStress>
     void
     add_forces_of_cell(const unsigned int        c,
@@ -269,26 +274,27 @@ namespace geocone::GEOCONE_DIM
                        const WeightedHoopStress &weighted_hoop_stress,
                        double                   *cell_f) const;
 
-    /** Adds the part of low rank that the pressure of a cell leaves to K. */
+    /** Adds the low-rank contribution of the cell pressure to K. */
     template <int n>
     void
     add_pressure_stiffness(const unsigned int              c,
                            const CellPressures::Condensed &condensed,
                            double                         *K) const;
 
-    /** part = sum V B's. @param hoop_stress of a point, asked of round bodies only */
+    /** Computes part = sum V B's. @param hoop_stress of a point, for
+     *  axisymmetric problems only */
     template <typename HoopStress>
     void
     sum_forces(const std::vector<Mandel> &stress,
                const HoopStress          &hoop_stress,
                Vector                    &part) const;
 
-    /** The parts of a point's tangent out of the plane, with the fluid's, times h and
-     *  the weight. */
+    /** Out-of-plane parts of a point's tangent, including the fluid's, times h
+     *  and the weight. */
     OutOfPlaneTangent
     tangent_zz_of(const unsigned int p, const double blend) const;
 
-    /** K += those parts. */
+    /** Adds the out-of-plane parts to K. */
     template <int n>
     void
     add_hoop_stiffness(const unsigned int       p,
@@ -307,18 +313,18 @@ namespace geocone::GEOCONE_DIM
       return !pressure.empty();
     }
 
-    /** K_w/n of a point (Pa). */
+    /** Modulus K_w/n of the pore fluid at a point (Pa). */
     double
     fluid_modulus(const unsigned int point) const
     {
       return materials[points.material[point]].fluid_modulus();
     }
 
-    /** The trial pressures and total stresses. */
+    /** Updates the trial pressures and total stresses. */
     void
     update_pressures();
 
-    /** The strain increment of a point. */
+    /** Strain increment of a point, as a full tensor. */
     SpatialMandel
     whole_strain(const unsigned int point) const;
 
@@ -342,18 +348,19 @@ namespace geocone::GEOCONE_DIM
     std::vector<Mode>                 previous_mode;
     mutable std::vector<MandelMatrix> tangent;
 
-    /** B-bar where soil dilates; then tangents are those of the last residual(). */
+    /** For B-bar with dilatant soil; then tangents are those of the last
+     *  residual(). */
     mutable std::optional<CellPressures> cell_pressures;
 
-    /** @name Excess pore pressure, and the stress less it: empty but for scenes with
-     *  undrained soil */
+    /** @name Excess pore pressure and total stress: empty without undrained
+     *  soil */
     /** @{ */
     std::vector<double> pressure;
     std::vector<Mandel> total;
     /** @} */
 
-    /** @name Out of the plane: empty but for laws that are spatial, the strain and
-     *  the tangent but for scenes around an axis */
+    /** @name Out-of-plane components: empty unless laws are three-dimensional;
+     *  strain and tangent only in axisymmetric problems */
     /** @{ */
     std::vector<double>                    strain_zz;
     mutable std::vector<double>            stress_zz;

@@ -13,15 +13,15 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The local part of the incremental problem in (v, s, z) with the natural map
+   * Local part of the incremental problem in (v, s, z) with the natural map
    * (Guillet et al. 2025, eq 60). At each point
    *   z = S (s - s_n) - e,   R = s - P_C(s - rho Psi(z)),   e = h B v,
-   * where s is an unknown of its own, and a Newton step from (v, s) has
+   * where s is an additional unknown, and a Newton step from (v, s) has
    *   A ds = rho J Psi' de - R,   A = I - J + rho J Psi' S,
    * J and Psi' the generalised Jacobians of P_C and Psi. Eliminated point by
    * point, this leaves the momentum balance of the stress s - A^-1 R with the
-   * tangent T = A^-1 rho J Psi' for v alone. z is always that of (v, s), and the
-   * momentum balance of s is fulfilled after each full step. Where |z_t| hardens the
+   * tangent T = A^-1 rho J Psi' for v alone. z always belongs to (v, s), and s
+   * satisfies the momentum balance after each full step. If |z_t| hardens the
    * cone, rho J Psi' has the further term - dP_C/d|z_t| (z_t/|z_t|)'. Points of
    * materials without a cone have s = s_n + D e.
    */
@@ -29,9 +29,9 @@ namespace geocone::GEOCONE_DIM
   {
   public:
     /**
-     * @param step whose cones the points have (Material::step_cone())
+     * @param step for Material::step_cone(), the cones of the points
      * @param rho in units of 2G of each point
-     * @param start where the iteration for s starts, by point (Pa)
+     * @param start initial guess of s, by point (Pa)
      */
     NaturalMap(const MaterialPoints      &points,
                const Materials           &materials,
@@ -39,7 +39,7 @@ namespace geocone::GEOCONE_DIM
                const double               rho,
                const std::vector<Mandel> &start);
 
-    /** |R| of the worst point and the stress to compare it with (Pa). */
+    /** |R| of the worst point and its reference stress (Pa). */
     struct Error
     {
       double largest_residual = 0.;
@@ -47,21 +47,23 @@ namespace geocone::GEOCONE_DIM
     };
 
     /**
-     * Moves s with the strain increments e since the last call, and linearises
-     * there.
-     * @param[out] mode where s - rho Psi(z) lies: in C, beside it, or at its tip
+     * Updates s with the strain increments e since the last call, and
+     * linearises there.
+     * @param[out] mode location of s - rho Psi(z): in C, on its side, or at its
+     * apex
      */
     Error
     update(const std::vector<Mandel> &strain, std::vector<Mode> &mode);
 
-    /** s - A^-1 R of the last update(), by point (Pa); before it the start. */
+    /** Stress s - A^-1 R of the last update(), by point (Pa); before it the
+     *  initial guess. */
     const std::vector<Mandel> &
     stress() const
     {
       return iterate;
     }
 
-    /** T of the last update(), by point (Pa). */
+    /** Tangent T of the last update(), by point (Pa). */
     const std::vector<MandelMatrix> &
     tangent() const
     {
@@ -74,7 +76,7 @@ namespace geocone::GEOCONE_DIM
     const StepLaw                        step;
     const double                         rho;
     std::vector<std::optional<FlowCone>> cones;      ///< by material
-    std::vector<char>                    varies;     ///< whether by point, too
+    std::vector<char>                    varies;     ///< whether also by point
     std::vector<MandelMatrix>            compliance; ///< by material
     std::vector<Mandel>                  iterate;
     std::vector<MandelMatrix>            slope;

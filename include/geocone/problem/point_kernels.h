@@ -15,8 +15,8 @@
 #include <vector>
 
 /**
- * What is done at each point, for a number n of nodes that the compiler knows:
- * g holds grad N as n values d/dx, n values d/dy and so on; cell vectors are
+ * Kernels for each point, for a number n of nodes known at compile time: g
+ * holds grad N as n values d/dx, n values d/dy and so on; cell vectors are
  * interleaved (v_x, v_y, ... per node).
  */
 namespace geocone::kernels
@@ -25,7 +25,7 @@ namespace geocone::kernels
   template <int n>
   constexpr int power = dim == 2 ? n *n : n *n *n;
 
-  /** Those of simplices with the degree p. */
+  /** Number of nodes of simplices of degree p. */
   template <int p>
   constexpr int simplex = dim == 2 ? (p + 1) * (p + 2) / 2
                                    : (p + 1) * (p + 2) * (p + 3) / 6;
@@ -65,7 +65,7 @@ namespace geocone::kernels
       }
   }
 
-  /** B v: the Mandel strain rate of a cell vector v. */
+  /** Computes B v: the Mandel strain rate of a cell vector v. */
   template <int n>
   inline Mandel
   strain(const double *g, const double *v)
@@ -90,12 +90,12 @@ namespace geocone::kernels
     return e;
   }
 
-  /** f += B' s. */
+  /** Computes f += B' s. */
   template <int n>
   inline void
   add_force(const double *g, const Mandel &s, double *f)
   {
-    // The stress tensor; its rows along the gradient are the forces.
+    // Stress tensor; its product with the gradient is the force.
     double t[dim][dim];
     for (unsigned int d = 0; d < dim; ++d)
       t[d][d] = s[place_of_normal[d]];
@@ -108,7 +108,7 @@ namespace geocone::kernels
           f[dim * i + d] += g[n * ((d + c) % dim) + i] * t[d][(d + c) % dim];
   }
 
-  /** The places of the entries of a tensor in a Mandel vector. */
+  /** Positions of the entries of a tensor in a Mandel vector. */
   struct PlacesOfTensor
   {
     constexpr PlacesOfTensor()
@@ -134,8 +134,8 @@ namespace geocone::kernels
       f(std::integral_constant<unsigned int, 2>());
   }
 
-  /** The entry d of t g, of a tensor of which at(r) is the value in the place r of a
-   *  Mandel vector, shears over sqrt2, with a gradient whose entries are n apart. */
+  /** Entry d of t g, for a tensor t with the value at(r) at position r of a
+   *  Mandel vector, shears over sqrt2, and a gradient with entries n apart. */
   template <int n, unsigned int d, typename F, std::size_t... k>
   [[gnu::always_inline]] inline auto
   along(const double *g, const F &at, std::index_sequence<k...>)
@@ -143,10 +143,10 @@ namespace geocone::kernels
     return (... + (g[n * ((d + k) % dim)] * at(place.of[d][(d + k) % dim])));
   }
 
-  /** Columns of a stiffness matrix that are summed up at once. */
+  /** Number of columns of a stiffness matrix that are summed at once. */
   constexpr int block = 4;
 
-  /** Values that stiffness() needs for its own use. */
+  /** Number of scratch values for stiffness(). */
   inline std::size_t
   scratch_size(const unsigned int n_points, const unsigned int n_nodes)
   {
@@ -155,8 +155,9 @@ namespace geocone::kernels
   }
 
   /**
-   * K = sum_q B_q' C_q B_q of a cell, row-major (dim n)^2, in blocks of a node's rows and
-   * a few columns whose sums over the points stay in registers.
+   * Computes K = sum_q B_q' C_q B_q of a cell, row-major (dim n)^2, in blocks
+   * of a node's rows and a few columns whose sums over the points stay in
+   * registers.
    * @tparam upper whether only the blocks of nodes i <= j are needed
    * @param g gradients of the points one after another, dim n each
    * @param C tangents times weights
@@ -172,7 +173,7 @@ namespace geocone::kernels
   {
     constexpr int  m = dim * n, stride = (m + block - 1) / block * block;
     constexpr auto directions = std::make_index_sequence<dim>();
-    // The rows of C B, those of shears over sqrt2, for B' picks them so.
+    // Rows of C B, those of shears over sqrt2, as required by B'.
     for (unsigned int q = 0; q < n_points; ++q)
       for (int r = 0; r < int(n_mandel); ++r)
         {
@@ -233,8 +234,8 @@ namespace geocone::kernels
       }
   }
 
-  /** a = other gradients of the volumetric strain (B-bar) less those of a point, which
-   *  around an axis has N/r, too. @param hoop N/r, or null */
+  /** a = modified gradients of the volumetric strain (B-bar) less those of a
+   *  point, in axisymmetric problems including N/r. @param hoop N/r, or null */
   template <int n>
   inline void
   volumetric_change(const double *g,
@@ -251,11 +252,13 @@ namespace geocone::kernels
   }
 
   /**
-   * What other gradients of the volumetric strain change of K (B-bar). With I the unit
-   * tensor the strain is B + I a'/dim, a their volumetric_change(), so that with
-   * w = C I/dim
-   * K += sum_q a_q (C_q' I/dim)' B_q + (B_q' w_q) a_q' + (I' w_q/dim) a_q a_q'.
-   * @param hoop N/r around an axis, which the volumetric strain has, too; or null
+   * Adds the contribution of modified gradients of the volumetric strain to K
+   * (B-bar). With I the unit tensor the strain is B + I a'/dim, a their
+   * volumetric_change(), so that with w = C I/dim
+   *   K += sum_q a_q (C_q' I/dim)' B_q + (B_q' w_q) a_q'
+   *          + (I' w_q/dim) a_q a_q'.
+   * @param hoop N/r in axisymmetric problems, part of the volumetric strain; or
+   * null
    * @param volumetric those gradients, laid out as g
    */
   template <int n, bool upper>
@@ -302,7 +305,7 @@ namespace geocone::kernels
   }
 
 #if defined(__x86_64__)
-  /** The same for processors with AVX2 and fused multiply-add. */
+  /** stiffness_body() for processors with AVX2 and FMA. */
   template <int n, bool upper>
   [[gnu::target("avx2,fma")]] void
   stiffness_avx2(const double       *g,
@@ -317,8 +320,9 @@ namespace geocone::kernels
   }
 #endif
 
-  /** K by the fastest variant that the processor has, without what is out of the plane.
-   *  @param volumetric those of B-bar, or null */
+  /** Computes K by the fastest variant for the processor, without out-of-plane
+   *  parts.
+   *  @param volumetric gradients of B-bar, or null */
   template <int n, bool upper>
   void
   stiffness(const double       *g,
@@ -339,7 +343,8 @@ namespace geocone::kernels
     stiffness_body<n, upper>(g, hoop, volumetric, C, n_points, scratch, K);
   }
 
-  /** Copies the entries of a cell's nodes between a cell vector and a vector. */
+  /** Copies the entries of a cell's nodes between a cell vector and a
+   *  vector. */
   template <int n>
   inline void
   gather(const double *vector, const unsigned int *nodes, double *cell)

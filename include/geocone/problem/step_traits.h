@@ -9,7 +9,8 @@
 
 namespace geocone
 {
-  /** Properties of the incremental problem of a step that decide how it is solved. */
+  /** Properties of the incremental problem of a step on which the solution
+   *  strategy depends. */
   struct StepTraits
   {
     LawTraits     law;
@@ -17,11 +18,11 @@ namespace geocone
     bool          has_inertia        = false;
     bool          has_constraints    = false; ///< H v = q has rows
     bool          has_cell_pressures = false; ///< CellPressures
-    bool          points_move        = false; ///< they are particles
+    bool          points_move        = false; ///< material points
     bool          raises_loads       = false; ///< to the limit load
 
-    /** Whether points have a local solver of their own, beside which the natural map
-     *  cannot stand: laws without one, and pressures of cells. */
+    /** Whether points have a local solver of their own, which excludes the
+     *  natural map: laws without one, and cell pressures. */
     bool
     needs_return_map() const
     {

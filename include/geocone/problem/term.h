@@ -11,28 +11,32 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Where residual() takes the stresses from. */
+  /** Local law by which residual() computes the stresses. */
   struct LocalLaw
   {
-    /** The materials' closed-form return maps, with a part of the normal stress on
-     *  which strength depends from t_n (Increment::friction_lag). */
+    /** Closed-form return maps of the materials, with the fraction of the
+     *  normal stress that determines strength taken from t_n
+     *  (Increment::friction_lag). */
     double friction_lag = 0.;
 
-    /** Or the iterate of the natural map, which moves with each residual(). */
+    /** Alternatively, the iterate of the natural map, updated in each
+     *  residual(). */
     NaturalMap *natural_map = nullptr;
 
-    /** Whether obstacles rub: without, a step is a start for one that does. */
+    /** Whether contact has friction; a step without friction is an initial
+     *  guess for one with friction. */
     bool obstacles_rub = true;
 
-    /** Whether what touches at the beginning stays in touch, whatever the force: a start
-     *  for a step that lets it go. */
+    /** Whether initially active contacts are bilateral, as an initial guess for
+     *  a step with separation. */
     bool contact_holds = false;
   };
 
   /**
-   * A part of the residual R(v) of an implicit step, which is a sum of such terms:
-   * what is not overridden is zero. Forces are per metre of thickness (N/m); dofs
-   * that are turned (Unknowns::turned_nodes) have their components.
+   * Term of the residual R(v) of an implicit step, which is a sum of such
+   * terms. Functions not overridden contribute zero. Forces are per metre of
+   * thickness (N/m); rotated dofs (Unknowns::turned_nodes) have their
+   * components.
    */
   class Term
   {
@@ -40,15 +44,15 @@ namespace geocone::GEOCONE_DIM
     virtual ~Term() = default;
 
     /**
-     * Evaluates its part of R(v), in all owned rows, and what its tangent needs.
+     * Evaluates the term in all owned rows, and the data for its tangent.
      * @param[out] part is overwritten
      * @param v with its ghosts
      */
     virtual void
     residual(Vector &part, const Vector &v, const LocalLaw &law) = 0;
 
-    /** Appends the squares of norms to compare a residual with, the sums on this
-     *  rank: |part|^2, unless it knows better. */
+    /** Appends squared reference norms for the residual, the sums on this rank:
+     *  |part|^2 unless overridden. */
     virtual void
     add_sizes(const Vector &part, std::vector<double> &sizes) const
     {
@@ -59,7 +63,7 @@ namespace geocone::GEOCONE_DIM
     }
 
     /**
-     * matrix += its part of dR/dv at the last residual().
+     * Adds the term's dR/dv at the last residual() to the matrix.
      * @param elastic_blend w in (1 - w) C + w D, for a tangent C
      */
     virtual void
@@ -68,14 +72,15 @@ namespace geocone::GEOCONE_DIM
               [[maybe_unused]] SparseMatrix          &matrix) const
     {}
 
-    /** dst += its part of (dR/dv) dv at the last residual(), in all owned rows.
+    /** Adds the term's (dR/dv) dv at the last residual() to dst, in all owned
+     *  rows.
      *  @param dv with its ghosts */
     virtual void
     apply_tangent([[maybe_unused]] Vector       &dst,
                   [[maybe_unused]] const Vector &dv) const
     {}
 
-    /** dst += the diagonal of its part of the elastic Jacobian (kg/(m s)). */
+    /** Adds the diagonal of the term's elastic Jacobian to dst (kg/(m s)). */
     virtual void
     add_elastic_diagonal([[maybe_unused]] Vector &dst) const
     {}

@@ -12,9 +12,9 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The nodes of cells whose dofs are not along the coordinates (Unknowns::turned_nodes),
-   * and what of a cell goes over from one to the other. Without such nodes it is
-   * nothing.
+   * Nodes of cells with rotated dofs (Unknowns::turned_nodes), and the
+   * transformation of cell vectors and matrices. Without such nodes it has no
+   * cost.
    */
   class TurnedDofs
   {
@@ -27,11 +27,12 @@ namespace geocone::GEOCONE_DIM
       dealii::Tensor<2, dim> axes; ///< by rows
     };
 
-    /** That of a node of a cell, or null. */
+    /** Rotation of a node of a cell, or null. */
     const Turn *
     turn_of(const unsigned int c, const unsigned int node) const;
 
-    /** Velocities of a cell from components of the dofs to x and y. */
+    /** Transforms velocities of a cell from components of the dofs to x and
+     *  y. */
     void
     velocities_to_xy(const unsigned int c, double *cell_v) const
     {
@@ -39,7 +40,7 @@ namespace geocone::GEOCONE_DIM
         turn_velocities(c, cell_v);
     }
 
-    /** Forces of a cell from x and y to components of the dofs. */
+    /** Transforms forces of a cell from x and y to components of the dofs. */
     void
     forces_to_dofs(const unsigned int c, double *cell_f) const
     {
@@ -47,8 +48,9 @@ namespace geocone::GEOCONE_DIM
         turn_forces(c, cell_f);
     }
 
-    /** The same for both sides of the matrix of a cell.
-     *  @param n_dofs its rows @param upper whether only those entries are set */
+    /** Transforms the rows and columns of the matrix of a cell.
+     *  @param n_dofs its rows @param upper whether only the upper entries are
+     *  set */
     void
     matrix_to_dofs(const unsigned int c,
                    const unsigned int n_dofs,
@@ -61,7 +63,7 @@ namespace geocone::GEOCONE_DIM
     void
     turn_forces(const unsigned int c, double *cell_f) const;
 
-    /** Where there are any: those of cell c begin at first_turn[c]. */
+    /** If there are any, those of cell c begin at first_turn[c]. */
     std::vector<Turn>         turns;
     std::vector<unsigned int> first_turn;
   };
