@@ -15,7 +15,7 @@ namespace geocone::GEOCONE_DIM
   {
     using Flat = Point<dim - 1>;
 
-    /** Twice the area of a triangle, positive where it is passed counterclockwise. */
+    /** Twice the area of a triangle, positive if it is counterclockwise. */
     double
     turn(const Flat &a, const Flat &b, const Flat &c)
     {
@@ -23,7 +23,8 @@ namespace geocone::GEOCONE_DIM
       return u[0] * v[dim - 2] - u[dim - 2] * v[0];
     }
 
-    /** Calls f(a, b, sign) for the edges of an outline, sign * turn(a, b, x) >= 0 in it. */
+    /** Calls f(a, b, sign) for the edges of an outline; inside, sign * turn(a,
+     *  b, x) >= 0. */
     template <typename Function>
     void
     for_edges(const FlatPart &outline, const Function &f)
@@ -36,7 +37,7 @@ namespace geocone::GEOCONE_DIM
         f(corners[i], corners[(i + 1) % corners.size()], sign);
     }
 
-    // Templates, of which only the branch of the dimension is read.
+    // Templates, so that only the branch of the dimension is compiled.
 
     template <int m>
     Point<m>
@@ -48,7 +49,8 @@ namespace geocone::GEOCONE_DIM
         s[0] = (x - corners[0]) * (corners[1] - corners[0]) /
                (corners[1] - corners[0]).norm_square();
       else
-        // Linear in triangles and parallelograms, where the first step is the last.
+        // Linear in triangles and parallelograms, where the first step is
+        // exact.
         for (unsigned int step = 0; step < 20; ++step)
           {
             const auto lack = x - outline.at(s);

@@ -16,7 +16,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** On the reference face, exact for degree 2p + 3. */
+    /** Quadrature on the reference face, exact for degree 2p + 3. */
     template <int face_dim>
     Quadrature<face_dim>
     rule_of_face(const bool simplicial, const unsigned int p)
@@ -27,8 +27,9 @@ namespace geocone::GEOCONE_DIM
       return QGauss<face_dim>(p + 2);
     }
 
-    /** A face of the reference cell: its first vertex, the edges from there, and the
-     *  outward normal times dA over what the rule integrates. */
+    /** A face of the reference cell: its first vertex, the edges from there,
+     *  and the outward normal times dA relative to the integral of the
+     *  quadrature. */
     struct UnitFace
     {
       UnitFace(const bool simplicial, const unsigned int face)
@@ -43,8 +44,8 @@ namespace geocone::GEOCONE_DIM
                 edge[k++][c] = 1.;
             return;
           }
-        // Vertices in the numbering of the reference cells, of which the first is the
-        // origin.
+        // Vertices as numbered in the reference cells, the first of which is
+        // the origin.
         static constexpr unsigned int vertices[2][4][3] = {
           {{0, 1, 0}, {1, 2, 0}, {2, 0, 0}, {0, 0, 0}},
           {{0, 1, 2}, {1, 0, 3}, {0, 2, 3}, {2, 1, 3}}};
@@ -61,7 +62,7 @@ namespace geocone::GEOCONE_DIM
           edge[k] = vertex(v[k + 1]) - start;
         for (unsigned int k = 0; k < dim; ++k)
           sum += vertex(v[k]);
-        // On a face of the origin one coordinate is zero.
+        // On a face through the origin one coordinate is zero.
         const bool is_oblique =
           std::all_of(v, v + dim, [](const unsigned int i) { return i > 0; });
         for (unsigned int d = 0; d < dim; ++d)
@@ -93,7 +94,7 @@ namespace geocone::GEOCONE_DIM
     const auto box = condition.wide_box();
     if (!box)
       return UnitPart::whole();
-    // Less of a face than this is a matter of rounding.
+    // A smaller part of a face is rounding.
     constexpr double least = 1e-6;
     const UnitFace   unit_face(mesh.is_simplicial(), face);
     const auto       place = [&](const Point<dim - 1> &s) {
@@ -109,7 +110,8 @@ namespace geocone::GEOCONE_DIM
     bool     is_oblique = false;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        // In space a coordinate that bounds the part has to grow along one edge only.
+        // In space, a coordinate that bounds the part may increase along one
+        // edge only.
         unsigned int grows = 0, n_grow = 0;
         double       size = 0.;
         for (unsigned int k = 0; k + 1 < dim; ++k)

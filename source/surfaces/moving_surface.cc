@@ -65,7 +65,8 @@ namespace geocone::GEOCONE_DIM
                       const Vector         &v,
                       const double          h)
   {
-    // A place in the body by each corner, towards the middles of its facets.
+    // A position inside the body near each corner, towards the midpoints of its
+    // facets.
     std::vector<Tensor<1, dim>> inward(places.size());
     const std::vector<SidePart> present = facets();
     for (std::size_t i = 0; i < parts.size(); ++i)
@@ -77,7 +78,8 @@ namespace geocone::GEOCONE_DIM
           inward[corner] +=
             1e-6 * (middle - places[corner]) - 1e-9 * size / area.norm() * area;
       }
-    // The velocity there, and how many cells of all ranks know it.
+    // Sum of velocities there, and number of cells of all ranks that
+    // contribute.
     constexpr unsigned int               n_sums = dim + 1;
     std::vector<double>                  sums(n_sums * places.size(), 0.);
     std::vector<types::global_dof_index> nodes;

@@ -16,8 +16,9 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** By how much the cosine of a side's normal and the obstacle's may be less than that of
-     *  the side that faces it best: that of 45 degrees, if this one is parallel to it. */
+    /** Largest difference between the cosines with the obstacle's normal of a
+     *  face and of the best facing one: that of 45 degrees, if the latter is
+     *  parallel. */
     const double nearly_as_well = 1. - std::sqrt(0.5);
   } // namespace
 
@@ -50,7 +51,7 @@ namespace geocone::GEOCONE_DIM
   {
     const Utilities::MPI::Partitioner &layout = *space.partitioner();
 
-    // Numbers of a side: the node's first dof, the integral, the normal.
+    // Data of a face: the node's first dof, the integral, the normal.
     constexpr unsigned int                      n_numbers = 2 + dim;
     std::map<unsigned int, std::vector<double>> leaving;
     unsigned int                                node = space.n_owned_nodes();

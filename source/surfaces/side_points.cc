@@ -17,7 +17,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** A place on a face of a cell, and the way into the cell. */
+    /** A position on a face of a cell, and the inward direction. */
     using Plane = std::pair<Point<dim>, Tensor<1, dim>>;
 
     std::vector<Plane>
@@ -37,7 +37,7 @@ namespace geocone::GEOCONE_DIM
       return planes;
     }
 
-    /** From where to where the line from a to b is in all of these. */
+    /** Range of the line from a to b inside all planes. */
     std::pair<double, double>
     part_between(const std::vector<Plane> &planes,
                  const Point<dim>         &a,
@@ -49,7 +49,7 @@ namespace geocone::GEOCONE_DIM
       return part_of_line(conditions);
     }
 
-    /** What of a facet is between planes, in facets. */
+    /** Part of a facet between planes, as facets. */
     std::vector<SidePart>
     pieces_between(const std::vector<Plane> &planes, const SidePart &facet)
     {
@@ -68,7 +68,7 @@ namespace geocone::GEOCONE_DIM
       return rest.simplices();
     }
 
-    /** On a facet of the size 1. */
+    /** Quadrature on a facet of size 1. */
     Quadrature<dim - 1>
     rule_of_facets()
     {
@@ -123,8 +123,8 @@ namespace geocone::GEOCONE_DIM
   {
     const Quadrature<dim - 1> rule = rule_of_facets();
     std::vector<double>       parts(facets.size(), 0.);
-    // Boxes tell what may be in which cell. A shift decides for the body where a facet
-    // is on a border of cells.
+    // Bounding boxes select candidate cells. On a boundary of cells, a shift
+    // into the body decides.
     std::vector<BoundingBox<dim>> boxes;
     std::vector<SidePart>         shifted = facets;
     for (SidePart &facet : shifted)

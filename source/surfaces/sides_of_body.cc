@@ -13,7 +13,8 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** @throws InputError where a condition's box holds no part of its sides */
+    /** @throws InputError if a condition's box contains no part of its boundary
+     *  segments */
     void
     refuse_no_part(const BoundaryCondition &condition,
                    const std::size_t        n_parts)
@@ -25,7 +26,7 @@ namespace geocone::GEOCONE_DIM
                          "check the sides and the box");
     }
 
-    /** Of a body in the plane, lines. */
+    /** Segments of a plane body, lines. */
     std::vector<SidePart>
     panels_of_outline(const BoundaryCondition &condition,
                       const Geometry          &geometry)
@@ -37,7 +38,7 @@ namespace geocone::GEOCONE_DIM
           "sides of a body that is a box or a polygon",
           "describe the body as one of them; velocities may also be "
           "imposed on nodes of the background mesh");
-      // Outlines may run either way.
+      // Outlines may have either orientation.
       double area = 0.;
       for (std::size_t i = 0; i < geometry.outline.size(); ++i)
         {
@@ -73,7 +74,7 @@ namespace geocone::GEOCONE_DIM
       return panels;
     }
 
-    /** Of a body that is a box in space, rectangles. */
+    /** Segments of a box in space, rectangles. */
     std::vector<SidePart>
     panels_of_box(const BoundaryCondition &condition, const Geometry &geometry)
     {
@@ -95,7 +96,7 @@ namespace geocone::GEOCONE_DIM
           {
             if (!condition.is_on_side(side_of_box[d][is_upper]))
               continue;
-            // A rectangle across d, or its part in the box.
+            // A rectangle normal to d, or its part in the box.
             Point<dim> low = lower, high = upper;
             low[d] = high[d] = (is_upper ? upper : lower)[d];
             bool is_there    = true;
@@ -138,7 +139,7 @@ namespace geocone::GEOCONE_DIM
                                      : SidePart{{high, low}};
     else
       {
-        // These, and the axis, are right-handed.
+        // These two and the axis are right-handed.
         std::array<unsigned int, 2> across = {
           {(axis + 1) % dim, (axis + 2) % dim}};
         if (!is_upper)
@@ -156,7 +157,7 @@ namespace geocone::GEOCONE_DIM
                   const SidePart       &panel,
                   const unsigned int    edge)
   {
-    // Not on a border of cells, but in the body.
+    // Inside the body, not on a boundary of cells.
     const Tensor<1, dim> along = panel.edge(edge), area = area_of(panel);
     Point<dim> a = panel.corners[0] - 1e-9 * along.norm() / area.norm() * area;
     for (unsigned int k = 0; k + 1 < dim; ++k)

@@ -10,39 +10,39 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** The projection of a face to a plane. */
+  /** Projection of a face to a plane. */
   using FlatPart = Outline<dim - 1>;
 
-  /** The unit coordinates of a place in a flat outline; of places outside those of one on
-   *  its border. */
+  /** Unit coordinates of a position in a flat outline; positions outside are
+   *  projected to its boundary. */
   dealii::Point<dim - 1>
   unit_place(const FlatPart &outline, const dealii::Point<dim - 1> &x);
 
-  /** Whether a place is in a convex flat outline. */
+  /** Whether a position is in a convex flat outline. */
   bool
   is_in(const FlatPart &outline, const dealii::Point<dim - 1> &x);
 
-  /** The length (m) of an interval, or the area (m^2) of a triangle. */
+  /** Length (m) of an interval, or area (m^2) of a triangle. */
   double
   size_of(const FlatPart &simplex);
 
-  /** The intervals or triangles, which do not overlap, that two convex flat outlines
-   *  share. */
+  /** Intersection of two convex flat outlines, as disjoint intervals or
+   *  triangles. */
   std::vector<FlatPart>
   shared_part(const FlatPart &a, const FlatPart &b);
 
-  /** The plane of a face, or the mean one of a quadrilateral that is not flat. */
+  /** Plane of a face; the mean plane of a warped quadrilateral. */
   class FacePlane
   {
   public:
-    /** @param face with its corners counterclockwise, seen from outside of the body; in
-     *  the plane the body is on the left of the way */
+    /** @param face with its corners counterclockwise, seen from outside of the
+     *  body; in the plane the body is on the left of the line */
     explicit FacePlane(const SidePart &face);
 
     FlatPart
     project(const SidePart &face) const;
 
-    /** How far ahead a place is (m). */
+    /** Distance of a position in front of the face (m). */
     double
     ahead(const dealii::Point<dim> &x) const
     {

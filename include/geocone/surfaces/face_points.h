@@ -24,7 +24,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<double>       values; ///< N at the point, per node
   };
 
-  /** Gauss points of a face, or of a part of it, exact for degree 2p + 3. */
+  /** Gauss points of a face or a part of it, exact for degree 2p + 3. */
   std::vector<FacePoint>
   points_on_face(const BackgroundMesh       &mesh,
                  const Space                &space,
@@ -32,9 +32,10 @@ namespace geocone::GEOCONE_DIM
                  const unsigned int          face,
                  const UnitPart             &part = UnitPart::whole());
 
-  /** What of a face the Box of a condition holds; nothing, or its part, which ends in
-   *  the face. Where a formula selects, faces are whole.
-   *  @throws InputError for a part of a face in space that is not along the axes */
+  /** Part of a face in the box of a condition, or nothing. The part ends within
+   *  the face. Formulas select whole faces.
+   *  @throws InputError for a part of a face in space that is not along the
+   *  axes */
   std::optional<UnitPart>
   part_of_face(const BoundaryCondition    &condition,
                const BackgroundMesh       &mesh,
@@ -42,8 +43,8 @@ namespace geocone::GEOCONE_DIM
                const unsigned int          face);
 
   /**
-   * Calls f(cell, point) for each of these points of the faces, of cells of this rank,
-   * that a condition at the boundary holds.
+   * Calls f(cell, point) for each Gauss point of the faces of this rank's cells
+   * selected by a boundary condition.
    * @return the number of these faces
    */
   template <typename Function>
@@ -69,7 +70,9 @@ namespace geocone::GEOCONE_DIM
     return n_faces;
   }
 
-  /** @throws InputError where no rank has a face @param what that means. Collective. */
+  /** Rejects a condition without any face. @throws InputError if no rank has a
+   *  face
+   *  @param what consequence for the message. Collective. */
   void
   refuse_no_face(const BoundaryCondition &condition,
                  const unsigned int       n_faces,

@@ -13,31 +13,33 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Sides of a body, or their parts in a box, that move with it: facets, which are lines
-   * or triangles, whose corners are carried by the velocity of the nodes.
+   * Boundary segments of a body, or their parts in a box, that move with it.
+   * They consist of facets, lines or triangles, with corners that move with the
+   * velocity of the grid.
    */
   class MovingSurface
   {
   public:
     /**
      * @param panels of the body
-     * @param longest part of an edge of a panel that is one of a facet, in space of a
-     * parallelogram that is halved into two (m)
+     * @param longest edge length of facets into which panels are divided; in
+     * space of a parallelogram, which is halved into two (m)
      */
     MovingSurface(const std::vector<SidePart> &panels, const double longest);
 
-    /** The facets as they are. */
+    /** Facets in their current positions. */
     std::vector<SidePart>
     facets() const;
 
-    /** Of a facet at the start (m, or m^2). */
+    /** Initial size of a facet (m, or m^2). */
     double
     size_at_start(const std::size_t facet) const
     {
       return parts[facet].size;
     }
 
-    /** Moves the corners over a step h, within the box of a grid. Collective. */
+    /** Moves the corners over a step h, within the box of a grid.
+     *  Collective. */
     void
     move(const BackgroundMesh &mesh,
          const Space          &space,

@@ -12,27 +12,29 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The sides of a body at its nodes: of each face the integral of N_i (m, m^2) and the
-   * outward normal. A node at the end of a side that touches stands for half a cell there,
-   * whatever the other sides are that end in it.
+   * Boundary faces of a body at its nodes: for each face the integral of N_i
+   * (m, m^2) and the outward normal. A node at the end of a face in contact
+   * represents half a cell there, whatever other faces end in it.
    */
   class NodeSides
   {
   public:
     explicit NodeSides(const Space &space);
 
-    /** Adds a face of the boundary. @param points all of them */
+    /** Adds a face of the boundary. @param points all of its quadrature
+     *  points */
     void
     add(const std::vector<FacePoint> &points);
 
-    /** Ends adding: owned nodes get what other ranks have of them. Collective. */
+    /** Completes the data: owned nodes receive those of other ranks.
+     *  Collective. */
     void
     exchange();
 
     /**
-     * The integral of N_i over the sides that face an obstacle: those of which the
-     * normals are nearest to its, and the others that are hardly less so (a corner that
-     * stands on its tip has two).
+     * Integral of N_i over the faces opposite an obstacle: those with the
+     * normals closest to its, and others that are almost as close (a corner
+     * that stands on its tip has two).
      * @param node an owned one
      * @param normal out of the obstacle
      */

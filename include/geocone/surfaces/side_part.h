@@ -13,8 +13,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Unit coordinates of a part of a line or quadrilateral: of all of it, or between two
-   *  corners. */
+  /** Unit coordinates of a part of a line or quadrilateral: the whole, or the
+   *  range between two corners. */
   struct UnitPart
   {
     dealii::Point<dim - 1> lower, upper;
@@ -24,8 +24,9 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * A part of a side, given by its corners in order around it: a line, a triangle, or a
-   * quadrilateral, on which x is linear in each unit coordinate.
+   * A part of a boundary segment, given by its corners in order around it: a
+   * line, a triangle, or a quadrilateral, on which x is linear in each unit
+   * coordinate.
    * @tparam n dim, or dim - 1 for the projection to a plane
    */
   template <int n>
@@ -44,14 +45,14 @@ namespace geocone::GEOCONE_DIM
       return corners[0] + x;
     }
 
-    /** From the first corner along a unit coordinate. */
+    /** Edge from the first corner along a unit coordinate. */
     dealii::Tensor<1, n>
     edge(const unsigned int k) const
     {
       return (k == 0 ? corners[1] : corners.back()) - corners[0];
     }
 
-    /** The mean of the corners. */
+    /** Mean of the corners. */
     dealii::Point<n>
     middle() const
     {
@@ -61,8 +62,8 @@ namespace geocone::GEOCONE_DIM
       return sum;
     }
 
-    /** Itself, or in space the triangles that meet at the first corner of a convex
-     *  polygon. */
+    /** Itself in the plane; in space the triangles that share the first corner
+     *  of a convex polygon. */
     std::vector<Outline>
     simplices() const
     {
@@ -77,16 +78,17 @@ namespace geocone::GEOCONE_DIM
     std::vector<dealii::Point<n>> corners;
   };
 
-  /** A part of a side of the body: in the plane the body is on the left of the line, in
-   *  space the corners are counterclockwise as seen from outside. */
+  /** A part of a boundary segment of the body: in the plane the body is on the
+   *  left of the line, in space the corners are counterclockwise as seen from
+   *  outside. */
   using SidePart = Outline<dim>;
 
-  /** The outward normal times the length (m), or the area (m^2). */
+  /** Outward normal times the length (m) or the area (m^2). */
   dealii::Tensor<1, dim>
   area_of(const SidePart &part);
 
-  /** @name A line, or in space a parallelogram, by its first corner and the ends of the
-   *  edges from there */
+  /** @name A line, or in space a parallelogram, by its first corner and the
+   *  ends of the adjacent edges */
   /** @{ */
   SidePart
   spanned_by(const std::array<dealii::Point<dim>, dim> &ends);
@@ -95,11 +97,11 @@ namespace geocone::GEOCONE_DIM
   ends_of(const SidePart &part);
   /** @} */
 
-  /** The part of a line or quadrilateral between unit coordinates. */
+  /** Part of a line or quadrilateral between unit coordinates. */
   SidePart
   part_of(const SidePart &whole, const UnitPart &part);
 
-  /** So many equal parts along each edge. */
+  /** Subdivision into n equal parts along each edge. */
   std::vector<SidePart>
   parts_of(const SidePart &whole, const std::array<unsigned int, dim - 1> &n);
 } // namespace geocone::GEOCONE_DIM

@@ -13,23 +13,24 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** A place where shape functions are evaluated: a cell of this rank, N there. */
+  /** A position where shape functions are evaluated: a cell of this rank, N
+   *  there. */
   struct BoundaryPoint
   {
     dealii::Point<dim> position;
-    double             weight; ///< part of the line or triangle
+    double             weight; ///< fraction of the line or triangle
     std::vector<dealii::types::global_dof_index> nodes;
     std::vector<double>                          values; ///< N, per node
   };
 
   /**
-   * Calls f(number, point) for points for sums that are integrals over each facet, a line
-   * or a triangle, of what of it is in cells of this rank: Gauss points on each cell's
-   * part, in the plane exact for the shape functions. Their weights sum up, over all ranks, to the part of
-   * the facet that is in the mesh. A facet along the border of cells belongs to those on
-   * the side of the body, and one along the border of the mesh to the mesh if that is
-   * there.
-   * @return the parts that this rank knows
+   * Calls f(number, point) for quadrature points on the part of each facet, a
+   * line or a triangle, inside cells of this rank: Gauss points on the part in
+   * each cell, in the plane exact for the shape functions. Over all ranks their
+   * weights sum to the part of the facet in the mesh. A facet along the
+   * boundary of cells belongs to those on the side of the body; a facet along
+   * the boundary of the mesh belongs to the mesh if the mesh is on that side.
+   * @return fractions of the facets found on this rank
    */
   std::vector<double>
   for_each_point(
@@ -38,20 +39,20 @@ namespace geocone::GEOCONE_DIM
     const std::vector<SidePart>                                         &facets,
     const std::function<void(const std::size_t, const BoundaryPoint &)> &f);
 
-  /** The same points of a line, a triangle or a parallelogram. */
+  /** Quadrature points of a line, a triangle or a parallelogram. */
   std::vector<BoundaryPoint>
   points_on(const BackgroundMesh &mesh,
             const Space          &space,
             const SidePart       &part);
 
-  /** The longest part of a line from a to b in one cell (m). Collective. */
+  /** Longest part of a line from a to b in one cell (m). Collective. */
   double
   longest_part_in_cell(const BackgroundMesh     &mesh,
                        const dealii::Point<dim> &a,
                        const dealii::Point<dim> &b);
 
-  /** From where to where, between 0 and 1, a + t along has c + t d >= 0 for all of these
-   *  c and d; to < from: nowhere. */
+  /** Range [from, to] of t in [0, 1] with c + t d >= 0 for all given c and d;
+   *  empty if to < from. */
   std::pair<double, double>
   part_of_line(const std::vector<std::pair<double, double>> &conditions);
 } // namespace geocone::GEOCONE_DIM

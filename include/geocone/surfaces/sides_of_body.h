@@ -12,14 +12,14 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The parts of the condition's sides of the body inside its box: in the plane lines, in
-   * space rectangles.
-   * @throws InputError if the body has no such side or it misses the box
+   * Parts of the condition's boundary segments of the body inside its box: in
+   * the plane lines, in space rectangles.
+   * @throws InputError if the body has no such segment or it is outside the box
    */
   std::vector<SidePart>
   panels_of_body(const BoundaryCondition &condition, const Geometry &geometry);
 
-  /** The side of a box across an axis.
+  /** Side of a box normal to an axis.
    *  @param low,high corners of the side, or of a part of it */
   SidePart
   side_across(const unsigned int        axis,
@@ -27,7 +27,8 @@ namespace geocone::GEOCONE_DIM
               const dealii::Point<dim> &low,
               const dealii::Point<dim> &high);
 
-  /** The longest part of the middle line along an edge in one cell (m). Collective. */
+  /** Longest part of the centre line along an edge in one cell (m).
+   *  Collective. */
   double
   cell_size_along(const BackgroundMesh &mesh,
                   const SidePart       &panel,
