@@ -12,7 +12,8 @@ namespace geocone
 {
   namespace
   {
-    /** Function of a library of this process, null if there is none. */
+    /** Looks up a function in the libraries of this process; null if there is
+     *  none. */
     template <typename Function>
     Function *
     function_of_library(const char *name)

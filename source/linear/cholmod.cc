@@ -14,7 +14,7 @@ namespace geocone
   {
     using IndexSize = LinearSolverParameters::IndexSize;
 
-    /** The library's functions for its integers. */
+    /** The library's functions for each integer size. */
     template <typename Index>
     struct Library;
 
@@ -44,7 +44,7 @@ namespace geocone
       static constexpr auto free_dense  = &cholmod_l_free_dense;
     };
 
-    /** What was allocated for a matrix, and its factors. */
+    /** Memory of the library for a matrix and its factors. */
     template <typename Index>
     class Factors
     {
@@ -74,7 +74,8 @@ namespace geocone
         Functions::finish(&common);
       }
 
-      /** @return whether the integers hold the factors' size */
+      /** Analyses the pattern. @return whether the integers can count the
+       *  factors */
       bool
       analyse(const SparseMatrix &matrix)
       {
@@ -131,7 +132,8 @@ namespace geocone
       }
 
     private:
-      /** Compressed rows of the lower are compressed columns of the upper. */
+      /** View of the matrix: compressed rows of the lower triangle are
+       *  compressed columns of the upper. */
       cholmod_sparse
       view(const SparseMatrix &matrix) const
       {
@@ -165,10 +167,10 @@ namespace geocone
       cholmod_dense     *work_y   = nullptr;
       cholmod_dense     *work_e   = nullptr;
       std::vector<Index> row_start,
-        column; ///< of the matrix, where not its own
+        column; ///< of the matrix, if converted
     };
 
-    /** SuiteSparse's supernodal Cholesky factorisation. */
+    /** Supernodal Cholesky factorisation of SuiteSparse. */
     class Cholmod : public LinearSolver
     {
     public:
@@ -223,7 +225,7 @@ namespace geocone
     private:
       const IndexSize size;
 
-      /** One of them. */
+      /** Exactly one of them is used. */
       std::unique_ptr<Factors<int>>              small;
       std::unique_ptr<Factors<SuiteSparse_long>> large;
     };

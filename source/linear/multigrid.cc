@@ -31,12 +31,12 @@ namespace geocone
     using dealii::types::global_dof_index;
 
     /**
-     * Conjugate gradients, or GMRES where the matrix is not symmetric, with smoothed
-     * aggregation of Trilinos (ML) as preconditioner. Its matrix has a row for each
-     * dof, so that nodes can be joined as a whole; dofs that are no unknowns
-     * have the identity. Systems that take too many iterations go to a direct
-     * solver, and so do the next ones: one after the first failure, two after
-     * the next, and so on, until one is solved in time again.
+     * Conjugate gradients, or GMRES for unsymmetric matrices, preconditioned by
+     * smoothed aggregation of Trilinos (ML). The matrix has a row for each dof,
+     * so that nodes can be aggregated as a whole; dofs that are not unknowns
+     * have the identity. Systems that take too many iterations are solved
+     * directly, and so are the next ones: one after the first failure, two
+     * after the next, and so on, until one converges in time.
      */
     class Multigrid : public LinearSolver
     {
@@ -122,7 +122,7 @@ namespace geocone
         for (unsigned int c = 0; c < n_columns && !is_direct; ++c)
           if (!iterate(&x[n * c]))
             {
-              // Columns that are solved stay so.
+              // Columns already solved are kept.
               std::vector<double> rest(x.begin() + n * c, x.end());
               n_in_a_row = std::min(2 * n_in_a_row + 1, 15U);
               n_to_skip  = n_in_a_row;
@@ -130,7 +130,7 @@ namespace geocone
               if (factorise_directly())
                 direct->solve(rest, n_columns - c);
               else
-                // Singular, which is too late to say: no direction at all.
+                // Singular: too late to report, so the direction is zero.
                 std::fill(rest.begin(), rest.end(), 0.);
               std::copy(rest.begin(), rest.end(), x.begin() + n * c);
               return;
@@ -154,7 +154,8 @@ namespace geocone
       }
 
     private:
-      /** Where the entries of owned rows stand in the values of `system`. */
+      /** Finds the positions of the entries of owned rows in the values of
+       *  `system`. */
       void
       find_places(const SparseMatrix &matrix)
       {
@@ -167,7 +168,7 @@ namespace geocone
         for (int i = 0; i < matrix.n_owned; ++i)
           {
             const int row = A.RowMap().LID(int(rows.dof[i]));
-            // Of several ranks the columns need not be sorted.
+            // With several ranks the columns may be unsorted.
             std::map<int, int> place;
             for (int e = start[row]; e < start[row + 1]; ++e)
               place[column[e]] = e;
@@ -212,7 +213,7 @@ namespace geocone
         list.set("aggregation: threshold", 0.01);
         list.set("smoother: type",
                  symmetric ? "Chebyshev" : "symmetric Gauss-Seidel");
-        list.set("smoother: sweeps", 3); // of Chebyshev: its degree
+        list.set("smoother: sweeps", 3); // for Chebyshev: its degree
         list.set("coarse: type", "Amesos-KLU");
         list.set("coarse: max size", 1000);
         motions.clear();
@@ -224,7 +225,8 @@ namespace geocone
         hierarchy.initialize(system.trilinos_matrix(), list);
       }
 
-      /** @return whether the tolerance was reached in time */
+      /** @return whether the tolerance was reached within the allowed
+       *  iterations */
       bool
       iterate(double *x)
       {
@@ -263,7 +265,7 @@ namespace geocone
         return true;
       }
 
-      /** The last matrix. */
+      /** Factorises the last matrix by the direct solver. */
       bool
       factorise_directly()
       {
@@ -321,7 +323,7 @@ namespace geocone
       dealii::TrilinosWrappers::PreconditionAMG hierarchy;
       MgVector                                  solution, right_side;
 
-      const SparseMatrix *last = nullptr; ///< that was factorised
+      const SparseMatrix *last = nullptr; ///< last factorised
       SparseMatrix        for_direct;
       bool                direct_is_ready = false;
       bool                is_direct       = false;

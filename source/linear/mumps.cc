@@ -17,9 +17,9 @@ namespace geocone
   namespace
   {
     /**
-     * MUMPS: each rank hands over its own contributions, which MUMPS adds, and its
-     * own rows of right-hand sides. Of the solutions a rank has the rows of its
-     * fronts, which go to their owners.
+     * Distributed solver MUMPS: each rank passes its own contributions, which
+     * MUMPS adds, and its own rows of right-hand sides. Each rank receives the
+     * rows of the solution of its fronts, which are sent to their owners.
      */
     class Mumps : public LinearSolver
     {
@@ -104,14 +104,15 @@ namespace geocone
             call(2);
             const int error = id.infog[0];
             if (error >= 0)
-              // With id.sym = 1 negative pivots are not refused, but counted.
+              // With id.sym = 1 negative pivots are counted, not rejected.
               return !symmetric || id.infog[11] == 0;
             if (error == -10)
               return false; // singular
             if (error != -8 && error != -9)
               check("factorisation");
-            // The workspace is too small. Where much more does not help, nearly all
-            // pivots are put off, as they are next to zero: it is singular.
+            // The workspace is too small. If much more does not help, nearly
+            // all pivots are delayed because they are close to zero: the matrix
+            // is singular.
             if (attempt == 7)
               {
                 icntl(14) = usual_workspace;
@@ -190,13 +191,13 @@ namespace geocone
         return id.icntl[i - 1];
       }
 
-      /** Takes the own rows of what all ranks have solved. Collective. */
+      /** Sends the rows of the solution to their owners. Collective. */
       void
       send_to_owners(const unsigned int n_columns, std::vector<double> &x) const
       {
         const unsigned int n_ranks = first_row.size() - 1;
-        const unsigned int n       = id.info[22]; // solved here
-        // A row is its number and its values.
+        const unsigned int n       = id.info[22]; // rows solved here
+        // Each row: its number and its values.
         const unsigned int size = 1 + n_columns;
         std::vector<int>   owner(n), n_sent(n_ranks, 0), n_taken(n_ranks);
         for (unsigned int i = 0; i < n; ++i)
@@ -240,13 +241,13 @@ namespace geocone
           }
       }
 
-      static constexpr MUMPS_INT usual_workspace = 40; ///< more, in per cent
+      static constexpr MUMPS_INT usual_workspace = 40; ///< increase in per cent
 
       const MPI_Comm   comm;
       const bool       symmetric, serial;
       DMUMPS_STRUC_C   id;
       std::vector<int> rows, columns;
-      std::vector<int> first_row; ///< that each rank owns, and their number
+      std::vector<int> first_row; ///< owned rows of each rank, and the total
       std::vector<MUMPS_INT> own_rows; ///< counted from 1, as all rows here
       std::vector<MUMPS_INT> solved_rows;
       std::vector<double>    solved;

@@ -9,14 +9,14 @@ namespace geocone
 {
   namespace
   {
-    /** SuiteSparse's unsymmetric multifrontal LU factorisation. */
+    /** Unsymmetric multifrontal LU factorisation of SuiteSparse. */
     class Umfpack : public LinearSolver
     {
     public:
       Umfpack()
       {
         umfpack_di_defaults(control);
-        // The pattern is symmetric and the diagonal heavy; AMD on A + A' was
+        // The pattern is symmetric and the diagonal large; AMD on A + A' was
         // measured to be the best ordering (doc/performance.md).
         control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
         control[UMFPACK_ORDERING] = UMFPACK_ORDERING_AMD;

@@ -9,12 +9,12 @@
 namespace geocone
 {
   /**
-   * Selects the kernels of OpenBLAS by the instruction sets of this processor. By itself
-   * OpenBLAS selects them by the model, and takes those of SSE3 for models newer than
-   * itself: factorisations in three dimensions then take three times as long. Nothing
-   * changes where it has found kernels of AVX2 or better, where the environment variable
-   * OPENBLAS_CORETYPE is set, or with another BLAS. To be called before any of its
-   * functions is.
+   * Selects the kernels of OpenBLAS by the instruction sets of this processor.
+   * OpenBLAS itself selects them by the processor model, and uses SSE3 for
+   * models newer than itself: factorisations in three dimensions then take
+   * three times as long. Has no effect if OpenBLAS has selected AVX2 or better,
+   * if the environment variable OPENBLAS_CORETYPE is set, or with another BLAS.
+   * Must be called before any BLAS function.
    */
   void
   select_blas_kernels();

@@ -17,15 +17,15 @@
 namespace geocone
 {
   /**
-   * A solver of sparse linear systems. analyse() once per pattern, factorise() once
-   * per matrix, which is kept until the last solve() with it.
+   * Interface of solvers of sparse linear systems: analyse() once per pattern,
+   * factorise() once per matrix, which must outlive the last solve() with it.
    */
   class LinearSolver
   {
   public:
     virtual ~LinearSolver() = default;
 
-    /** Orders the unknowns and plans the factorisation of this pattern. */
+    /** Orders the unknowns and plans the factorisation for this pattern. */
     virtual void
     analyse(const SparseMatrix &matrix) = 0;
 
@@ -44,7 +44,7 @@ namespace geocone
     virtual void
     solve(std::vector<double> &x, const unsigned int n_columns = 1) = 0;
 
-    /** Whether it wants set_nodal_rows() before analyse(). */
+    /** Whether set_nodal_rows() must be called before analyse(). */
     virtual bool
     wants_nodal_rows() const
     {
@@ -55,19 +55,19 @@ namespace geocone
     set_nodal_rows(NodalRows)
     {}
 
-    /** Whether it takes the lower triangle of a symmetric matrix only. */
+    /** Whether it uses only the lower triangle of a symmetric matrix. */
     virtual bool
     wants_one_triangle() const = 0;
 
     virtual std::string
     name() const = 0;
 
-    /** Ends the run where a solver cannot do its part. @throws RunError */
+    /** Terminates the run after a failure of a solver. @throws RunError */
     [[noreturn]] static void
     fail(const std::string &why);
   };
 
-  /** Which solver, and what it keeps where. */
+  /** Choice of the linear solver and its memory options. */
   class LinearSolverParameters : public dealii::ParameterAcceptor
   {
   public:
@@ -87,7 +87,7 @@ namespace geocone
                           {"Mumps", Name::mumps},
                           {"multigrid", Name::multigrid}}};
 
-    /** Of the integers that count the entries of Cholmod's factors. */
+    /** Size of the integers that count the entries of Cholmod's factors. */
     enum class IndexSize
     {
       automatic,
@@ -98,26 +98,26 @@ namespace geocone
                                      {"32", IndexSize::bits_32},
                                      {"64", IndexSize::bits_64}}};
 
-    /** Whether Mumps keeps factors on disk, and where. */
+    /** Whether Mumps stores factors on disk, and where. */
     bool        out_of_core = false;
     std::string folder      = "/tmp";
 
-    /** Of multigrid: the residual over the right-hand side, and how many
-     *  iterations it may take to get there. */
+    /** Multigrid: relative residual, and largest number of iterations. */
     double       tolerance      = 1e-6;
     unsigned int max_iterations = 200;
 
     /**
-     * The solver for a kind of matrices:
-     *  - Cholmod: supernodal Cholesky of SuiteSparse; one rank, symmetric
-     *    positive definite matrices (associated flow);
-     *  - Umfpack: unsymmetric multifrontal LU of SuiteSparse; one rank;
-     *  - Mumps: distributed multifrontal LU, or Cholesky where symmetric;
-     *  - multigrid: Krylov's method with smoothed aggregation of Trilinos' ML, and
-     *    the direct solver of 'automatic' where it does not converge;
-     *  - automatic: Cholmod for symmetric matrices on one rank that are kept in
-     *    memory, otherwise Mumps, which is faster than Umfpack (doc/performance.md).
-     * @throws InputError for what it cannot do
+     * Makes the solver for a class of matrices:
+     * - Cholmod: supernodal Cholesky of SuiteSparse; one rank, symmetric
+     *   positive definite matrices (associated flow);
+     * - Umfpack: unsymmetric multifrontal LU of SuiteSparse; one rank;
+     * - Mumps: distributed multifrontal LU, or Cholesky if symmetric;
+     * - multigrid: Krylov method with smoothed aggregation of Trilinos' ML, and
+     *   the direct solver of 'automatic' if it does not converge;
+     * - automatic: Cholmod for symmetric matrices in memory on one rank,
+     *   otherwise Mumps, which is faster than Umfpack (doc/performance.md).
+     *
+     * @throws InputError for unsupported combinations
      */
     std::unique_ptr<LinearSolver>
     make(const MPI_Comm comm, const bool symmetric) const;
@@ -130,7 +130,8 @@ namespace geocone
   /** @name The solvers */
   /** @{ */
 
-  /** @param size of integers; automatic: the smallest that hold the factors */
+  /** @param size of integers; automatic: the smallest that can count the
+   *  factors */
   std::unique_ptr<LinearSolver>
   make_cholmod(const LinearSolverParameters::IndexSize size);
 
@@ -143,7 +144,7 @@ namespace geocone
              const bool         symmetric,
              const std::string &folder);
 
-  /** @param direct solves what takes too many iterations */
+  /** @param direct solver for systems that take too many iterations */
   std::unique_ptr<LinearSolver>
   make_multigrid(const MPI_Comm                comm,
                  const bool                    symmetric,

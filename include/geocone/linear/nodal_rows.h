@@ -12,21 +12,22 @@
 namespace geocone
 {
   /**
-   * What the rows of a Jacobian stand for: multigrid joins nodes, not rows, and
-   * its coarse functions are the motions that elasticity resists least.
+   * Nodes of the rows of a Jacobian, for multigrid: it aggregates nodes, not
+   * rows, and its coarse functions are the motions with the least elastic
+   * resistance.
    */
   struct NodalRows
   {
     unsigned int n_components = 2; ///< of the velocity of a node
 
-    /** Layout of velocities; the dofs of a node stand one after another. */
+    /** Layout of velocities; the dofs of a node are consecutive. */
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
 
-    /** The global dof of each local row. */
+    /** Global dof of each local row. */
     std::vector<dealii::types::global_dof_index> dof;
 
-    /** Translations and, where the places of nodes are known, rotations: each its
-     *  values at the owned dofs, zero where they are no row. */
+    /** Translations and, if nodal positions are known, rotations: values at the
+     *  owned dofs, zero at dofs without a row. */
     std::vector<std::vector<double>> rigid_motions;
   };
 } // namespace geocone

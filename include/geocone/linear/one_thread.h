@@ -7,9 +7,10 @@
 namespace geocone
 {
   /**
-   * Lets libraries work by one thread per rank: the parallelism is MPI's. Linking
-   * this function also replaces GOMP_parallel() (one_thread.cc), so that all parallel
-   * regions of OpenMP, in any library of the process, are plain calls.
+   * Restricts libraries to one thread per rank: parallelism is left to MPI.
+   * Linking this function also replaces GOMP_parallel() (one_thread.cc), so
+   * that all parallel regions of OpenMP, in any library of the process, are
+   * plain calls.
    */
   void
   use_one_thread();
