@@ -159,15 +159,15 @@ namespace geocone::GEOCONE_DIM
                                       d) += r * at.axis[d];
       }
     work.solve(prescribed, defect, direction);
-    --work.report.iterations; // all of them by the same factors
+    --work.report.iterations; // all with the same factors
     work.residual = kept;
   }
 
   ContactDirection::End
   ContactDirection::end(const VectorXd &without) const
   {
-    // Of all ranks, by component: where it is, the stiffness in the Jacobian, the laws
-    // and how free obstacles move it.
+    // Data of all ranks by component: position, stiffness in the Jacobian,
+    // laws, and motion by free obstacles.
     constexpr unsigned int n_data = 7;
     const unsigned int     n_free = contact.motions().n_free();
     MatrixXd               data = MatrixXd::Zero(n_components, n_data + n_free);
@@ -201,7 +201,7 @@ namespace geocone::GEOCONE_DIM
           problem.nodes.push_back(
             {k, n_tangents, data(k, 3), data(k, 4), data(k, 5), data(k, 6)});
         }
-    // r = K dv + c, dv that of the body; then the motions dy of obstacles are
+    // r = K dv + c, with dv of the body; then the motions dy of obstacles are
     // eliminated, du = dv - G dy.
     const MatrixXd stiffness = compliance().inverse();
     MatrixXd       K         = stiffness;
@@ -242,7 +242,7 @@ namespace geocone::GEOCONE_DIM
                           Vector                &direction)
   {
     const MPI_Comm comm = work.v.get_mpi_communicator();
-    // Nodes that come in later are free here, too.
+    // Nodes that are added later are free here.
     solve_with(VectorXd::Zero(n_components), prescribed, defect, direction);
     Vector unforced = direction;
     for (unsigned int round = 0; round < 10; ++round)
@@ -251,7 +251,8 @@ namespace geocone::GEOCONE_DIM
         sum_over_ranks(without, comm);
         const auto [force, motion] = end(without);
         solve_with(force, prescribed, defect, direction);
-        // Where du is added, as sigma du is in the Jacobian, the force is less.
+        // The Jacobian contains sigma du at these nodes, so the force is less
+        // by this.
         const VectorXd du = relative_change(direction);
         end_force.assign(contact.nodes().size(), Tensor<1, dim>());
         for (const Component &at : own)
@@ -283,7 +284,8 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int i = 0; i < contact.nodes().size(); ++i)
       if (const ContactNode &node = contact.nodes()[i]; contact.is_owned(node))
         {
-          // In a corner the laws are linear in the direction, without its forces.
+          // In a corner the laws are linear in the direction, without its
+          // forces.
           if (!node.is_corner)
             sum += (contact.touches()[i].force - end_force[i]) *
                    relative_change(node, direction);

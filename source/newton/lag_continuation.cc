@@ -91,7 +91,7 @@ namespace geocone::GEOCONE_DIM
             continue;
           }
         path.push_back({next, work.v});
-        // At most 55 % of it at a time: near 0 the path turns most.
+        // At most 55 % of it at a time: the path turns most near 0.
         const unsigned int n = report.iterations - spent;
         fall                 = std::min((n <= 2   ? 3.
                                          : n <= 4 ? 2.
@@ -112,8 +112,8 @@ namespace geocone::GEOCONE_DIM
         return;
       }
 
-    // Near a turn of the path what has been reached may be no solution: the least lag
-    // is taken that is one.
+    // Near a turning point the last state may not be a solution. The least lag
+    // with a solution is used.
     for (; !path.empty(); path.pop_back())
       {
         work.v = path.back().v;

@@ -13,9 +13,9 @@ namespace geocone::GEOCONE_DIM
   std::optional<double>
   NewtonLoop::factorise(const double asked, const StepWorkspace &work)
   {
-    // Where loads are raised to the limit, the Jacobian without their row is singular, as
-    // the body flows. What the blend changes is next to nothing, since the row fixes how
-    // fast it does.
+    // In load stepping to the limit load, the Jacobian without the row of the
+    // loads becomes singular, as the body yields. The effect of the blend is
+    // negligible, since the row fixes the rate.
     const double wanted = std::max(asked, work.traits.raises_loads ? 1e-8 : 0.);
     // A few apex points can make a Jacobian without mass singular.
     for (const double least : {0., 1e-6, 1e-3, 0.1})
@@ -59,10 +59,10 @@ namespace geocone::GEOCONE_DIM
   namespace
   {
     /**
-     * Blends more elasticity in until the direction leads downhill. Where it does not, the
-     * tangent of flow that is not associated is indefinite along it, and the search would
-     * go astray. (Particles in motion have a mass, and full steps take them past such
-     * iterates sooner.)
+     * Increases the elastic blend until the direction is a descent direction.
+     * Otherwise the tangent of non-associated flow is indefinite along it, and
+     * the search would fail. (Particles in motion have a mass, and full steps
+     * pass such iterates sooner.)
      * @return the blend
      */
     double

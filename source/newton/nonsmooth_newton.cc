@@ -27,7 +27,8 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Words with the names of @p methods behind them, the first of which is
+    /** Values of the parameter, followed by the names of @p methods, the first
+     *  of which is
      *  @p first, and so on. */
     template <typename Enum, typename Method>
     typename Choice<Enum>::Words
@@ -41,7 +42,7 @@ namespace geocone::GEOCONE_DIM
       return words;
     }
 
-    /** The one of @p methods that is chosen, or null. */
+    /** Chosen one of @p methods, or null. */
     template <typename Enum, typename Method>
     const Method *
     chosen(const Enum                 value,
@@ -325,7 +326,7 @@ namespace geocone::GEOCONE_DIM
     for (const Try &next :
          plan(traits, {formulation, globalisation, max_iterations}))
       {
-        const auto is_good = [&]() { // the iterate of the try before
+        const auto is_good = [&]() { // iterate of the previous try
           const NewtonIteration &last = report.table.back();
           return std::isfinite(report.residual) &&
                  (next.start == Try::Start::iterate ||

@@ -15,7 +15,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Adds the tries of one law, with those for contact. */
+    /** Adds the tries with one local law, with the variants for contact. */
     void
     add_tries(const Try         &law,
               const StepTraits  &step,
@@ -53,10 +53,11 @@ namespace geocone::GEOCONE_DIM
           tries.push_back(bilateral);
         }
       const Start start = bilateral_first ? Start::iterate : Start::of_step;
-      // Motions of free obstacles follow from all contacts, and steps in which many states
-      // change converge slowly. Without inertia nothing else carries their loads: contact is
-      // solved exactly from the start, in a tenth of the iterations. Obstacles without loads
-      // are first tried without that, which costs less.
+      // Motions of free obstacles depend on all contacts, and steps in which
+      // many states change converge slowly. Without inertia nothing else
+      // carries their loads: contact is solved exactly from the start, which
+      // takes a tenth of the iterations. Obstacles without loads are first
+      // tried with linearised contact, which costs less.
       const bool exact_first = contact.moves_obstacles && !step.has_inertia &&
                                contact.obstacles_loaded && can_be_exact;
       if (exact_first)
@@ -65,16 +66,17 @@ namespace geocone::GEOCONE_DIM
         tries.push_back(variant(ContactLaw::linearised, start, law.iterations));
       else
         {
-          // If many nodes close in a step, those that would stick hinder each other: then,
-          // too, contact is solved exactly in each iteration; or else the frictionless step
-          // may be a better start.
+          // If many nodes close in a step, nodes that would stick impede each
+          // other. Contact is then solved exactly in each iteration; otherwise
+          // the frictionless step may be a better initial guess.
           Try first = variant(
             ContactLaw::linearised, start, std::min(law.iterations, 30U));
           first.iterations_without_flow = 6;
           if (contact.moves_obstacles)
             first.iterations_if_far = 20;
           tries.push_back(first);
-          // If points yield, the last iterate is a good start, unless obstacles moved.
+          // If points yield, the last iterate is a good initial guess, unless
+          // obstacles moved.
           if (can_be_exact && !exact_first)
             tries.push_back(variant(
               ContactLaw::exact,
@@ -118,7 +120,7 @@ namespace geocone::GEOCONE_DIM
     const Formulation formulation =
       step.needs_return_map() ? Formulation::return_map : options.formulation;
     const bool by_itself = formulation == Formulation::automatic;
-    // Where flow is associated, friction does not lag: the first point of the path is
+    // With associated flow, lag has no effect: the first point of the path is
     // its end.
     const Method chosen =
       options.globalisation == Method::lag_continuation && associated
@@ -134,10 +136,11 @@ namespace geocone::GEOCONE_DIM
       }
     if (chosen == Method::automatic && law.remembers() && by_itself)
       {
-        // The tangent of friction with memory is nearly elliptic. A step that the line
-        // search does not solve soon it hardly ever does. The natural map then may, but
-        // not for particles at their apex; these start from explicit friction. What
-        // neither solves soon is better cut.
+        // The tangent of friction with memory is nearly elliptic. If the line
+        // search has not converged early it rarely does. Then the natural map
+        // is tried, or, for particles, whose apex states defeat it, explicit
+        // friction as the start. If neither converges soon, subdividing the
+        // step is cheaper.
         add(Method::line_search, false, step.points_move ? 40 : 20);
         if (step.points_move)
           add_lag(Method::explicit_friction);

@@ -12,9 +12,9 @@ namespace geocone::GEOCONE_DIM
   namespace
   {
     /**
-     * c of c N, twice of what was measured after one linear solve
-     * (doc/theory/newton.md), and the largest residual relative to the forces that is
-     * taken for rounding.
+     * Factor c of c N, twice the value measured after one linear solve
+     * (doc/theory/newton.md), and largest residual relative to the forces that
+     * may count as rounding.
      */
     constexpr double floor_factor = 0.5, largest_floor = 1e-6;
   } // namespace
@@ -67,7 +67,7 @@ namespace geocone::GEOCONE_DIM
     report.at_rounding_floor = false;
     if (within(0.))
       return true;
-    // The pass over the points is worth its time near a solution only.
+    // Near a solution only: the pass over the points is expensive otherwise.
     if (!(state.norm <= largest_floor * state.force_norm))
       return false;
     report.at_rounding_floor =

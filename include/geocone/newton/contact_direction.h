@@ -9,51 +9,53 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The direction of Newton's method in which only the momentum balance is made linear,
-   * and the laws of contact stay as they are (Josephy 1979): its end fulfils them
-   * exactly, whichever nodes come down, stick or slide on the way. The body is condensed
-   * to the nodes that may touch, with one right-hand side for each of their components
-   * (CondensedContact); the motions of free obstacles are eliminated there.
+   * Direction of Newton's method that linearises the momentum balance only and
+   * keeps the exact laws of contact (Josephy 1979): its end satisfies them
+   * exactly, whichever nodes come into contact, stick or slide. The body is
+   * condensed to the potential contact nodes, with one right-hand side for each
+   * of their components (CondensedContact); motions of free obstacles are
+   * eliminated there.
    */
   class ContactDirection
   {
   public:
-    /** More components than this are not condensed. */
+    /** Largest number of components that is condensed. */
     static constexpr unsigned int most_components = 1500;
 
     /**
-     * Chooses the nodes, and takes their laws out of the Jacobian. To be called before
-     * it is factorised. Collective.
+     * Chooses the nodes and removes their laws from the Jacobian. Must be
+     * called before its factorisation. Collective.
      */
     explicit ContactDirection(const StepWorkspace &work);
 
-    /** Whether there are nodes, not too many of them. */
+    /** Whether there are nodes, and not too many. */
     bool
     is_used() const
     {
       return n_components > 0;
     }
 
-    /** As StepWorkspace::solve(), by the factorised Jacobian. Nodes that were left out
-     *  and would be entered come in. */
+    /** As StepWorkspace::solve(), by the factorised Jacobian. Omitted nodes
+     *  that would be penetrated are added to the contact set. */
     void
     solve(const Vector          *prescribed,
           const Eigen::VectorXd &defect,
           Vector                &direction);
 
     /**
-     * R.d at the iterate less the work of the forces of contact at the end of the
-     * direction, which count as loads: for associated flow the slope of a convex
-     * function, whose least value is at the end where the balance is linear. Collective.
+     * Slope: R.d at the iterate less the work of the contact forces at the end
+     * of the direction, which count as loads. For associated flow it is the
+     * slope of a convex function, with its minimum at the end if the balance is
+     * linear. Collective.
      */
     double
     slope(const Vector &direction) const;
 
   private:
-    /** A component of the velocity of a node of this rank. */
+    /** A velocity component of a node of this rank. */
     struct Component
     {
-      unsigned int           node; ///< in Contact::nodes()
+      unsigned int           node; ///< index in Contact::nodes()
       dealii::Tensor<1, dim> axis;
       bool                   is_normal;
       unsigned int           number     = 0; ///< among those of all ranks
@@ -64,15 +66,15 @@ namespace geocone::GEOCONE_DIM
     void
     add(const std::vector<unsigned int> &chosen, const bool relaxed);
 
-    /** Solves with residuals at the nodes that are r less these forces. */
+    /** Solves with the residuals r at the nodes less these forces. */
     void
     solve_with(const Eigen::VectorXd &force,
                const Vector          *prescribed,
                const Eigen::VectorXd &defect,
                Vector                &direction) const;
 
-    /** The forces for which the direction ends where the laws hold, and how the motions
-     *  of free obstacles change. Collective.
+    /** Forces for which the end of the direction satisfies the laws, and
+     *  changes of the motions of free obstacles. Collective.
      *  @param without du of the direction without forces */
     struct End
     {
@@ -81,19 +83,21 @@ namespace geocone::GEOCONE_DIM
     End
     end(const Eigen::VectorXd &without) const;
 
-    /** Nodes of this rank that are not among the chosen ones, and would be entered. */
+    /** Nodes of this rank that were not chosen and would be penetrated. */
     std::vector<unsigned int>
     entered(Vector &direction) const;
 
-    /** Of a node of this rank, in a direction with ghosts. */
+    /** Relative velocity change of a node of this rank, in a direction with
+     *  ghosts. */
     dealii::Tensor<1, dim>
     relative_change(const ContactNode &node, const Vector &direction) const;
 
-    /** Of the nodes of this rank; zero for others. @param direction gets ghosts */
+    /** Relative velocity changes of the nodes of this rank; zero for others.
+     *  @param direction receives ghosts */
     Eigen::VectorXd
     relative_change(Vector &direction) const;
 
-    /** du by component for unit forces. Collective. */
+    /** Compliance: du by component for unit forces. Collective. */
     Eigen::MatrixXd
     compliance() const;
 

@@ -9,9 +9,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Moves v by fixed-point iterations v -= K^-1 R(v), with K the elastic Jacobian
-   * factorised once: each is an elastic step with the plastic strain of the last
-   * one. Prescribed velocities and H v = q are those of the step's end.
+   * Fixed-point iterations v -= K^-1 R(v), with K the elastic Jacobian
+   * factorised once: each is an elastic step with the plastic strain of the
+   * previous one. Prescribed velocities and H v = q are those at the end of the
+   * step.
    * @return the stresses of the return map at v (Pa)
    */
   std::vector<Mandel>

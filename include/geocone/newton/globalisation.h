@@ -22,12 +22,12 @@ namespace geocone::GEOCONE_DIM
       start = work.v;
     }
 
-    /** Moves the iterate to v + x d, and evaluates the residual there. */
+    /** Moves the iterate to v + x d and evaluates the residual there. */
     void
     move(const double x);
 
-    /** R.d at the iterate: for associated flow the slope of a convex function. Of a
-     *  ContactDirection its own. */
+    /** Slope R.d at the iterate: for associated flow the slope of a convex
+     *  function. A ContactDirection has its own. */
     double
     slope() const
     {
@@ -36,7 +36,8 @@ namespace geocone::GEOCONE_DIM
                : work.problem.free_dot(work.residual, direction);
     }
 
-    /** sum R_i^2 / D_i at the iterate, D the diagonal of the elastic Jacobian. */
+    /** Merit function sum R_i^2 / D_i at the iterate, D the diagonal of the
+     *  elastic Jacobian. */
     double
     merit() const
     {
@@ -54,9 +55,9 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * What makes Newton's method converge from afar: how far it goes along its
-   * directions, and how much of the elastic stiffness is blended into its tangent.
-   * This one takes full steps with the tangent as it is.
+   * Globalisation of Newton's method: the step length along its directions, and
+   * the part of the elastic stiffness blended into its tangent. This base class
+   * takes full steps with the unmodified tangent.
    */
   class Globalisation
   {
@@ -64,7 +65,7 @@ namespace geocone::GEOCONE_DIM
     virtual ~Globalisation() = default;
 
     /**
-     * The part w of the elastic stiffness in the tangent (1 - w) C + w D of the
+     * Part w of the elastic stiffness in the tangent (1 - w) C + w D of the
      * next direction.
      * @param residual relative to the forces
      */
@@ -75,7 +76,8 @@ namespace geocone::GEOCONE_DIM
     virtual double
     move(NewtonLine &line);
 
-    /** Whether directions have to lead downhill, NewtonLine::slope() < 0. */
+    /** Whether directions must be descent directions, NewtonLine::slope() <
+     *  0. */
     virtual bool
     needs_descent() const
     {
@@ -83,7 +85,7 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** The line search of line_search.h. */
+  /** Globalisation by line_search(). */
   class LineSearch : public Globalisation
   {
   public:
@@ -97,12 +99,12 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** Full steps with w = min(1/2, c |R_free| / |B'V s|), which vanishes with the
-   *  residual. */
+  /** Globalisation by full steps with w = min(1/2, c |R_free| / |B'V s|), which
+   *  vanishes with the residual. */
   class ElasticBlend : public Globalisation
   {
   public:
-    /** Values of c that were found to be good. */
+    /** Values of c that proved to be good. */
     static constexpr double with_return_map = 0.3, with_natural_map = 0.05;
 
     /** @param factor c */
@@ -117,8 +119,9 @@ namespace geocone::GEOCONE_DIM
     double factor;
   };
 
-  /** Steps are halved until the merit falls; where that stalls the tangent is
-   *  blended, w = max(0.02, 3 w), until it works again. */
+  /** Globalisation by halving steps until the merit function decreases. If that
+   *  stalls, the tangent is blended, w = max(0.02, 3 w), until it succeeds
+   *  again. */
   class MeritSearch : public Globalisation
   {
   public:

@@ -9,30 +9,33 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Friction that lags is easy (its law is nearer to associated flow, and explicit
-   * at lag 1), so that the exact law is reached on a path of solutions whose lag
-   * falls to 0; each is the start of the next, with the line search.
+   * Continuation in the lag of friction. Lagged friction is easier to solve
+   * (its law is closer to associated flow, and explicit at lag 1). The exact
+   * law is reached on a path of solutions with a lag that decreases to 0; each
+   * is the initial guess of the next, with the line search.
    */
   struct LagContinuation
   {
     double       tolerance          = 1e-10; ///< relative
     double       absolute_tolerance = 1e-12; ///< (N/m)
     unsigned int allowed            = 40;    ///< iterations for one lag
-    unsigned int allowed_on_path    = 60;    ///< and for all of the path
+    unsigned int allowed_on_path    = 60;    ///< for the whole path
     bool         elastic_first      = false; ///< takes D as the first tangent
 
-    /** Whether a step that the path does not reach keeps the least lag that it
-     *  did; otherwise it is not solved. */
+    /** Whether a step whose path does not reach lag 0 retains the least lag
+     *  reached; otherwise the step is not solved. */
     bool keeps_lag = true;
 
-    /** Solves the law from the solution with explicit friction, a convex problem. */
+    /** Solves the law from the solution with explicit friction, a convex
+     *  problem. */
     void
     solve_from_explicit_friction(const StepWorkspace &work) const
     {
       from_explicit_friction(0., tolerance, work);
     }
 
-    /** Follows the solutions from first_lag down to 0, or as far as it gets. */
+    /** Follows the solutions from first_lag down to 0, or as far as
+     *  possible. */
     void
     solve_on_path(const StepWorkspace &work) const;
 
@@ -44,7 +47,8 @@ namespace geocone::GEOCONE_DIM
                            const double         accuracy,
                            const StepWorkspace &work) const;
 
-    /** Solves the law with first_lag, from explicit friction if need be. */
+    /** Solves the law with first_lag, starting from explicit friction if
+     *  necessary. */
     void
     solve_first(const StepWorkspace &work) const;
 

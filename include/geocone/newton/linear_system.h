@@ -16,12 +16,12 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The linear systems of Newton's method,
+   * Linear systems of Newton's method,
    *   [K -H'; H 0] (dv, dlambda) = (r, q),   K = dR/dv on the free dofs:
-   * their matrix, its factors, and the solver that makes them. With rows H they
-   * are solved by the Schur complement H K^-1 H', which takes as many more
-   * right-hand sides as there are rows. What free obstacles add to K, a part U W' of
-   * low rank, is inverted by Woodbury's formula, with one more for each column of U.
+   * their matrix, its factors, and the linear solver. Rows H are treated by the
+   * Schur complement H K^-1 H', with one more right-hand side for each row. The
+   * contribution of free obstacles to K, a part U W' of low rank, is inverted
+   * by Woodbury's formula, with one more right-hand side for each column of U.
    */
   class LinearSystem
   {
@@ -30,8 +30,8 @@ namespace geocone::GEOCONE_DIM
                  const MPI_Comm                comm,
                  const bool                    symmetric);
 
-    /** Takes the pattern of a problem's Jacobian, and orders the unknowns anew if
-     *  it is another one than before. Collective. */
+    /** Sets the pattern to that of a problem's Jacobian, with a new ordering of
+     *  the unknowns if it differs from the previous one. Collective. */
     void
     set_pattern(IncrementalProblem &problem, dealii::TimerOutput &timer);
 
@@ -55,8 +55,8 @@ namespace geocone::GEOCONE_DIM
           const Eigen::VectorXd &defect,
           std::vector<double>   &x);
 
-    /** Solves with K, the part of low rank too, and without H. @param columns of
-     *  n_owned_rows(), one after another */
+    /** Solves with K, including the low-rank part, and without H. @param
+     *  columns of n_owned_rows(), one after another */
     void
     solve_columns(std::vector<double> &columns, const unsigned int n_columns);
 
@@ -66,7 +66,7 @@ namespace geocone::GEOCONE_DIM
       return matrix.n_owned;
     }
 
-    /** Entries that are stored on this rank. */
+    /** Number of entries stored on this rank. */
     std::size_t
     n_nonzeros() const
     {
@@ -84,7 +84,7 @@ namespace geocone::GEOCONE_DIM
     MPI_Comm                      comm;
     SparseMatrix                  matrix;
     LowRank                       low_rank;
-    Eigen::MatrixXd               solved_U;  ///< K^-1 U, without its own part
+    Eigen::MatrixXd               solved_U;  ///< K^-1 U, without low-rank part
     Eigen::MatrixXd               to_change; ///< (1 + W' K^-1 U)^-1
 
     bool has_pattern = false;

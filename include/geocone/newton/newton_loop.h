@@ -11,48 +11,51 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The semismooth Newton iteration for R(v) = 0 by one local law, with the
-   * generalised Jacobian of that law. The change of the prescribed velocities and
-   * the defect of the constraints H v = q enter the first linear system, whose
-   * step is full. Convergence: |R_free| <= max(tolerance x greatest norm of a part
-   * of R, absolute), or StepWorkspace::is_balanced() up to rounding.
+   * Semismooth Newton iteration for R(v) = 0 with one local law and its
+   * generalised Jacobian. The change of the prescribed velocities and the
+   * defect of the constraints H v = q enter the first linear system, whose step
+   * is full. Convergence:
+   *   |R_free| <= max(tolerance x greatest norm of a part of R, absolute),
+   * or StepWorkspace::is_balanced() up to rounding.
    */
   struct NewtonLoop
   {
     /**
-     * Relative residual at which an iterate is near enough to a solution to go on
-     * from: with another law, or beyond the iterations that were allowed.
+     * Relative residual below which an iterate is a useful initial guess for
+     * another law, or deserves more than the allowed iterations.
      */
     static constexpr double near = 1e-3;
 
-    /** Relative residual above which it is far from one. */
+    /** Relative residual above which an iterate is far from a solution. */
     static constexpr double far = 0.1;
 
     LocalLaw     law;
     double       tolerance          = 1e-10; ///< relative
     double       absolute_tolerance = 1e-12; ///< (N/m)
-    unsigned int allowed            = 60;    ///< iterations; twice if near
-    /** Iterations while no point flows, so that only contact is not linear. */
+    unsigned int allowed            = 60;    ///< iterations; doubled if near
+    /** Allowed iterations while no point yields, so that only contact is
+     *  nonlinear. */
     unsigned int allowed_without_flow =
       std::numeric_limits<unsigned int>::max();
-    /** Iterations after which an iterate that is far is given up. */
+    /** Iterations after which a far iterate is given up. */
     unsigned int allowed_if_far = std::numeric_limits<unsigned int>::max();
 
     bool elastic_first = false; ///< takes D as the first tangent
-    bool moves         = false; ///< solves once at least
-    bool exact_contact = false; ///< takes directions of ContactDirection
+    bool moves         = false; ///< at least one iteration
+    bool exact_contact = false; ///< with ContactDirection
 
-    /** Runs from the iterate; what it spends is added to the report. */
+    /** Iterates from the present iterate; adds its cost to the report. */
     void
     run(Globalisation &globalisation, const StepWorkspace &work) const;
 
   private:
-    /** Factorises with a blend, or with as little more as makes it regular.
-     *  @return the blend, or nothing if it stays singular */
+    /** Factorises with the given blend, or the least larger one that makes the
+     *  matrix regular.
+     *  @return the blend, or nothing if it remains singular */
     static std::optional<double>
     factorise(const double wanted, const StepWorkspace &work);
 
-    /** Says in the report why no more iterations are made. */
+    /** Sets the reason in the report for which the iteration ends. */
     static void
     give_up(const ResidualReport &state, const StepWorkspace &work);
   };

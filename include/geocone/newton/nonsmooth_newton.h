@@ -18,28 +18,28 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The nonsmooth solver of a step, which runs the tries of its plan() until one is
-   * solved. NewtonLoop is the iteration, Globalisation and LagContinuation make it
-   * converge from afar.
+   * Nonsmooth solver of a step, which runs the tries of its plan() until one
+   * succeeds. NewtonLoop is the iteration; Globalisation and LagContinuation
+   * extend its convergence.
    *
    * Friction, by name:
-   *  - exact: the law at t_{n+1}, or the step is not solved;
-   *  - automatic: exact where the continuation gets there, and otherwise with the
-   *    least lag that it has reached, which is reported.
+   * - exact: the law at t_{n+1}; otherwise the step is not solved;
+   * - automatic: exact if the continuation succeeds, otherwise with the least
+   *   lag reached, which is reported.
    */
   class NonsmoothNewton : public dealii::ParameterAcceptor
   {
   public:
-    /** @param others formulations in the stresses alone that are offered, too */
+    /** @param others additional formulations in the stresses alone */
     explicit NonsmoothNewton(const StressMethods &others = {});
 
-    /** Checks the parameters with each other. */
+    /** Checks the consistency of the parameters. */
     void
     prepare();
 
     /**
-     * Checks whether the formulation can be that of this problem, before a step
-     * is tried. Collective.
+     * Checks that the formulation applies to this problem, before a step is
+     * tried. Collective.
      * @throws InputError
      */
     void
@@ -48,15 +48,16 @@ namespace geocone::GEOCONE_DIM
     /** Hints of the time stepper for a solve. */
     struct Hints
     {
-      bool elastic_first = false; ///< take the elastic tangent once
+      bool elastic_first = false; ///< use the elastic tangent once
 
-      /** Largest SolverReport::excess_share of a step that counts as solved. */
+      /** Largest SolverReport::excess_share of a solved step. */
       double accepted_excess = std::numeric_limits<double>::infinity();
     };
 
     /**
-     * @param[in,out] v in: the start, velocities of t_n; out: the solution
-     * @param[out] residual R(v) in all rows: reactions where prescribed
+     * Solves a step.
+     * @param[in,out] v in: initial guess, velocities of t_n; out: the solution
+     * @param[out] residual R(v) in all rows: reactions at prescribed dofs
      */
     SolverReport
     solve(IncrementalProblem  &problem,
@@ -66,22 +67,22 @@ namespace geocone::GEOCONE_DIM
           Vector              &residual,
           const Hints         &hints) const;
 
-    /** Tolerances and iterations that are asked for. */
+    /** Tolerances and numbers of iterations by the parameters. */
     StepLimits
     limits() const
     {
       return {relative_tolerance, absolute_tolerance, max_iterations};
     }
 
-    /** The word of 'Newton/Formulation'. */
+    /** Value of 'Newton/Formulation'. */
     std::string
     formulation_name() const
     {
       return formulation.word();
     }
 
-    /** Whether nothing but the exact law will do: it is asked for, or what solves
-     *  for stresses alone, which knows no other. */
+    /** Whether only the exact law is acceptable: by parameter, or because a
+     *  formulation in stresses alone has no other. */
     bool
     wants_exact_friction() const
     {
@@ -89,7 +90,7 @@ namespace geocone::GEOCONE_DIM
              first_iterate_of_stresses();
     }
 
-    /** The linear solver that is asked for. */
+    /** Parameters of the linear solver. */
     const LinearSolverParameters &
     linear_solver() const
     {
@@ -125,7 +126,7 @@ namespace geocone::GEOCONE_DIM
 
     LinearSolverParameters linear;
 
-    /** Part of the time discretisation, and of its section. */
+    /** Friction parameters, in the section of the time discretisation. */
     struct Friction : dealii::ParameterAcceptor
     {
       Friction();
@@ -139,23 +140,23 @@ namespace geocone::GEOCONE_DIM
     };
     Friction friction;
 
-    /** The formulation that is asked for, if the stresses are its only unknowns. */
+    /** Chosen formulation if the stresses are its only unknowns. */
     const StressFormulation *
     of_stresses() const;
 
-    /** The first iterate that is asked for, if it solves for the stresses alone. */
+    /** Chosen first iterate if it solves for the stresses alone. */
     const FirstIterate *
     first_iterate_of_stresses() const;
 
     /** Newton iterations by a line of the plan, from the iterate.
-     *  @param start_of_s start of s for the natural map (Pa) */
+     *  @param start_of_s initial s of the natural map (Pa) */
     void
     iterate(const Try                 &next,
             const bool                 elastic_first,
             const std::vector<Mandel> &start_of_s,
             const StepWorkspace       &work) const;
 
-    /** The lag continuation of a line of the plan, from the iterate.
+    /** Lag continuation by a line of the plan, from the iterate.
      *  @param accepted_excess see Hints */
     void
     continue_from_lag(const Try           &next,

@@ -13,7 +13,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Formulation of a step, a word of 'Newton/Formulation'. */
+  /** Formulation of a step, a value of 'Newton/Formulation'. */
   enum class Formulation
   {
     automatic,
@@ -22,8 +22,7 @@ namespace geocone::GEOCONE_DIM
     of_stresses ///< the first of StressMethods::formulations; others follow
   };
 
-  /** Method by which iterates far from a solution get there, a word of
-   *  'Newton/Globalisation'. */
+  /** Globalisation method, a value of 'Newton/Globalisation'. */
   enum class GlobalisationMethod
   {
     automatic,
@@ -53,14 +52,14 @@ namespace geocone::GEOCONE_DIM
     enum class Start
     {
       of_step,        ///< velocities of t_n, or the first iterate
-      iterate,        ///< of the try before, if it is finite
-      flowing_iterate ///< the same if points flow there
+      iterate,        ///< of the previous try, if finite
+      flowing_iterate ///< the same if points yield there
     };
 
     GlobalisationMethod globalisation = GlobalisationMethod::line_search;
     bool                natural_map   = false; ///< or the return map
-    unsigned int        iterations = 60;  ///< allowed; of all of the lag's path
-    unsigned int        with_one_lag = 0; ///< allowed, of the lag continuation
+    unsigned int        iterations   = 60; ///< allowed; for a lag path in total
+    unsigned int        with_one_lag = 0;  ///< allowed, of the lag continuation
 
     ContactLaw contact = ContactLaw::linearised;
     Start      start   = Start::of_step;
@@ -70,8 +69,8 @@ namespace geocone::GEOCONE_DIM
     unsigned int iterations_if_far = unlimited; ///< NewtonLoop::far
 
     bool prepares = false; ///< only makes the start of the next try
-    bool is_rough = false; ///< ends at NewtonLoop::near
-    /** Takes the elastic tangent first, if the time stepper hints at it. */
+    bool is_rough = false; ///< only up to NewtonLoop::near
+    /** Uses the elastic tangent first, if the time stepper hints at it. */
     bool elastic_first = true;
   };
 
@@ -85,17 +84,18 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * The tries for a step, in their order: the first that converges and does not only
-   * prepare another ends it. A pure function: for theta >= phi/2 the return map with the
-   * line search; otherwise, and where that fails, the natural map with the elastic
-   * blend, whose stresses obey the law at the end only, so that iterations that would
-   * cycle between modes of points get around; and then, without associated flow, the lag
-   * continuation. doc/performance.md compares them.
+   * Tries for a step in their order; the first that converges completes it,
+   * unless it only prepares another. A pure function. For theta >= phi/2 the
+   * return map with the line search is tried first. Otherwise, or if it fails,
+   * the natural map with the elastic blend follows: its stresses satisfy the
+   * law at the end only, which avoids cycles of points between modes. For
+   * non-associated flow the lag continuation is the last. doc/performance.md
+   * compares them.
    */
   std::vector<Try>
   plan(const StepTraits &step, const PlanOptions &options = {});
 
-  /** The plans of typical steps, a paragraph each. */
+  /** Plans of typical steps, a paragraph each. */
   std::string
   text_of_plans();
 } // namespace geocone::GEOCONE_DIM

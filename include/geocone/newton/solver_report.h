@@ -12,7 +12,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** A line of the Newton table: a state and how it was reached. */
+  /** A line of the Newton table: a state and the step that led to it. */
   struct NewtonIteration
   {
     double       relative_residual = 0.; ///< norm / force norm
@@ -24,7 +24,7 @@ namespace geocone::GEOCONE_DIM
     unsigned int n_switched        = 0;
   };
 
-  /** What a solve came to. */
+  /** Result of a solve. */
   struct SolverReport
   {
     bool         converged      = false;
@@ -34,20 +34,21 @@ namespace geocone::GEOCONE_DIM
     double       residual       = 0.; ///< relative, at the end
     double       friction_lag   = 0.; ///< of the law that was solved; 0: exact
 
-    /** InternalForces::excess_share() of what was solved, where friction lags. */
+    /** InternalForces::excess_share() of the solution, for lagged friction. */
     double excess_share = 0.;
 
-    /** Whether it was solved, but by a law that differs too much from the exact one. */
+    /** Whether it was solved with a law that differs too much from the exact
+     *  one. */
     bool exceeds = false;
 
-    /** Solved up to rounding, which is above the tolerance. */
+    /** Whether rounding limits the residual to above the tolerance. */
     bool at_rounding_floor = false;
 
     std::vector<NewtonIteration> table;
-    std::string                  reason; ///< why it did not converge
-    std::string                  remedy; ///< what may help, if it is known
+    std::string                  reason; ///< of failure
+    std::string                  remedy; ///< if known
 
-    /** All but the table, for checkpoints. */
+    /** Reads or writes all but the table, for checkpoints. */
     void
     state(StateRow &row)
     {
@@ -62,7 +63,7 @@ namespace geocone::GEOCONE_DIM
           at_rounding_floor);
     }
 
-    /** Puts what was tried before in front. */
+    /** Prepends the report of earlier attempts. */
     void
     add_earlier(const SolverReport &earlier);
   };

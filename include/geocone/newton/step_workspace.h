@@ -12,7 +12,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** What all attempts at a step work on, and the parts that they share. */
+  /** Data shared by all attempts at a step, and their common operations. */
   struct StepWorkspace
   {
     IncrementalProblem  &problem;
@@ -23,13 +23,13 @@ namespace geocone::GEOCONE_DIM
     Vector              &residual; ///< R(v)
     SolverReport        &report;
 
-    /** R(v) at the iterate. */
+    /** Evaluates R(v) at the iterate. */
     ResidualReport
     evaluate(const LocalLaw &law = {}) const;
 
     /**
-     * A line of the table for a state.
-     * @param length of the step that led there
+     * Adds a line to the table of iterations.
+     * @param length of the step to this state
      * @param blend in its tangent
      */
     void
@@ -39,21 +39,22 @@ namespace geocone::GEOCONE_DIM
            const double          friction_lag) const;
 
     /**
-     * Whether |R_free| <= max(tolerance x force norm, absolute, c N), with N the
-     * estimate InternalForces::rounding_floor() of what rounding leaves, and the same of
-     * what touches by its own forces. N counts only where it is small itself, and is told
-     * in the report.
+     * Whether |R_free| <= max(tolerance x force norm, absolute, c N), with N
+     * the estimate InternalForces::rounding_floor() of the rounding error, and
+     * the same for contact nodes relative to their own forces. N counts only if
+     * it is small itself, and is included in the report.
      */
     bool
     is_balanced(const ResidualReport &state,
                 const double          tolerance,
                 const double          absolute) const;
 
-    /** Says in the report that R or the law is not a number, and what may help. */
+    /** Reports that R or the law is NaN, with a remedy. */
     void
     report_not_a_number() const;
 
-    /** What the prescribed velocities and H v = q still ask of the iterate. */
+    /** Changes of the iterate that the prescribed velocities and H v = q
+     *  require. */
     struct Jump
     {
       Vector          prescribed; ///< values at the step's end minus v

@@ -12,45 +12,45 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Accuracy and cost that are allowed to a step. */
+  /** Accuracy and cost limits of a step. */
   struct StepLimits
   {
     double relative_tolerance = 1e-10; ///< on |R_free|
     double absolute_tolerance = 1e-12; ///< on |R_free| (N/m)
-    /** Iterations or sweeps; 0: as many as the formulation takes by itself. */
+    /** Iterations or sweeps; 0: default of the formulation. */
     unsigned int max_iterations = 0;
   };
 
   /**
-   * A formulation of a step whose only unknowns are its stresses, that
-   * NonsmoothNewton offers beside its own.
+   * A formulation of a step with its stresses as the only unknowns, an
+   * alternative in NonsmoothNewton.
    */
   struct StressFormulation
   {
     const char *name; ///< a word of 'Newton/Formulation'
 
-    /** Refuses problems that it cannot solve. @throws InputError */
+    /** Rejects problems that it cannot solve. @throws InputError */
     std::function<void(const IncrementalProblem &problem)> check;
 
     std::function<void(const StepLimits &limits, const StepWorkspace &work)>
       solve;
   };
 
-  /** Iterations that make the first iterate of a step. */
+  /** Iterations for the first iterate of a step. */
   struct FirstIterate
   {
     const char *name; ///< a word of 'Newton/First iterate'
 
-    /** Refuses problems for which there is none. @throws InputError */
+    /** Rejects problems that it does not apply to. @throws InputError */
     std::function<void(const IncrementalProblem &problem)> check;
 
-    /** Moves v. @return the stresses at the iterate (Pa) */
+    /** Changes v. @return the stresses at the iterate (Pa) */
     std::function<std::vector<Mandel>(const unsigned int   n_iterations,
                                       const StepWorkspace &work)>
       make;
   };
 
-  /** Methods in the stresses alone, given to a NonsmoothNewton. */
+  /** Methods in the stresses alone, for a NonsmoothNewton. */
   struct StressMethods
   {
     std::vector<StressFormulation> formulations;
