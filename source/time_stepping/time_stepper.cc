@@ -118,7 +118,7 @@ namespace geocone::GEOCONE_DIM
              const Space          &space,
              const Vector         &values)
   {
-    // By cell, whose nodes have an order that does not depend on the ranks.
+    // Written by cell, where the order of nodes does not depend on the ranks.
     Vector all = values;
     all.update_ghost_values();
     CellRecord                                   cells;
@@ -173,16 +173,16 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Where the work of a step goes (J/m). */
+    /** Parts of the work of a step (J/m). */
     struct PartsOfWork
     {
       double kinetic = 0., elastic = 0., plastic = 0.;
 
       double kinetic_energy = 0.; ///< at its end
-      double elastic_energy = 0.; ///< the larger one, of beginning and end
+      double elastic_energy = 0.; ///< maximum of beginning and end
     };
 
-    /** Of the last step that a problem solved. Collective. */
+    /** Parts of the work in the last step that a problem solved. Collective. */
     PartsOfWork
     parts_of_work(const IncrementalProblem &problem,
                   const MaterialPoints     &points,
@@ -190,8 +190,9 @@ namespace geocone::GEOCONE_DIM
                   const Vector             &velocity_L,
                   const Vector             &v)
     {
-      // Kinetic: (v + vL)'M(v - vL)/2 + |v - vL|_M^2/2 = v'M(v - vL), and alike
-      // for the elastic energy: no small differences of large numbers.
+      // Kinetic: (v + vL)'M(v - vL)/2 + |v - vL|_M^2/2 = v'M(v - vL), and
+      // likewise the elastic energy, which avoids small differences of large
+      // numbers.
       PartsOfWork parts;
       if (problem.has_inertia())
         {
@@ -235,7 +236,7 @@ namespace geocone::GEOCONE_DIM
   {
     const PartsOfWork parts =
       parts_of_work(problem, points, materials, velocity_L, v);
-    // Steps in which next to nothing happens are rounding of the energies.
+    // In nearly static steps the works are rounding of the energies.
     const double largest = std::max({1e-4 * parts.kinetic_energy,
                                      1e-4 * parts.elastic_energy,
                                      std::abs(parts.kinetic),
@@ -264,7 +265,7 @@ namespace geocone::GEOCONE_DIM
         parts.kinetic += h * of_obstacles.change;
         parts.kinetic_energy += h * of_obstacles.energy;
       }
-    // Waves that die away, and creep, are next to nothing of the elastic energy.
+    // Decaying waves and creep are negligible compared with the elastic energy.
     const bool flows =
       parts.plastic > 0. && parts.kinetic_energy > 1e-4 * parts.elastic_energy;
     return flows ? parts.kinetic / parts.plastic : 0.;

@@ -11,7 +11,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Before the run: what Stage::removal_text() refuses in it. @throws InputError */
+  /** Checks a stage by Stage::removal_text() before the run. @throws
+   *  InputError */
   inline void
   check_removal(const Stage        &stage,
                 const unsigned long n_removed,

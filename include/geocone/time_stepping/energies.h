@@ -12,11 +12,11 @@ namespace geocone
   struct Energies
   {
     double kinetic = 0.; ///< v'Mv/2 of the nodes (FEM) or the particles (MPM)
-    /** sum V s'Ss/2, and of fluid in pores sum V p^2/(2 K_w/n). Explicit steps do
-     *  not know it: their laws tell the work of the stress only. */
+    /** sum V s'Ss/2, and for pore fluid sum V p^2/(2 K_w/n). Not available in
+     *  explicit steps, where laws provide only the work of the stress. */
     double elastic = 0.;
-    /** MPM: -sum m g.(x - x0), x0 the lower left corner of the mesh. FEM counts
-     *  the work of the weight as external instead. */
+    /** MPM: -sum m g.(x - x0), x0 the lower left corner of the mesh. In FEM the
+     *  work of the weight is external instead. */
     double potential = 0.;
 
     double
@@ -40,15 +40,16 @@ namespace geocone
     }
   };
 
-  /** What has been done to the body and in it, over a step or more (J/m). */
+  /** Work on the body and dissipation, over a step or more (J/m). */
   struct Works
   {
     double external    = 0.; ///< of loads and supports
-    double dissipation = 0.; ///< sum V s'(-z) >= 0, without that of contact
-    /** sum V |z_t| ||s_t| - a s_n - k|, the plastic work by which friction that lags or
-     *  has a memory differs from the exact strength. */
+    double dissipation = 0.; ///< sum V s'(-z) >= 0, except contact
+    /** sum V |z_t| ||s_t| - a s_n - k|, the plastic work due to the difference
+     *  between the exact strength and that of lagged friction or friction with
+     *  memory. */
     double of_excess = 0.;
-    /** -sum h r.u of what touches obstacles, friction and impact. */
+    /** Dissipation by friction and impact in contact: -sum h r.u. */
     double contact_dissipation = 0.;
     double of_ghosts           = 0.; ///< of GhostStiffness; a part of the loss
 
@@ -63,7 +64,7 @@ namespace geocone
       return *this;
     }
 
-    /** What leaves the energies of the body for good. */
+    /** Total dissipated energy. */
     double
     dissipated() const
     {

@@ -13,7 +13,7 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** The end of a step as all methods report it, of all ranks. */
+  /** Common end-of-step data of all methods, over all ranks. */
   struct StepEnd
   {
     Energies energies;
@@ -22,7 +22,7 @@ namespace geocone::GEOCONE_DIM
     double largest_plastic_strain = 0.;
 
     /** Forces on the body of each of Scene::supports() (N/m), and their moments
-     *  (N m/m); explicit: the means of the step. */
+     *  (N m/m); explicit: means over the step. */
     std::vector<Reaction> reactions;
 
     void
@@ -32,7 +32,7 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** An accepted step of the loading programme as all methods record it.
+  /** Common record of an accepted step of the loading programme.
    *  @tparam End the method's own StepEnd */
   template <typename End>
   struct StepRecord

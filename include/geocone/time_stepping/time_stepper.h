@@ -14,26 +14,27 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** Everything that a run advances in time, besides the points' state. */
+  /** State advanced in time, besides the points' state. */
   struct Kinematics
   {
     Vector velocity;     ///< of the nodes at t_n (m/s)
-    Vector displacement; ///< of nodes that stay (FEM), since the last reset (m)
+    Vector displacement; ///< of fixed nodes (FEM), since the last reset (m)
 
-    /** Mean displacement of what each condition holds, since the reset (m). */
+    /** Mean displacement of the support of each condition, since the reset
+     *  (m). */
     std::vector<dealii::Tensor<1, dim>> supports;
   };
 
-  /** Whether particles that move are sound; nothing for points that stay. */
+  /** Diagnostics of material points; unused with fixed quadrature points. */
   struct Motion
   {
     unsigned int light_functions = 0;  ///< see GhostPlaces::n_light()
     unsigned int points_behind   = 0;  ///< see MovingConditions::n_behind()
     unsigned int points_put_back = 0;  ///< see MovingConditions::put_back()
-    double       put_back        = 0.; ///< how far at most (m)
+    double       put_back        = 0.; ///< largest distance (m)
     double       light_share     = 0.; ///< see Multipliers::light_share()
 
-    /** The largest coordinates of points at the end (m). */
+    /** Largest coordinates of points at the end (m). */
     dealii::Point<dim> front;
 
     void
@@ -58,7 +59,7 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** What a step came to. Nothing has changed if it did not converge. */
+  /** Result of a step. Without convergence, no state has changed. */
   struct StepReport : StepEnd
   {
     bool         converged = false;
@@ -69,15 +70,15 @@ namespace geocone::GEOCONE_DIM
 
     unsigned int unknowns    = 0;
     unsigned int multipliers = 0; ///< independent rows of H
-    unsigned int rows        = 0; ///< rows of H that were given
+    unsigned int rows        = 0; ///< all rows of H
 
-    /** What shows whether particles that move are sound. */
+    /** Diagnostics of material points. */
     Motion motion;
 
-    /** What touches obstacles. */
+    /** Contact with obstacles. */
     ContactReport contact;
 
-    /** By which raised loads are multiplied at its end; 1: none are. */
+    /** Load factor at its end; 1 without load stepping. */
     double load_factor = 1.;
 
     /**
@@ -106,20 +107,20 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** What became of the body at the beginning of a stage. */
+  /** Result of a change of the body at the beginning of a stage. */
   struct BodyChange
   {
     std::vector<std::string> remarks;
-    Energies                 before, after; ///< what is there of them
+    Energies                 before, after; ///< of the body before and after
   };
 
-  /** By number what each material becomes in a stage, itself or another one. */
+  /** Material number of each material after a stage: another one or itself. */
   std::vector<unsigned int>
   materials_after(const Stage &stage, const Materials &materials);
 
-  /** Points of materials that become others do: with their stresses, from which their
-   *  histories begin, and by their volumes. Collective.
-   *  @return remarks @throws StepFailure if there is none of a material */
+  /** Changes the material of points. Histories are initialised from their
+   *  stresses, masses from their volumes. Collective.
+   *  @return remarks @throws StepFailure if a material has no points */
   std::vector<std::string>
   change_materials(const Stage    &stage,
                    const Scene    &scene,
@@ -127,7 +128,7 @@ namespace geocone::GEOCONE_DIM
                    const MPI_Comm  comm,
                    MaterialPoints &points);
 
-  /** @throws InputError for what a scene around an axis cannot have */
+  /** @throws InputError for features not available in axisymmetric scenes */
   void
   check_round_body(const Scene &scene);
 
@@ -137,7 +138,7 @@ namespace geocone::GEOCONE_DIM
                  const Materials      &materials,
                  const MPI_Comm        comm);
 
-  /** @name Values at the nodes, as part of a checkpoint. Collective. */
+  /** @name Nodal values, as part of a checkpoint. Collective. */
   /** @{ */
   void
   save_nodes(Archive              &archive,
@@ -157,7 +158,8 @@ namespace geocone::GEOCONE_DIM
   double
   largest_plastic_strain(const MaterialPoints &points, const MPI_Comm comm);
 
-  /** Identity defect of the last step that a problem solved. Collective. */
+  /** Defect of the energy identity in the last step that a problem solved.
+   *  Collective. */
   double
   energy_identity_error(const IncrementalProblem &problem,
                         const MaterialPoints     &points,
@@ -167,9 +169,10 @@ namespace geocone::GEOCONE_DIM
                         const double              work);
 
   /**
-   * The part of the plastic work of the last step that a problem solved which becomes
-   * kinetic energy, v'M(v - vL)/sum V s:de^p, also of free obstacles. In creep towards a new equilibrium it is next to nothing; of a slope
-   * that flows it is what its factor of safety lacks, 1 - F. Collective.
+   * Fraction of the plastic work that becomes kinetic energy in the last step
+   * that a problem solved, v'M(v - vL)/sum V s:de^p, including free obstacles.
+   * It almost vanishes in creep towards a new equilibrium; for a flowing slope
+   * it is the deficit 1 - F of its factor of safety. Collective.
    */
   double
   accelerating_share(const IncrementalProblem &problem,
@@ -179,20 +182,21 @@ namespace geocone::GEOCONE_DIM
                      const Vector             &v);
 
   /**
-   * Advances a scene in time, for one of the methods. The only place where state
-   * changes, and only when a step is accepted.
+   * Interface for advancing a scene in time by one of the methods. State
+   * changes only here, and only when a step is accepted.
    */
   class TimeStepper
   {
   public:
     virtual ~TimeStepper() = default;
 
-    /** Whether there is inertia; without it no mass is assembled. */
+    /** Whether there is inertia; otherwise no mass is assembled. */
     virtual bool
     has_inertia() const = 0;
 
     /**
-     * Allocates what steps need, and makes the points and the motion at t = 0.
+     * Allocates the data of steps and sets up the points and the motion at t =
+     * 0.
      * @return a warning or nothing
      * @throws InputError
      */
@@ -211,7 +215,7 @@ namespace geocone::GEOCONE_DIM
                    const MaterialPoints &points,
                    const double          t) const = 0;
 
-    /** Tries the step from t to t + h; commits it if it converges.
+    /** Attempts the step from t to t + h and commits it if it converges.
      *  @param accepted_excess see NonsmoothNewton::Hints */
     virtual StepReport
     advance(Kinematics            &kinematics,
@@ -223,7 +227,7 @@ namespace geocone::GEOCONE_DIM
             const double           h,
             const double           accepted_excess) = 0;
 
-    /** Takes away and adds what a stage says, at its beginning at time t.
+    /** Removes and adds material at the beginning of a stage at time t.
      *  @throws StepFailure if that is nothing, or all */
     virtual BodyChange
     change_body(const Stage         &stage,
@@ -232,25 +236,25 @@ namespace geocone::GEOCONE_DIM
                 Kinematics          &kinematics,
                 MaterialPoints      &points) = 0;
 
-    /** Lets displacements and plastic strains count from now. */
+    /** Resets displacements and plastic strains to zero. */
     void
     reset(Kinematics &kinematics, MaterialPoints &points) const;
 
-    /** @name The state but for the motion (Kinematics), as part of a checkpoint.
+    /** @name State except the motion (Kinematics), as part of a checkpoint.
      *  Collective. */
     /** @{ */
     virtual void
     save(Archive &archive, const MaterialPoints &points) = 0;
 
-    /** In place of what prepare() has made.
+    /** Replaces the state set up by prepare().
      *  @throws RunError if it does not fit */
     virtual void
     load(const Archive &archive, MaterialPoints &points) = 0;
     /** @} */
 
-    /** Takes the points of another run's checkpoint, at rest, in place of what prepare()
-     *  has made; not what moved them, nor their displacements and plastic strains.
-     *  Collective. @throws RunError if it does not fit */
+    /** Replaces the points set up by prepare() by those of another run's
+     *  checkpoint, at rest, without moving boundaries, obstacles, displacements
+     *  and plastic strains. Collective. @throws RunError if it does not fit */
     void
     begin_from(const Archive  &archive,
                Kinematics     &kinematics,
@@ -262,7 +266,7 @@ namespace geocone::GEOCONE_DIM
     virtual std::string
     linear_solver_name() const = 0;
 
-    /** Entries of the Jacobian on this rank. */
+    /** Number of entries of the Jacobian on this rank. */
     virtual std::size_t
     n_nonzeros() const = 0;
 
@@ -273,25 +277,25 @@ namespace geocone::GEOCONE_DIM
       return false;
     }
 
-    /** Whether points may leave the mesh, which are then counted. */
+    /** Whether points may leave the mesh; such points are counted. */
     virtual bool
     points_may_leave() const
     {
       return false;
     }
 
-    /** What the obstacles of the scene have moved, one by one. */
+    /** Displacements of the obstacles of the scene, one by one. */
     virtual const std::vector<RigidMotion> &
     moved_obstacles() const = 0;
 
-    /** Points that left the mesh. */
+    /** Number of points that left the mesh. */
     virtual unsigned int
     n_lost() const
     {
       return 0;
     }
 
-    /** How often cells were handed over between ranks. */
+    /** Number of redistributions of cells between ranks. */
     virtual unsigned int
     n_repartitions() const
     {
