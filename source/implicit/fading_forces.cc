@@ -13,7 +13,7 @@ namespace geocone::GEOCONE_DIM
                     const double begin,
                     const double duration)
   {
-    // Those of earlier stages have ended with these, up to rounding.
+    // Forces of earlier stages end with these, up to rounding.
     list.erase(
       std::remove_if(list.begin(),
                      list.end(),

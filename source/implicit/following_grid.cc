@@ -10,7 +10,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Where x goes when what was at @p from goes to @p to, and @p fixed stays. */
+    /** Position of x when @p from moves to @p to, and @p fixed is fixed. */
     double
     stretched(const double x,
               const double fixed,
@@ -63,7 +63,8 @@ namespace geocone::GEOCONE_DIM
     for (unsigned int d = 0; d < dim; ++d)
       {
         const double begin = lines[d].front(), end = lines[d].back();
-        // What lies inside the grid stays inside, what lies on its end stays there.
+        // A segment inside the grid remains inside; a segment at its end
+        // remains there.
         const double small = 1e-9 * (end - begin);
         const auto   stays =
           [&](const double from, const double to, const double at) {

@@ -26,8 +26,8 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** @throws InputError if a stage removes none or all of the cells that are there: they
-     *  do not move */
+    /** @throws InputError if a stage removes none or all of the cells present,
+     *  which are fixed */
     void
     check_removals(const Scene          &scene,
                    const BackgroundMesh &mesh,
@@ -152,7 +152,8 @@ namespace geocone::GEOCONE_DIM
     constraints->check_axis(mesh_, space_);
     check_resistance(points, mesh_.triangulation().get_communicator());
     newton.check(*problem);
-    // Formulas have values just after the beginning of each stage, or are refused.
+    // Evaluates formulas just after the beginning of each stage, to reject
+    // those without a value.
     Vector v     = problem->make_vector();
     double start = 0.;
     for (const auto &stage : scene->loading.list)
@@ -168,7 +169,7 @@ namespace geocone::GEOCONE_DIM
   {
     if (scene->loading.changes_body())
       {
-        Vector n_cells(space->partitioner()); // of each node
+        Vector n_cells(space->partitioner()); // number of cells per node
         for (const unsigned int node : points.nodes)
           for (unsigned int d = 0; d < dim; ++d)
             n_cells.local_element(dim * node + d) += 1.;
@@ -178,7 +179,7 @@ namespace geocone::GEOCONE_DIM
       }
     else
       constraints->number_unknowns(nullptr);
-    // Whether obstacles hold the body is not known before they touch.
+    // Whether obstacles support the body is unknown before contact.
     if (!inertia && !obstacles->exists())
       constraints->check_support(*mesh, *space, points);
     obstacles->take_body(points.cells);

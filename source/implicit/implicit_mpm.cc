@@ -80,7 +80,7 @@ namespace geocone::GEOCONE_DIM
       }
     Vector v = problem->make_vector();
     constraints->set_values(v, 0.);
-    // Refuses what it must before the run.
+    // Rejects inadmissible conditions before the run.
     moving->make_rows(
       points, v, 0., {velocity_L, rule.flip_part(), 1., 0.}, *constraints);
     newton.check(*problem);
@@ -95,7 +95,7 @@ namespace geocone::GEOCONE_DIM
   void
   ImplicitMPM::set_up(const NonsmoothNewton &newton)
   {
-    problem.reset(); // it refers to what is replaced
+    problem.reset(); // refers to data that are replaced
     moving      = std::make_unique<MovingConditions>(*scene, *mesh, *space);
     constraints = std::make_unique<Constraints>(*scene, *mesh, *space);
     absorbing =
@@ -215,7 +215,7 @@ namespace geocone::GEOCONE_DIM
     }
     if (absorbing->exists())
       problem->add(*absorbing);
-    if (!bodies) // else it is not known yet what touches
+    if (!bodies) // else contacts are not known yet
       system->set_pattern(*problem, timer);
     has_pattern = !bodies;
     begun       = true;
@@ -450,9 +450,9 @@ namespace geocone::GEOCONE_DIM
                         const Vector         &v_end,
                         const Vector         &v)
   {
-    // By the midpoint rule a node that hits rebounds, and its particles share that with
-    // others when the next step begins: what touches comes to rest by itself, where
-    // fixed meshes need ObstacleContact::settle.
+    // By the midpoint rule a node that hits rebounds, but its particles share
+    // the rebound with others at the start of the next step. Hence contacts
+    // come to rest without ObstacleContact::settle, unlike in fixed meshes.
     trial       = {};
     trial.share = constraints->multipliers.light_share(v, lumped_mass, *space);
     const std::string why_not = objection(trial.share);
@@ -506,7 +506,7 @@ namespace geocone::GEOCONE_DIM
     const unsigned int n_light_of_step = n_light;
     if (is_unbalanced(points))
       {
-        scope.stop(); // a new problem begins, which is timed by itself
+        scope.stop(); // the new problem is timed separately
         hand_over_state(newton, timer, kinematics, points);
       }
     report.motion = {n_light_of_step,

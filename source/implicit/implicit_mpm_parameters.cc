@@ -1,7 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Parameters of the implicit material point method, and what it refuses.
+// Parameters of the implicit material point method, and their checks.
 #include <geocone/base/exceptions.h>
 #include <geocone/base/unused_parameters.h>
 #include <geocone/implicit/implicit_mpm.h>

@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// Changes of the body at the beginning of stages of the implicit material point method,
-// and its state as part of a checkpoint.
+// Changes of the body at the beginning of stages of the implicit material point
+// method, and its state in a checkpoint.
 #include <geocone/base/log.h>
 #include <geocone/implicit/implicit_mpm.h>
 
@@ -101,7 +101,7 @@ namespace geocone::GEOCONE_DIM
       {
         archive.read_row("added")(added);
         for (const unsigned int material : added)
-          particles.forget(material); // they will not be again
+          particles.forget(material); // for good
       }
     load_grid(archive);
     if (following)

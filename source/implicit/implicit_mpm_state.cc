@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// What a solved step of the implicit material point method makes of its particles, and
-// the energies and works that tell of it.
+// Update of the particles of the implicit material point method after a solved
+// step, with energies and works.
 #include <geocone/base/log.h>
 #include <geocone/base/over_ranks.h>
 #include <geocone/implicit/implicit_mpm.h>
@@ -21,7 +21,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** A Mandel vector turned by angles about z, x, y: Q t Q'. */
+    /** Mandel vector rotated by angles about z, x, y: Q t Q'. */
     Mandel
     turn(const Mandel &t, const Tensor<1, n_rotations> &angle)
     {
@@ -146,8 +146,8 @@ namespace geocone::GEOCONE_DIM
             points.position[p],
             space->node_positions(),
             *std::min_element(extent.begin(), extent.end()));
-        // Particles held one by one stay in their row: out of it, their rows would
-        // prescribe a gradient as well.
+        // Individually prescribed particles move with the grid and stay in
+        // their row: otherwise their rows would also prescribe a gradient.
         const BoundaryCondition *holder = holder_of(points, p);
         Tensor<1, dim>           move;
         for (unsigned int d = 0; d < dim; ++d)
@@ -192,7 +192,7 @@ namespace geocone::GEOCONE_DIM
   std::string
   ImplicitMPM::objection(const Multipliers::LightShare &share) const
   {
-    // Sound steps have up to 0.02, jets 1.6 and more.
+    // Sound steps have up to 0.02, spurious velocities 1.6 and more.
     if (!(share.largest > 0.3))
       return "";
     const BoundaryCondition &condition =

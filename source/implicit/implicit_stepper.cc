@@ -95,7 +95,8 @@ namespace geocone::GEOCONE_DIM
         }
       if (has_force())
         {
-          // Where dofs are turned, the problem has its vectors along them.
+          // At rotated dofs, the vectors of the problem have components along
+          // these.
           evaluate_force(
             force, points, step.solved_at, raises ? &stage : nullptr);
           fading.add_to(force, step.solved_at);
@@ -143,7 +144,7 @@ namespace geocone::GEOCONE_DIM
     if (rows.n_rows() > 0)
       {
         Eigen::VectorXd lambda = problem->multipliers();
-        if (rows.has_loads()) // they are in the force
+        if (rows.has_loads()) // which are included in the force
           lambda[lambda.size() - 1] = 0.;
         sums[1] += step.h * lambda.dot(rows.multiply(v));
       }
@@ -165,8 +166,8 @@ namespace geocone::GEOCONE_DIM
         report.contact = obstacles->report(problem->contact(), v, step.h);
         work.of_others += report.contact.work;
       }
-    // Work of the ghost stiffness, which only moving points have, enters neither energies
-    // nor dissipation.
+    // Work of the ghost stiffness, which exists for material points only, is
+    // part of neither energies nor dissipation.
     const double ghost_work =
       has_moving_points() ? problem->ghost_stiffness().work(v) : 0.;
     report.identity_error = energy_identity_error(
@@ -254,7 +255,7 @@ namespace geocone::GEOCONE_DIM
       return report;
     report.converged = true;
 
-    // From here on the step is accepted.
+    // The step is accepted from here on.
     accept_move(step, points, v);
     report.load_factor =
       raised.take(*constraints, problem->multipliers(), force, residual);

@@ -73,8 +73,8 @@ namespace geocone::GEOCONE_DIM
                        format(">= %g, half of Newmark gamma", gamma / 2.),
                        format("(gamma + 1/2)^2/4 = %g is usual",
                               (gamma + 0.5) * (gamma + 0.5) / 4.));
-    // Each exerts forces at the beginning of a step that are not those of loads and
-    // stresses, which give the acceleration.
+    // Each of these exerts forces at the beginning of a step besides loads and
+    // stresses, from which the acceleration is computed.
     const std::string what   = section + "Integration = Newmark",
                       remedy = "take the theta-scheme or backward Euler";
     scene.refuse_contact(what, remedy);

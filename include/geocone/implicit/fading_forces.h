@@ -13,11 +13,11 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * What a change of the body would do to the forces on its nodes at once, and does
-   * linearly over a time T instead: with n = F - sum V B's before and after it,
+   * Ramps the change of nodal forces caused by a change of the body linearly
+   * over a time T: with n = F - sum V B's before and after the change,
    *   F(t) += (n_before - n_after) (1 - (t - t_0)/T),   t_0 <= t <= t_0 + T.
-   * Of what is removed these are the forces that it exerted, its weight and those by
-   * which it held the rest; of what is added, its weight taken back.
+   * For removed material these are the forces that it exerted, its weight and
+   * its support of the rest; for added material, minus its weight.
    */
   class FadingForces
   {
@@ -26,11 +26,11 @@ namespace geocone::GEOCONE_DIM
     void
     add(Vector difference, const double begin, const double duration);
 
-    /** Adds what is left of them at time t. */
+    /** Adds the remaining forces at time t. */
     void
     add_to(Vector &force, const double t) const;
 
-    /** @name As part of a checkpoint. Collective. */
+    /** @name State, as part of a checkpoint. Collective. */
     /** @{ */
     void
     save(Archive              &archive,
@@ -48,7 +48,7 @@ namespace geocone::GEOCONE_DIM
       Vector force;
       double begin, duration;
     };
-    std::vector<Fading> list; ///< one of what is removed, one of what is added
+    std::vector<Fading> list; ///< at most two: removal, addition
   };
 } // namespace geocone::GEOCONE_DIM
 

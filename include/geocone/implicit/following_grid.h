@@ -10,32 +10,33 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * A tensor grid that goes with a side that is pushed: between steps its lines
-   * move, its state being on the points only. Along each axis the lines across the
-   * side go with it, those beyond are stretched or pressed together between the
-   * side and the ends of the grid, which stay:
+   * A tensor grid that follows a moving boundary segment: its lines move
+   * between steps, while the state is stored on the points only. Along each
+   * axis, the lines at the segment move with it, and the others are stretched
+   * or compressed between the segment and the ends of the grid, which are
+   * fixed:
    *   x_l = b + (x_l^0 - b) (s - b)/(s^0 - b)
-   * for a line below the side, from the end b of the grid and the places s^0 and s of the
-   * side at the start and now; above alike. What places lines is where the side is,
-   * and nothing else: the grid has no history.
+   * for a line below the segment, with the end b of the grid and the initial
+   * and current positions s^0 and s of the segment; above likewise. The lines
+   * depend on the position of the segment only: the grid has no history.
    */
   class FollowingGrid
   {
   public:
-    /** @throws InputError for a mesh that is no grid, or a condition that holds no
-     *  side that moves */
+    /** @throws InputError for a mesh that is no grid, or a condition without a
+     *  moving segment */
     FollowingGrid(const std::string      &condition,
                   const Scene            &scene,
                   const MovingConditions &sides,
                   BackgroundMesh         &mesh,
                   Space                  &space);
 
-    /** Moves the lines to where the side is. @throws StepFailure at the end of the
+    /** Moves the lines with the segment. @throws StepFailure at the end of the
      *  grid */
     void
     follow(const MovingConditions &sides);
 
-    /** The name of the parameter. */
+    /** Name of the parameter. */
     static constexpr const char *parameter =
       "Material point method/Grid follows";
 
@@ -43,8 +44,8 @@ namespace geocone::GEOCONE_DIM
     BackgroundMesh                                   &mesh;
     Space                                            &space;
     const BoundaryCondition                          *condition = nullptr;
-    const std::array<std::vector<double>, dim>        lines; ///< at the start
-    std::pair<dealii::Point<dim>, dealii::Point<dim>> side;  ///< at the start
+    const std::array<std::vector<double>, dim>        lines; ///< initial
+    std::pair<dealii::Point<dim>, dealii::Point<dim>> side;  ///< initial
   };
 } // namespace geocone::GEOCONE_DIM
 

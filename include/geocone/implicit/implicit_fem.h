@@ -10,7 +10,8 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * Steps of the finite element method with points that do not move (small strains).
+   * Implicit steps of the finite element method with fixed quadrature points
+   * (small strains).
    */
   class ImplicitFEM : public ImplicitStepper, public dealii::ParameterAcceptor
   {
@@ -46,7 +47,7 @@ namespace geocone::GEOCONE_DIM
     void
     take_points(const Archive &archive, MaterialPoints &points) override;
 
-    /** Refuses a scene in which no stress can arise. Collective. */
+    /** Rejects a scene in which no stress can arise. Collective. */
     void
     check_resistance(const MaterialPoints &points, const MPI_Comm comm) const;
 
@@ -107,7 +108,7 @@ namespace geocone::GEOCONE_DIM
                  Kinematics              &kinematics,
                  Vector                  &difference) const override;
 
-    /** Leaves the points of these cells, and makes those that are missing. */
+    /** Removes the points outside these cells and creates the missing ones. */
     void
     take_cells(const std::vector<bool> &is_there, MaterialPoints &points) const;
 

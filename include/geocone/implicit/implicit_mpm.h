@@ -16,18 +16,18 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The implicit material point method. In a step the particles give mass and
-   * momentum to the nodes of the background mesh,
+   * The implicit material point method. In a step the particles transfer mass
+   * and momentum to the nodes of the background mesh,
    *   m_i = sum_p m_p N_i,   vL_i = sum_p m_p v_p N_i / m_i,
-   * the incremental problem is solved for the velocities v of the nodes, and the
-   * particles take from them
+   * the incremental problem is solved for the velocities v of the nodes, and
+   * the particles are updated by
    *   v_p += sum_i N_i (v_i - vL_i)   (FLIP),   x_p += h sum_i N_i v_i,
    *   V_p *= det(I + h grad v),
-   * while their stress turns by the spin h curl(v)/2. Then they are
-   * sorted into cells anew, and the mesh is as if it had never moved.
+   * while their stress is rotated by the spin h curl(v)/2. Then they are sorted
+   * into cells again, and the mesh is reset.
    *
    * Options: PIC and APIC instead of FLIP, advection with the velocity of the
-   * particle, a mass that is partly consistent, and the integrations in time of
+   * particle, a partly consistent mass, and the time integration of
    * TimeIntegration.
    */
   class ImplicitMPM : public ImplicitStepper, public dealii::ParameterAcceptor
@@ -84,7 +84,7 @@ namespace geocone::GEOCONE_DIM
       return balance.n_repartitions();
     }
 
-    /** Where its particles come from. */
+    /** Seeding of its particles. */
     Seeding &
     seeding()
     {
@@ -95,7 +95,7 @@ namespace geocone::GEOCONE_DIM
     void
     take_points(const Archive &archive, MaterialPoints &points) override;
 
-    /** Where Newton's method may start. */
+    /** Initial guess of Newton's method. */
     enum class Start
     {
       automatic, ///< both, one after the other
@@ -103,7 +103,7 @@ namespace geocone::GEOCONE_DIM
       particles  ///< vL, with the elastic tangent first
     };
 
-    /** What moves the particles. */
+    /** Velocity by which particles move. */
     enum class Advection
     {
       grid_velocity,
@@ -122,26 +122,29 @@ namespace geocone::GEOCONE_DIM
       dealii::Tensor<1, n_rotations> spin; ///< angles of rotation (rad)
     };
 
-    /** Makes what depends on which rank has which cells. Collective. */
+    /** Sets up the data that depend on the distribution of cells over ranks.
+     *  Collective. */
     void
     set_up(const NonsmoothNewton &newton);
 
-    /** Whether the ranks have too unequal numbers of the points. Collective. */
+    /** Whether the numbers of points on the ranks are too unequal.
+     *  Collective. */
     bool
     is_unbalanced(const MaterialPoints &points) const;
 
-    /** Hands over cells between the ranks: set_up() is to follow. Collective. */
+    /** Redistributes cells between the ranks; must be followed by set_up().
+     *  Collective. */
     void
     hand_over(MaterialPoints &points);
 
-    /** The same in the course of a run, with all that is state. Collective. */
+    /** Redistributes cells during a run, including all state. Collective. */
     void
     hand_over_state(const NonsmoothNewton &newton,
                     dealii::TimerOutput   &timer,
                     Kinematics            &kinematics,
                     MaterialPoints        &points);
 
-    /** @name The state of nodes, sides and obstacles. Collective. */
+    /** @name State of nodes, boundary segments and obstacles. Collective. */
     /** @{ */
     void
     save_grid(Archive &archive) const;
@@ -152,27 +155,29 @@ namespace geocone::GEOCONE_DIM
     void
     begin(MaterialPoints &points, dealii::TimerOutput &timer) override;
 
-    /** Stencils of ghost stiffness for the points as they are. Collective. */
+    /** Stencils of ghost stiffness for the present points. Collective. */
     std::vector<GhostStencil>
     ghost_stencils(const MaterialPoints &points);
 
-    /** @throws InputError where the grid cannot follow */
+    /** @throws InputError if the grid cannot follow a segment */
     void
     begin_to_follow();
 
-    /** Lets the grid go where its side is. Collective. */
+    /** Moves the grid with its segment. Collective. */
     void
     follow_side();
 
-    /** Refuses what contact cannot do with particles. @throws InputError */
+    /** Rejects contact options not available with particles. @throws
+     *  InputError */
     void
     check_contact(const MaterialPoints &points) const;
 
-    /** Refuses what bodies that touch cannot do. @throws InputError */
+    /** Rejects options not available for contact between bodies. @throws
+     *  InputError */
     void
     check_bodies() const;
 
-    /** Why a step must not be taken, though it is solved; or nothing. */
+    /** Reason for rejection of a solved step, or empty. */
     std::string
     objection(const Multipliers::LightShare &share) const;
 
@@ -189,7 +194,7 @@ namespace geocone::GEOCONE_DIM
                    const Stage          *stage,
                    const bool            raised) override;
 
-    /** Adds what water at rest exerts on the soil. Collective. */
+    /** Adds the hydrostatic forces of water on the soil. Collective. */
     void
     add_water(const MaterialPoints &points, const double t, Vector &dst) const;
 
@@ -227,9 +232,9 @@ namespace geocone::GEOCONE_DIM
       return scene->gravity.at(t);
     }
 
-    /** Particles that stay keep their potential energy, whatever moves the nodes:
-     *  as with FEM, the work of the weight is that of an external force. Gravity
-     *  that changes works on points at rest. */
+    /** External work. Fixed particles keep their potential energy, whatever
+     *  moves the nodes: as in FEM, their weight is an external force. Changing
+     *  gravity does work on points at rest. */
     double
     external_work(const WorksOnNodes   &works,
                   const TimeStep       &step,
@@ -266,11 +271,11 @@ namespace geocone::GEOCONE_DIM
                  Kinematics              &kinematics,
                  Vector                  &difference) const override;
 
-    /** vL from momentum, where the mass is partly consistent. */
+    /** Computes vL from momentum with the partly consistent mass. */
     void
     solve_mass(Vector &velocity) const;
 
-    /** Why a particle may not go where trial.moved has it, or nothing.
+    /** Reason for rejection of the move of a particle to trial.moved, or empty.
      *  @param ratio of its volumes @param extent of its cell (m) */
     std::string
     objection_to_move(const MaterialPoints          &points,
@@ -280,9 +285,9 @@ namespace geocone::GEOCONE_DIM
                       const std::array<double, dim> &extent) const;
 
     /**
-     * Where the particles go by the node velocities v (at t_n + h) from vL,
-     * advected by v_mean: trial.moved.
-     * @return why they may not, or nothing
+     * Computes the new state trial.moved of particles from the node velocities
+     * v (at t_n + h), vL, and the advection velocity v_mean.
+     * @return reason for rejection, or empty
      */
     std::string
     transfer(const MaterialPoints &points,
@@ -290,7 +295,7 @@ namespace geocone::GEOCONE_DIM
              const Vector         &v_mean,
              const double          h);
 
-    /** From each start, until one of them leads to the end. */
+    /** Solves from each initial guess until one converges. */
     SolverReport
     solve(const TimeStep   &step,
           const Kinematics &kinematics,
@@ -298,26 +303,27 @@ namespace geocone::GEOCONE_DIM
           Vector           &v,
           Vector           &residual) override;
 
-    /** What gravity that changes in the step does to points at rest (J/m). */
+    /** Work of changing gravity in the step on points at rest (J/m). */
     double
     work_of_changing_gravity(const TimeStep       &step,
                              const MaterialPoints &points) const;
 
-    /** What the weight does to points that stay while others move: their potential
-     *  energy does not change, as with FEM (J/m). */
+    /** Work of the weight on fixed points among moving ones, whose potential
+     *  energy does not change, as in FEM (J/m). */
     double
     work_on_fixed_points(const TimeStep       &step,
                          const MaterialPoints &points) const;
 
-    /** Puts points back to the sides that are held, MovingConditions::put_back(). */
+    /** Returns penetrated points to prescribed boundary segments,
+     *  MovingConditions::put_back(). */
     void
     put_points_back(const MaterialPoints &points);
 
-    /** The largest coordinates of points (m). */
+    /** Largest coordinates of points (m). */
     dealii::Point<dim>
     front_of(const MaterialPoints &points) const;
 
-    /** The condition that holds a particle by itself, or null. */
+    /** Condition imposed on an individual particle, or null. */
     const BoundaryCondition *
     holder_of(const MaterialPoints &points, const unsigned int p) const;
 
@@ -334,10 +340,10 @@ namespace geocone::GEOCONE_DIM
                                   {"grid velocity", Start::nodes},
                                   {"particle velocity", Start::particles}}};
 
-    /** Which light functions have ghost stiffness. */
+    /** Selection of the low-mass functions with ghost stiffness. */
     enum class Ghosts
     {
-      loaded, ///< those that a side reaches that is held or loaded
+      loaded, ///< those at a loaded or prescribed segment
       all
     };
     Choice<Ghosts> ghosts = {
@@ -350,12 +356,12 @@ namespace geocone::GEOCONE_DIM
 
     std::string                  grid_follows; ///< a condition, or nothing
     std::optional<FollowingGrid> following;
-    bool nodes_moved = false; ///< since the constraints were made
+    bool nodes_moved = false; ///< since the setup of constraints
 
     Particles   particles;
     RankBalance balance;
 
-    unsigned int n_light = 0; ///< light functions of the present points
+    unsigned int n_light = 0; ///< low-mass functions of these points
 
     std::vector<Start> starts; ///< to be tried in this order
     dealii::Point<dim> datum;  ///< of the potential energy
@@ -366,13 +372,13 @@ namespace geocone::GEOCONE_DIM
     std::vector<bool>                 had_mass;     ///< nodes, in the last step
     std::vector<unsigned int>         added;        ///< materials, so far
 
-    /** Of the step that is being tried. */
+    /** State of the step that is being attempted. */
     struct Trial
     {
       std::vector<Moved>      moved;
       Multipliers::LightShare share;
       unsigned int            n_put_back = 0;  ///< points of all ranks
-      double                  put_back   = 0.; ///< how far at most (m)
+      double                  put_back   = 0.; ///< largest distance (m)
     };
     Trial trial;
   };

@@ -15,9 +15,10 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * An implicit step, of points that stay (ImplicitFEM) or move (ImplicitMPM): it gives
-   * the IncrementalProblem its step, has it solved, and keeps the books of an accepted
-   * one. Derived classes define points, mass, loads and the motion of points.
+   * Implicit step with fixed quadrature points (ImplicitFEM) or material points
+   * (ImplicitMPM): it sets up the IncrementalProblem, has it solved, and
+   * computes the balances of an accepted step. Derived classes define points,
+   * mass, loads and the motion of points.
    */
   class ImplicitStepper : public TimeStepper
   {
@@ -64,7 +65,8 @@ namespace geocone::GEOCONE_DIM
     }
 
   protected:
-    /** @param section of the timer: loads, and the update after a solved step */
+    /** @param section of the timer: loads, and the update after a solved
+     *  step */
     explicit ImplicitStepper(const char *section)
       : section(section)
     {}
@@ -82,23 +84,24 @@ namespace geocone::GEOCONE_DIM
     struct WorksOnNodes
     {
       double of_weight; ///< of points with a potential energy
-      double of_others; ///< loads, supports, absorbing sides, contact
+      double of_others; ///< loads, supports, dashpots, contact
     };
 
     /** @name Steps */
     /** @{ */
 
-    /** Makes mass, unknowns, problem and pattern: all that depends on t_n only.
-     *  Collective. @throws InputError or StepFailure if there is no such problem */
+    /** Sets up mass, unknowns, problem and pattern, which depend on t_n only.
+     *  Collective.
+     *  @throws InputError or StepFailure if there is no such problem */
     virtual void
     begin(MaterialPoints &points, dealii::TimerOutput &timer) = 0;
 
-    /** Whether there are external forces at all. */
+    /** Whether there are any external forces. */
     virtual bool
     has_force() const = 0;
 
-    /** External forces at time t, along x and y, but for those that fade.
-     *  @param dst its values do not count @param stage,raised as in Loads::evaluate() */
+    /** Evaluates external forces at time t, along x and y, except ramped ones.
+     *  @param dst overwritten @param stage,raised as in Loads::evaluate() */
     virtual void
     evaluate_force(Vector               &dst,
                    const MaterialPoints &points,
@@ -106,7 +109,8 @@ namespace geocone::GEOCONE_DIM
                    const Stage          *stage  = nullptr,
                    const bool            raised = false) = 0;
 
-    /** vL, and the rows H v = q of the step. @param prescribed velocities */
+    /** Sets vL and the rows H v = q of the step. @param prescribed
+     *  velocities */
     virtual void
     begin_motion(const TimeStep       &step,
                  const Kinematics     &kinematics,
@@ -127,8 +131,8 @@ namespace geocone::GEOCONE_DIM
           Vector           &v,
           Vector           &residual) = 0;
 
-    /** Finds where points go, by velocities v_end at t + h, moved by v.
-     *  @return why a step must not be taken, though it is solved; or nothing */
+    /** Computes the motion of points by v, with the velocities v_end at t + h.
+     *  @return reason for rejection of the solved step, or empty */
     virtual std::string
     try_move(const TimeStep & /* step */,
              const MaterialPoints & /* points */,
@@ -138,14 +142,14 @@ namespace geocone::GEOCONE_DIM
       return "";
     }
 
-    /** Moves boundaries with the points, once the step is accepted. */
+    /** Moves boundaries with the points after a step is accepted. */
     virtual void
     accept_move(const TimeStep & /* step */,
                 const MaterialPoints & /* points */,
                 const Vector & /* v */)
     {}
 
-    /** Whether obstacles change their place. */
+    /** Whether obstacles change their position. */
     virtual bool
     moves_obstacles() const
     {
@@ -159,7 +163,7 @@ namespace geocone::GEOCONE_DIM
       return {};
     }
 
-    /** The work of external forces on the points (J/m). */
+    /** Work of external forces on the points (J/m). */
     virtual double
     external_work(const WorksOnNodes &works,
                   const TimeStep & /* step */,
@@ -168,19 +172,21 @@ namespace geocone::GEOCONE_DIM
       return works.of_others;
     }
 
-    /** Gives the points their state at the end of the step.
+    /** Updates the state of the points to the end of the step.
      *  @return the dissipation (J/m) */
     virtual double
     update_points(const TimeStep &step, MaterialPoints &points) = 0;
 
-    /** Updates the nodes. @return energy dissipated when contact settles (J/m) */
+    /** Updates the nodes. @return energy dissipated by
+     *  ObstacleContact::settle() (J/m) */
     virtual double
     update_nodes(const TimeStep &step,
                  const Vector   &v_end,
                  const Vector   &v,
                  Kinematics     &kinematics) = 0;
 
-    /** Ends an accepted step, after which points may be in other cells, or gone. */
+    /** Completes an accepted step, after which points may have changed cells or
+     *  left. */
     virtual void
     finish(const TimeStep & /* step */,
            const NonsmoothNewton & /* newton */,
@@ -191,7 +197,7 @@ namespace geocone::GEOCONE_DIM
     {}
     /** @} */
 
-    /** @name Changes of the body, of which they give remarks. Collective. */
+    /** @name Changes of the body, with remarks as results. Collective. */
     /** @{ */
     virtual void
     remove(const Stage              &stage,
@@ -202,15 +208,15 @@ namespace geocone::GEOCONE_DIM
         MaterialPoints           &points,
         std::vector<std::string> &remarks) = 0;
 
-    /** Updates the nodes after a change of the body, and restricts the change of forces
-     *  to its nodes. @param had_mass before it, by dof */
+    /** Updates the nodes after a change of the body, and restricts the change
+     *  of forces to its nodes. @param had_mass before it, by dof */
     virtual void
     change_nodes(const std::vector<bool> &had_mass,
                  Kinematics              &kinematics,
                  Vector                  &difference) const = 0;
     /** @} */
 
-    /** Velocity from which the problem's step begins: vL, or Newmark's prediction. */
+    /** Initial velocity of the problem's step: vL, or Newmark's prediction. */
     const Vector &
     start_velocity() const
     {
@@ -231,17 +237,18 @@ namespace geocone::GEOCONE_DIM
     bool                                has_pattern = false; ///< of begin()
     FadingForces                        fading;              ///< along x and y
     Vector                              lumped_mass;
-    Vector                              velocity_L; ///< along turned dofs
-    Vector                              force;      ///< along turned dofs
+    Vector                              velocity_L; ///< along rotated dofs
+    Vector                              force;      ///< along rotated dofs
 
   private:
-    /** External forces less the internal ones at time t, along x and y, but for those
-     *  that fade. */
+    /** External less internal forces at time t, along x and y, except ramped
+     *  ones. */
     Vector
     net_force(const MaterialPoints &points, const double t);
 
-    /** Gives the problem the step: loads, prescribed velocities, what touches.
-     *  @return the loads that it raises. Collective. */
+    /** Sets up the step of the problem: loads, prescribed velocities, potential
+     *  contacts.
+     *  @return the loads controlled by a load factor. Collective. */
     RaisedLoads
     begin_step(const TimeStep       &step,
                const Kinematics     &kinematics,
@@ -253,8 +260,8 @@ namespace geocone::GEOCONE_DIM
                    const Vector   &v,
                    const Vector   &residual) const;
 
-    /** Works of a solved step but for the dissipation, contact, and the defect of
-     *  the energy identity, for the report; of points as they were at t_n. */
+    /** Adds the works of a solved step to the report, except dissipation and
+     *  contact, and the defect of the energy identity, with points at t_n. */
     void
     take_works(const TimeStep       &step,
                const MaterialPoints &points,
@@ -262,8 +269,8 @@ namespace geocone::GEOCONE_DIM
                const Vector         &residual,
                StepReport           &report) const;
 
-    /** Displacements of what conditions hold, and reactions of those that are
-     *  imposed on the body. */
+    /** Updates displacements of supports, and reactions of conditions imposed
+     *  on the body. */
     void
     update_supports(const TimeStep        &step,
                     const Vector          &v,

@@ -12,21 +12,21 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * The loads F that a stage raises, in one step of FEM or MPM: while it is solved a
-   * row of the multipliers, whose multiplier is their factor (doc/theory/stages.md),
-   * and after that loads like others.
+   * Loads F of a stage with load stepping, in one step of FEM or MPM: in the
+   * solution a row of the multipliers, whose multiplier is the load factor
+   * (doc/theory/stages.md); afterwards ordinary loads.
    */
   class RaisedLoads
   {
   public:
-    /** @throws InputError where a stage raises loads beside obstacles */
+    /** @throws InputError for a stage with load stepping and obstacles */
     static void
     check(const Scene &scene);
 
     /**
      * Adds the row. Collective.
      * @param force F @param prescribed the prescribed velocities
-     * @throws StepFailure if F can move nothing
+     * @throws StepFailure if F cannot move the body
      */
     void
     add_row(const Stage  &stage,
@@ -35,9 +35,10 @@ namespace geocone::GEOCONE_DIM
             Constraints  &constraints);
 
     /**
-     * Adds them to the force, and takes them from what supports must bear.
+     * Adds the loads to the force, and subtracts them from the reactions of
+     * supports.
      * @param lambda the multipliers of the solved step
-     * @return their factor; 1 where none are raised
+     * @return the load factor; 1 without load stepping
      */
     double
     take(const Constraints     &constraints,

@@ -15,30 +15,30 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** How a step from t to t + h is integrated. */
+  /** Time integration of a step from t to t + h. */
   enum class Integration
   {
     backward_euler,
 
-    /** The theta-scheme with theta = 1/2: of order two; elastic motion loses no energy.
-     *  Nodes in contact stay at u_mid = -g/h, whose force does no positive work: energy
-     *  never grows. */
+    /** Theta-scheme with theta = 1/2: of order two, without loss of energy in
+     *  elastic motion. Nodes in contact stay at u_mid = -g/h, whose force does
+     *  no positive work: energy never grows. */
     midpoint,
 
-    /** Backward Euler over theta h, and all that is linear in time extrapolated from
-     *  there to t + h. */
+    /** Backward Euler over theta h, with linear extrapolation of all quantities
+     *  to t + h. */
     theta_scheme,
 
     /** Newmark's formulas for displacement and velocity; the law holds at t + h. */
     newmark
   };
 
-  /** A step from t to t + h, and the problem that is solved for it: backward Euler for a
-   *  velocity v, by which points move h v. */
+  /** A step from t to t + h, and the problem solved for it: backward Euler for
+   *  a velocity v, by which points move h v. */
   struct TimeStep
   {
     double t, h;
-    double solved_h;      ///< of strain increments: theta h, or h
+    double solved_h;      ///< strain increments: theta h, or h
     double solved_at;     ///< time of loads and stresses
     double prescribed_at; ///< time of prescribed velocities
 
@@ -47,7 +47,7 @@ namespace geocone::GEOCONE_DIM
     double corrector;     ///< h (1/2 - gamma + beta) by Newmark, or 0 (s)
     double start_part; ///< of s^n in the stress that dissipates: 1/2 by Newmark
 
-    /** Of stresses, strains and dissipation: 1/theta, or 1. */
+    /** Extrapolation of stresses, strains and dissipation: 1/theta, or 1. */
     double
     stress_extrapolation() const
     {
@@ -56,16 +56,18 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * Integration in time of the steps of FEM and implicit MPM.
+   * Time integration of the steps of FEM and implicit MPM.
    *
-   * Theta-scheme, theta in [1/2, 1] (1: backward Euler, 1/2: midpoint rule): the problem
-   * is solved over theta h from v^n, s^n, and v^{n+1} = v^n + (v - v^n)/theta.
+   * Theta-scheme, theta in [1/2, 1] (1: backward Euler, 1/2: midpoint rule):
+   * the problem is solved over theta h from v^n, s^n, and v^{n+1} = v^n + (v -
+   * v^n)/theta.
    *
    * Newmark (gamma, beta): with M a = F - sum V B's at t_n and t_{n+1},
    *   h v = u^{n+1} - u^n = h v^n + h^2 ((1/2 - beta) a^n + beta a^{n+1}),
    *   v^{n+1} = v^n + h ((1 - gamma) a^n + gamma a^{n+1}).
-   * The problem is solved over h with the mass M/beta from vL = v^n + h (1/2 - beta) a^n.
-   * No acceleration is stored: a^n follows from forces and stresses at t_n.
+   * The problem is solved over h with the mass M/beta from vL = v^n + h (1/2 -
+   * beta) a^n. No acceleration is stored: a^n follows from forces and stresses
+   * at t_n.
    */
   class TimeIntegration
   {
@@ -91,7 +93,7 @@ namespace geocone::GEOCONE_DIM
       return rule == Integration::newmark;
     }
 
-    /** The word of the parameter. */
+    /** Value of the parameter. */
     std::string
     word() const
     {
@@ -101,14 +103,16 @@ namespace geocone::GEOCONE_DIM
     TimeStep
     step(const double t, const double h) const;
 
-    /** The mass of the problem that is solved: M, or M/beta, which is kept here. */
+    /** Mass of the problem that is solved: M, or M/beta, which is stored
+     *  here. */
     const Vector &
     mass_of_problem(const Vector &lumped_mass);
 
     /**
-     * Newmark's prediction: v += h (1/2 - beta) a, a = M^-1 f; prescribed velocities have
-     * their mean acceleration in the step.
-     * @param net_force f at t_n, external less internal forces, along turned dofs
+     * Newmark's prediction: v += h (1/2 - beta) a, a = M^-1 f; prescribed
+     * velocities have their mean acceleration in the step.
+     * @param net_force f at t_n, external less internal forces, along rotated
+     * dofs
      */
     void
     predict(const TimeStep    &step,
@@ -117,7 +121,7 @@ namespace geocone::GEOCONE_DIM
             const Constraints &constraints,
             Vector            &velocity);
 
-    /** vL + e (v - vL) + h (1/2 - gamma + beta) a, the velocity at t + h. */
+    /** Velocity at t + h: vL + e (v - vL) + h (1/2 - gamma + beta) a. */
     Vector
     end_velocity(const TimeStep &step,
                  const Vector   &velocity_L,
@@ -129,7 +133,7 @@ namespace geocone::GEOCONE_DIM
     void
     check_theta_scheme(const Scene &scene, const std::string &section) const;
 
-    /** 1 by backward Euler, 1/2 by the midpoint rule. */
+    /** Theta: 1 for backward Euler, 1/2 for the midpoint rule. */
     double
     theta_of_rule() const;
 
@@ -149,14 +153,14 @@ namespace geocone::GEOCONE_DIM
   {
     Mandel stress;
     Mandel plastic;     ///< strain increment of the step
-    double slip;        ///< its norm, with what is out of the plane
+    double slip;        ///< its norm, including out-of-plane parts
     double dissipation; ///< of the step, per volume (J/m^3)
   };
 
   /**
-   * From what was solved for: by the theta-scheme the stress is extrapolated, and
-   * taken back into what the soil can bear, by plastic strain. Gives the points their
-   * histories, and nothing else yet.
+   * State of the points at the end of the step from the solution. In the
+   * theta-scheme the extrapolated stress is returned to the admissible set, by
+   * plastic strain. Updates only the histories of the points.
    */
   std::vector<EndOfStep>
   end_step(const TimeStep       &step,
