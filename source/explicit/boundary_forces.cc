@@ -54,7 +54,7 @@ namespace geocone::GEOCONE_DIM
                        "explicit MPM",
                        "leave the last nodes out by a Box, or set "
                        "Discretisation/Method = MPM");
-    // Those that stay zero are read as well.
+    // Values that stay zero are also read.
     for (Vector *vector : {&tractions, &coefficient, &incoming})
       vector->update_ghost_values();
   }

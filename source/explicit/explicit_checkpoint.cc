@@ -1,7 +1,7 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// The state of the explicit material point method as part of a checkpoint.
+// State of the explicit material point method in a checkpoint.
 #include <geocone/base/exceptions.h>
 #include <geocone/explicit/explicit_mpm.h>
 #include <geocone/points/point_record.h>
@@ -64,7 +64,7 @@ namespace geocone::GEOCONE_DIM
           group.add_row(p, rows);
         archive.write("points " + std::to_string(g), rows);
       }
-    // The run that goes on and one that is resumed start from the same nodes.
+    // Continued and resumed runs thus start from the same nodes.
     must_refresh = true;
   }
 
@@ -77,21 +77,22 @@ namespace geocone::GEOCONE_DIM
                        n_ranks = Utilities::MPI::n_mpi_processes(comm);
     if (archive.n_ranks_of(name) == n_ranks || transfer->takes_any_point())
       return archive.read_part(name, size);
-    // Other ranks than before: each point goes to the lowest one that finds it.
+    // With another number of ranks, each point goes to the lowest one that
+    // finds it.
     const std::vector<double> all = archive.read(name);
     std::vector<unsigned int> owner(all.size() / size, n_ranks);
     for (std::size_t i = 0; i < owner.size(); ++i)
       {
         Point<dim> x;
         for (unsigned int d = 0; d < dim; ++d)
-          x[d] = all[i * size + d]; // the first numbers of a row
+          x[d] = all[i * size + d]; // at the beginning of a row
         if (transfer->owns(x))
           owner[i] = rank;
       }
     Utilities::MPI::min(owner, comm, owner);
     std::vector<double> own;
     for (std::size_t i = 0; i < owner.size(); ++i)
-      if (owner[i] % n_ranks == rank) // nobody's are the first one's
+      if (owner[i] % n_ranks == rank) // points without owner go to the first
         own.insert(own.end(), &all[i * size], &all[i * size] + size);
     return own;
   }
@@ -101,7 +102,7 @@ namespace geocone::GEOCONE_DIM
   {
     StateRow of_all = archive.read_row("explicit");
     state_of_all(of_all);
-    // Sums of ranks that are not there any more go to the first one.
+    // Sums of ranks that no longer exist go to the first one.
     StateRow mine;
     state_of_ranks(mine);
     const std::size_t         size          = mine.values().size();
@@ -115,7 +116,7 @@ namespace geocone::GEOCONE_DIM
     else if (rank == 0)
       for (unsigned int i = 0; i < n * size; ++i)
         if ((i + 1) % size == 0)
-          own[size - 1] = std::max(own[size - 1], sums_of_ranks[i]); // most
+          own[size - 1] = std::max(own[size - 1], sums_of_ranks[i]); // maxima
         else
           own[i % size] += sums_of_ranks[i];
     else

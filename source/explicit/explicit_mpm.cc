@@ -31,7 +31,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** @name What a pass does to the points */
+    /** @name Updates of the points in a pass */
     /** @{ */
     //                                        strain velocity position
     constexpr Update nothing               = {false, false, false};
@@ -42,7 +42,7 @@ namespace geocone::GEOCONE_DIM
     constexpr Update everything            = {true, true, true};
     /** @} */
 
-    /** @throws InputError if a stage has more steps than any run can do */
+    /** @throws InputError if a stage has more steps than any run can perform */
     void
     check_number_of_steps(const LoadingProgramme &loading,
                           const double            fixed_step,
@@ -341,8 +341,8 @@ namespace geocone::GEOCONE_DIM
       if (boundary)
         boundary->move(*transfer, dt);
     };
-    // A transfer that must be refreshed before the next step would be given what
-    // that needs in vain.
+    // Data for the next step would be useless if the transfer is refreshed
+    // before it.
     const bool gives_next = !transfer->moves_each_step();
     const auto gives      = [&](const Gives what) {
       return gives_next ? what : Gives::nothing;
@@ -453,7 +453,7 @@ namespace geocone::GEOCONE_DIM
                 "\n  remedy:  take a smaller 'Explicit/Time step', or 0 for "
                 "the largest stable one");
           }
-        // Land on the end exactly, without a sliver before it.
+        // Ends exactly, without a tiny last step.
         const double left = end - now;
         const bool   last = left <= dt * (1. + 1e-9);
         if (last)
@@ -464,7 +464,7 @@ namespace geocone::GEOCONE_DIM
         last_step = dt;
         now       = last ? end : now + dt;
         gather_sums();
-        // The end of a record shows and tests velocities as they are.
+        // The end of a record outputs and tests unmodified velocities.
         if (stage.kinetic_damping && !last)
           stop_at_peak();
         if (fade_end > 0. && now >= fade_end * (1. - 1e-12))
@@ -476,7 +476,7 @@ namespace geocone::GEOCONE_DIM
         if (asked_to_stop > 0 && now < end)
           throw Stopped(asked_to_stop);
       }
-    // Those that have left are found before anybody looks.
+    // Detects points that have left before any evaluation.
     if (must_refresh)
       refresh();
     report.unbalanced_force =

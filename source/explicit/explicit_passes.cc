@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// What a pass of the explicit material point method does with its points, block by
-// block: they take from the nodes, follow their law, move, and give to the nodes.
+// Passes of the explicit material point method over its points, block by block:
+// they gather from the nodes, update stresses, move, and scatter to the nodes.
 #include <geocone/base/log.h>
 #include <geocone/base/stopwatch.h>
 #include <geocone/explicit/explicit_mpm.h>
@@ -50,7 +50,7 @@ namespace geocone::GEOCONE_DIM
     const bool      gives_force = gives == Gives::force || gives == Gives::all;
     if (gives_force)
       hoop_force = 0.;
-    // Means of the stress in a cell need that of all its points.
+    // Cell means of the stress need the stress at all points.
     const bool later = b_bar && gives_force;
     if (b_bar && update.strain)
       average_in_cells([&](const TransferBlock &points) {
@@ -180,7 +180,7 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** tr s/dim of a point of a block (Pa). */
+    /** Mean stress tr s/dim of a point of a block (Pa). */
     double
     mean_stress(const TransferBlock &points, const unsigned int k)
     {
@@ -238,7 +238,7 @@ namespace geocone::GEOCONE_DIM
           r -= dt * scratch.gathered[BlockScratch::n_gathered * k];
         const double rate = hoop_rate(k, r);
         scratch.l_zz[k]   = dt * rate;
-        if (b_bar) // the mean has it, too
+        if (b_bar) // included in the mean
           scratch.divergence[k] -= rate;
       }
   }
@@ -316,7 +316,7 @@ namespace geocone::GEOCONE_DIM
                        "or 'Explicit/Time step'",
                        group.id[p],
                        text_of_place(place).c_str());
-            nearest = transfer->stored_place(); // the run ends anyhow
+            nearest = transfer->stored_place(); // the run terminates anyway
           }
         else if (outside && p < end)
           {

@@ -1,9 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// What the explicit material point method starts from, and what its stages do
-// beyond stepping: resets, cuts, kinetic damping, and the equilibrium that they must
-// end in.
+// Setup of the explicit material point method, and its stages beyond stepping:
+// resets, removals, kinetic damping, and the required final equilibrium.
 #include <geocone/base/exceptions.h>
 #include <geocone/base/log.h>
 #include <geocone/explicit/explicit_mpm.h>
@@ -273,7 +272,7 @@ namespace geocone::GEOCONE_DIM
     PointArrays &group = groups[points.group];
     for (unsigned int k = 0; k < points.n; ++k)
       {
-        // The cross-section that is left shrinks; what goes is counted.
+        // The remaining cross-section shrinks; the removed part is counted.
         const unsigned int p = points.first + k;
         const double       m = group.mass[p];
         sum.removed_energy += (1. - fade) * kinetic_energy(group, p);
@@ -328,7 +327,7 @@ namespace geocone::GEOCONE_DIM
   void
   ExplicitMPM::end_removal()
   {
-    // What rounding has left of the points goes with them.
+    // Remainders of the points by rounding are removed with them.
     for (PointArrays &group : groups)
       if (group.fading)
         for (unsigned int p = 0; p < group.n_points(); ++p)
@@ -349,8 +348,8 @@ namespace geocone::GEOCONE_DIM
   {
     const std::string section = "'Loading/" + stage.name + "/";
     const double      weight  = state.mass * gravity.norm();
-    // Of this stage; not less than a thousandth of what the weight would do over
-    // a cell, for a stage that starts at rest does next to nothing.
+    // Work of this stage, at least a thousandth of the work of the weight over
+    // a cell, since a stage that starts at rest does almost no work.
     const double work =
       std::max(std::abs(exchange().stress_work - stage_start.stress_work),
                1e-3 * weight * transfer->cell_size());

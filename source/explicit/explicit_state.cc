@@ -1,8 +1,8 @@
 // Copyright (C) 2026 by the geocone authors
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-// What the explicit material point method tells of its points: sums and extremes
-// of all ranks.
+// Sums and extrema of the points of the explicit material point method, over
+// all ranks.
 #include <geocone/base/over_ranks.h>
 #include <geocone/explicit/explicit_mpm.h>
 
@@ -34,7 +34,8 @@ namespace geocone::GEOCONE_DIM
 
   namespace
   {
-    /** Sums of all ranks in place of their own, and largest values. Collective. */
+    /** Replaces sums and maxima of each rank by those of all ranks.
+     *  Collective. */
     void
     gather_totals(ExplicitState &s, const MPI_Comm comm)
     {
@@ -50,7 +51,8 @@ namespace geocone::GEOCONE_DIM
         Utilities::MPI::max(s.largest_plastic_strain, comm);
     }
 
-    /** The limiting point of all ranks in place of that of each. Collective.
+    /** Replaces the limiting point of each rank by that of all ranks.
+     *  Collective.
      *  @param fastest its c^2, < 0 without points */
     void
     find_limiting_point(double fastest, const MPI_Comm comm, ExplicitState &s)
@@ -74,7 +76,7 @@ namespace geocone::GEOCONE_DIM
   ExplicitMPM::state() const
   {
     ExplicitState s;
-    // Of the whole gravity, also while it grows.
+    // With the full gravity, also while it increases.
     const Tensor<1, dim> g = scene->gravity.at(1e300);
     double               bounds[2 * dim];
     std::fill_n(bounds, 2 * dim, 1e300);
@@ -88,7 +90,7 @@ namespace geocone::GEOCONE_DIM
             const double     m = group.mass[p];
             const Point<dim> x = group.position.of(p);
             if (!(m > 0.))
-              continue; // it has left
+              continue; // has left the mesh
             ++s.n_points;
             const Tensor<1, dim> v = group.velocity.of(p);
             s.mass += m;
@@ -143,7 +145,7 @@ namespace geocone::GEOCONE_DIM
                              double       left,
                              double       right) const
   {
-    // The mass in equal parts of the range, and again in the part that matters.
+    // Refines the interval that contains the quantile, in equal parts.
     double before = 0.;
     for (unsigned int round = 0; round < 2 && right > left; ++round)
       {

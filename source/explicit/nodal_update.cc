@@ -81,7 +81,7 @@ namespace geocone::GEOCONE_DIM
         v                   = prescribed_velocity(node, t);
         if (!node.mine)
           continue;
-        // PIC gives the points what the condition has changed.
+        // PIC transfers the change by the condition to the points.
         const double impulse = (1. - flip_part) * m * (v - before);
         add_impulse(node, impulse);
         sum.support_work += impulse * v;
@@ -221,14 +221,14 @@ namespace geocone::GEOCONE_DIM
   void
   NodalUpdate::damp(const Step &step)
   {
-    // Not of held components, whose force is a reaction.
+    // Without prescribed components, whose force is a reaction.
     const double *read  = transfer.read.data();
     const auto    force = [&](const unsigned int i, const unsigned int d) {
       const double F = std::abs(force_at(i, d));
       if (is_held[dim * i + d] || !(transfer.mass[i] > least_mass) || F == 0.)
         return 0.;
-      // The sign of the velocity, continuous where it is small against its
-      // change in the step: rounding must not decide on a force.
+      // Sign of the velocity, continuous if it is small compared with its
+      // change in the step: rounding must not determine a force.
       const double v =
         read[node_size * i + d] * transfer.mass[i] / (step.dt * F);
       return -step.damping * F * std::max(-1., std::min(1., v));

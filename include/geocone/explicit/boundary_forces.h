@@ -14,35 +14,37 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * What acts in explicit steps on sides: tractions T on those of the body, which move
-   * with it, and dashpots on those of the mesh through which waves leave
-   * (AbsorbingBoundary). A dashpot takes the mean velocity of the step,
+   * Boundary forces in explicit steps: tractions T on segments of the body,
+   * which move with it, and dashpots on absorbing boundaries of the mesh
+   * (AbsorbingBoundary). A dashpot uses the mean velocity of the step,
    *   m (v' - v)/dt = f + T + 2 C v_in - C (v + v')/2,
    * which is stable for steps of any size. The nodes are those of MeshTransfer.
    */
   class BoundaryForces
   {
   public:
-    /** @throws InputError for sides that the body or the mesh has not, or that are
-     *  oblique and absorb */
+    /** @throws InputError for sides that the body or the mesh does not have, or
+     *  that are oblique and absorbing */
     BoundaryForces(const Scene          &scene,
                    const BackgroundMesh &mesh,
                    const Space          &space);
 
-    /** After BackgroundMesh::repartition(), and Space::follow_ranks(). Collective. */
+    /** Updates the data after BackgroundMesh::repartition() and
+     *  Space::follow_ranks(). Collective. */
     void
     follow_ranks();
 
-    /** Evaluates what acts in the middle of a step, at time t. Collective.
-     *  @throws StepFailure if a loaded side has left the mesh */
+    /** Evaluates the boundary forces in the middle of a step, at time t.
+     *  Collective.
+     *  @throws StepFailure if a loaded segment has left the mesh */
     void
     begin_step(const double t);
 
-    /** Adds the tractions to the forces that points have written. */
+    /** Adds the tractions to the forces written by the points. */
     void
     add_tractions(GridTransfer &nodes) const;
 
-    /** What tractions and dashpots have done in a step, of this rank. */
+    /** Work and impulse of tractions and dashpots in a step, of this rank. */
     struct Done
     {
       double                 work = 0.; ///< (J/m)
@@ -50,7 +52,7 @@ namespace geocone::GEOCONE_DIM
     };
 
     /**
-     * Adds the dashpots to all other forces, for the velocities that are read.
+     * Adds the dashpots to all other forces, for the velocities to be read.
      * @param least_mass nodes with this mass or less have no velocity
      * @param is_held per node and component
      */
@@ -60,11 +62,11 @@ namespace geocone::GEOCONE_DIM
                  const double                      least_mass,
                  const std::vector<unsigned char> &is_held) const;
 
-    /** Moves the loaded sides with the nodes, over a step. Collective. */
+    /** Moves the loaded segments with the nodes over a step. Collective. */
     void
     move(const GridTransfer &nodes, const double dt);
 
-    /** The places of the sides, for a checkpoint. */
+    /** Positions of the segments, for a checkpoint. */
     void
     state(StateRow &row)
     {

@@ -26,8 +26,8 @@
 
 namespace geocone::GEOCONE_DIM
 {
-  /** The state of the points at one time, of all ranks. Its reactions are those of the
-   *  ExplicitReport of the step. */
+  /** State of the points at one time, over all ranks. Its reactions are those
+   *  of the ExplicitReport of the step. */
   struct ExplicitState : StepEnd
   {
     unsigned long          n_points = 0;
@@ -37,12 +37,12 @@ namespace geocone::GEOCONE_DIM
     /** About the axes of n_rotations through the origin. */
     dealii::Tensor<1, n_rotations> angular_momentum;
     dealii::Point<dim> lower, upper; ///< bounds of the positions (m)
-    /** 1 and 99 % of the mass lie left of these (m). */
+    /** Positions with 1 and 99 % of the mass on their left (m). */
     double left_front = 0., right_front = 0.;
     double largest_speed = 0.; ///< (m/s)
 
-    /** The point that limits the step, that with the fastest elastic wave: its
-     *  number, place and wave speed. */
+    /** Point with the fastest elastic wave, which limits the step: its number,
+     *  position and wave speed. */
     unsigned int       limiting_id = 0;
     dealii::Point<dim> limiting_place;
     double             limiting_wave_speed = 0.;
@@ -67,7 +67,7 @@ namespace geocone::GEOCONE_DIM
     }
   };
 
-  /** What happened between two records. */
+  /** Statistics of the explicit steps between two records. */
   struct ExplicitReport
   {
     unsigned int n_steps       = 0;
@@ -79,7 +79,7 @@ namespace geocone::GEOCONE_DIM
     /** Mean force on the body per condition, and mean moment. */
     std::vector<Reaction> reactions;
 
-    /** Of a step that has not ended: without reactions. */
+    /** Checkpoint data of an incomplete step: without reactions. */
     void
     state(StateRow &row)
     {
@@ -88,22 +88,22 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * The explicit material point method of the STSM report (section 2): many small
-   * steps, each as long as the elastic wave allows,
+   * The explicit material point method of the STSM report (section 2): many
+   * small steps, each as long as the elastic wave allows,
    *   dt = C h/(c + v),  c^2 = max M V/m,  v = max |v_p|.
-   * With N at the start of the step, and conditions on the sides of the grid, the
-   * three orders of operations are
+   * With N at the start of the step, and conditions on the sides of the grid,
+   * the three orders of operations are
    *   MUSL: a = F/m; v_p += dt sum N a; v = sum m_p v_p N/m; stress; x_p += dt
    *         sum N v   (the report's eleven steps);
    *   USL:  a = F/m; v = sum m_p v_p N/m + dt a; v_p += dt sum N a; stress; x_p;
    *   USF:  v = sum m_p v_p N/m; stress; a = F/m; v_p += dt sum N a; x_p.
-   * Neither divides by the mass of a node but where the quotient is bounded or
-   * is multiplied by N again; only nodes with less than 1e-14 of the largest
-   * point's mass are passed over, and counted.
+   * The mass of a node is a divisor only in bounded quotients or if the
+   * quotient is multiplied by N again. Nodes with less than 1e-14 of the
+   * largest point's mass are skipped and counted.
    *
-   * Passes over the points work on blocks that stay in cache, with the points
-   * sorted by cell now and then. What one step writes for the next is written
-   * while the points are at hand: USL passes over them once, the others twice.
+   * Passes over the points process blocks that stay in cache, with the points
+   * occasionally sorted by cell. Each step writes the data for the next in its
+   * last pass: USL makes one pass per step, the others two.
    */
   class ExplicitMPM : public dealii::ParameterAcceptor
   {
@@ -112,14 +112,14 @@ namespace geocone::GEOCONE_DIM
 
     /**
      * Seeds the body.
-     * @return remarks on what was found or changed
+     * @return remarks on findings and changes
      * @throws InputError
      */
     std::vector<std::string>
     prepare(const Scene &scene, const Method &method);
 
     /**
-     * What a stage does before its first step: resets, and points to be removed.
+     * Begins a stage: resets, and points to be removed.
      * @return remarks
      * @throws StepFailure if it removes no point, or all of them
      */
@@ -127,9 +127,9 @@ namespace geocone::GEOCONE_DIM
     begin_stage(const Stage &stage, const double t);
 
     /**
-     * Steps from t to t + h, or from where it was stopped to t + h.
+     * Advances from t, or from where it was stopped, to t + h.
      * @throws Stopped, at the end of an explicit step
-     * @throws StepFailure where points leave the grid, volumes vanish, values are
+     * @throws StepFailure if points leave the grid, volumes vanish, values are
      * not finite, or a prescribed step is unstable
      */
     ExplicitReport
@@ -141,7 +141,7 @@ namespace geocone::GEOCONE_DIM
                       const ExplicitState  &state,
                       const ExplicitReport &report) const;
 
-    /** @name All ranks must ask together */
+    /** @name Collective functions */
     /** @{ */
     ExplicitState
     state() const;
@@ -151,7 +151,7 @@ namespace geocone::GEOCONE_DIM
     law_counts() const;
     /** @} */
 
-    /** The points of this rank, a group per material. */
+    /** Points of this rank, a group per material. */
     const std::vector<PointArrays> &
     points() const
     {
@@ -164,7 +164,7 @@ namespace geocone::GEOCONE_DIM
       return *transfer;
     }
 
-    /** How many points this rank has. */
+    /** Number of points of this rank. */
     unsigned long
     n_points_of_rank() const
     {
@@ -187,22 +187,22 @@ namespace geocone::GEOCONE_DIM
       return order.word();
     }
 
-    /** @name The state, as part of a checkpoint. Collective. */
+    /** @name State, as part of a checkpoint. Collective. */
     /** @{ */
     void
     save(Archive &archive);
 
-    /** In place of what prepare() has seeded.
+    /** Replaces the points seeded by prepare().
      *  @throws RunError if it does not fit */
     void
     load(const Archive &archive);
     /** @} */
 
-    /** Bytes of points and nodes of this rank. */
+    /** Memory of points and nodes of this rank in bytes. */
     std::size_t
     memory() const;
 
-    /** Seconds of wall time in the parts of the steps. */
+    /** Wall time of the parts of the steps in seconds. */
     struct Seconds
     {
       double passes = 0., grid = 0., exchange = 0., refresh = 0.;
@@ -213,11 +213,12 @@ namespace geocone::GEOCONE_DIM
       return clock;
     }
 
-    /** Explicit steps, and points times steps, since the start on this rank. */
+    /** Number of explicit steps, and of points times steps, since the start on
+     *  this rank. */
     unsigned long n_steps       = 0;
     double        n_point_steps = 0.;
 
-    /** The mesh that points move through, and where they come from. */
+    /** Background mesh, and seeding of the points. */
     BackgroundMesh &
     background_mesh()
     {
@@ -237,7 +238,7 @@ namespace geocone::GEOCONE_DIM
       usf
     };
 
-    /** What a pass gives to the nodes. */
+    /** Data transferred to the nodes in a pass. */
     enum class Gives
     {
       nothing,
@@ -250,27 +251,28 @@ namespace geocone::GEOCONE_DIM
     void
     check_parameters() const;
 
-    /** Makes the grid, that of boxes without forces on sides if it can, or a mesh, and
-     *  the points in it. */
+    /** Makes the transfer, on a uniform grid if possible without forces on
+     *  sides, otherwise on a mesh, and the points in it. */
     void
     make_transfer(const Method &method, std::vector<std::string> &remarks);
 
-    /** Makes the points of a uniform grid: those of each rank where they belong. */
+    /** Seeds the points of a uniform grid on the ranks that own their
+     *  positions. */
     void
     seed_columns(const CartesianGrid &grid, std::vector<std::string> &remarks);
 
-    /** Room for points of a material. */
+    /** Allocates points of a material. */
     PointArrays
     make_group(const unsigned int material) const;
 
-    /** Makes the points. @param n their numbers on this rank by material
+    /** Creates the points. @param n their numbers on this rank by material
      *  @param for_each calls its argument with each seed of this rank */
     void
     seed_points(const std::vector<std::size_t>                   &n,
                 const std::function<void(const Seeding::Take &)> &for_each,
                 std::vector<std::string>                         &remarks);
 
-    /** Takes the points that a stage removes away, or begins to. */
+    /** Removes points by a stage, or begins their removal. */
     std::string
     remove_points(const Stage &stage, const double t);
 
@@ -280,12 +282,13 @@ namespace geocone::GEOCONE_DIM
     TransferBlock
     block(const unsigned int group, const unsigned int first);
 
-    /** A pass over all points, which take from the nodes, and give to them. */
+    /** A pass over all points, which gather from the nodes and scatter to
+     *  them. */
     void
     pass(const Update update, const Gives gives, const double dt);
 
-    /** What a block of points takes from the nodes in a pass: velocities, strains by
-     *  which it follows its law, places. */
+    /** Gathers velocities and strains from the nodes for a block of points, and
+     *  updates stresses and positions. */
     void
     take(const Update update, const double dt, const TransferBlock &points);
     void
@@ -293,33 +296,35 @@ namespace geocone::GEOCONE_DIM
                const double         dt,
                const TransferBlock &points);
 
-    /** Adds where they are to the sums, and mends what has left the stored nodes. */
+    /** Adds the bounds of positions, and treats points outside the stored
+     *  nodes. */
     void
     bound_positions(const TransferBlock &points);
 
-    /** What a block of points gives to the nodes in a pass. */
+    /** Scatters the data of a block of points to the nodes. */
     void
     give(const Gives gives, const TransferBlock &points);
 
     void
     for_each_block(const std::function<void(const TransferBlock &)> &action);
 
-    /** @name With B-bar */
+    /** @name B-bar */
     /** @{ */
-    /** Sums values of points over the cells. Collective. */
+    /** Averages values of points over the cells. Collective. */
     void
     average_in_cells(
       const std::function<const double *(const TransferBlock &)> &values_at);
 
-    /** BlockScratch::mean_stress at the points. */
+    /** Computes BlockScratch::mean_stress at the points. */
     void
     find_mean_stress(const TransferBlock &points);
     /** @} */
 
-    /** @name Around an axis: what the strain out of the plane is, in a pass after
-     *  points may have moved, and the force by the stress there */
+    /** @name Axisymmetric: hoop strain, in a pass after points may have moved,
+     *  and the force of the hoop stress */
     /** @{ */
-    /** v_r/r of what a point of a block has gathered (1/s). */
+    /** Hoop strain rate v_r/r at a point of a block, from the gathered velocity
+     *  (1/s). */
     double
     hoop_rate(const unsigned int k, const double r) const;
 
@@ -331,66 +336,69 @@ namespace geocone::GEOCONE_DIM
     force_around_axis(const TransferBlock &points);
     /** @} */
 
-    /** Takes a part of the weight of a block of fading points. */
+    /** Reduces mass and volume of a block of points that are being removed. */
     void
     fade_points(const TransferBlock &points);
 
-    /** Says that a point has left the mesh. */
+    /** Message that a point has left the mesh. */
     std::string
     has_left(const PointArrays &group, const unsigned int p) const;
 
-    /** Deals with points that have left the stored nodes. */
+    /** Treats points that have left the stored nodes. */
     void
     mend_positions(const TransferBlock &points);
 
-    /** Whether the scene has tractions, or sides that absorb waves: then points are
-     *  found in the cells of a mesh, which knows its sides. */
+    /** Whether the scene has tractions or absorbing boundaries: then points are
+     *  located in the cells of a mesh with sides. */
     bool
     acts_on_sides() const;
 
-    /** The nodes at the start of a step: what the points give to them. */
+    /** Transfers the points to the nodes at the start of a step. */
     void
     start_nodes();
 
-    /** @param measures_force whether the unbalanced force is wanted */
+    /** Performs an explicit step. @param measures_force whether to compute the
+     *  unbalanced force */
     void
     step(const Stage &stage,
          const double t,
          const double dt,
          const bool   measures_force);
 
-    /** Refresh of the transfer, and what the nodes hold at the start of a step. */
+    /** Refreshes the transfer and the nodal values at the start of a step. */
     void
     refresh();
 
-    /** Of this rank (kg/m). */
+    /** Mass of the points of this rank (kg/m). */
     double
     current_mass() const;
 
-    /** The place left of which there is so much mass (m), within a range. */
+    /** Position with the given mass on its left (m), within a range. */
     double
     mass_quantile(const double wanted, double left, double right) const;
 
-    /** The greatest step that is stable with Courant number 1 (s). */
+    /** Largest stable step, for Courant number 1 (s). */
     double
     stability_limit() const;
 
     void
     stop_at_peak();
 
-    /** Takes the velocity of all points, which counts as stopped. */
+    /** Sets the velocity of all points to zero; the kinetic energy counts as
+     *  stopped. */
     void
     stop_points();
 
-    /** Sums of the last pass over all ranks, and whether to refresh. */
+    /** Sums the results of the last pass over all ranks; decides whether to
+     *  refresh. */
     void
     gather_sums();
 
-    /** Counts a point as removed, and takes its mass. */
+    /** Counts a point as removed and sets its mass to zero. */
     void
     take_away(PointArrays &group, const unsigned int p);
 
-    /** Removes the points that have no mass any more. */
+    /** Removes the points without mass. */
     void
     remove_massless();
 
@@ -440,7 +448,7 @@ namespace geocone::GEOCONE_DIM
     dealii::Tensor<1, dim> gravity; ///< in the last step
     double                 least_mass   = 0.;
     double                 body_mass    = 0.; ///< of this rank's points (kg/m)
-    double                 hoop_force   = 0.; ///< given last, of this rank (N)
+    double                 hoop_force   = 0.; ///< last one, of this rank (N)
     double                 least_radius = 0.;
     double                 fade         = 1.; ///< of the last pass of this step
     double                 fade_end     = 0.;
@@ -450,9 +458,9 @@ namespace geocone::GEOCONE_DIM
     unsigned int since_refresh = 0;
     bool         some_left     = false; ///< some points have no mass
     int          asked_to_stop = 0;     ///< signal, after gather_sums()
-    std::string  obstacle;              ///< why this rank cannot go on
+    std::string  obstacle;              ///< error of this rank
 
-    /** What has been done of a step of the loading programme. */
+    /** Progress within a step of the loading programme. */
     struct Progress
     {
       bool           begun = false;
@@ -461,24 +469,24 @@ namespace geocone::GEOCONE_DIM
     };
     Progress progress;
 
-    /** The points of a checkpoint that this rank takes. Collective. */
+    /** Points of a checkpoint for this rank. Collective. */
     std::vector<double>
     points_of_rank(const Archive     &archive,
                    const std::string &name,
                    const std::size_t  size) const;
 
-    /** All numbers that are state, but for the points. */
+    /** All numbers of the state except the points. */
     void
     state_of_ranks(StateRow &row);
     void
     state_of_all(StateRow &row);
 
-    /** Kinetic damping: the kinetic energy of the steps before. */
+    /** Kinetic damping: kinetic energy of the previous steps. */
     double energy_n = 0.;
     bool   rising   = false;
 
     Exchange  sum;
-    Exchange  stage_start; ///< of all ranks
+    Exchange  stage_start; ///< over all ranks
     LawCounts counts;
     Seconds   clock;
   };

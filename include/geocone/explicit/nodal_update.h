@@ -15,30 +15,31 @@
 namespace geocone::GEOCONE_DIM
 {
   /**
-   * What has come into and gone out of the body since the start: sums over all
-   * explicit steps, of all ranks once ExplicitMPM::exchange() has gathered them.
+   * Momentum, energy and mass exchanged by the body since the start: sums over
+   * all explicit steps, over all ranks after ExplicitMPM::exchange().
    */
   struct Exchange
   {
     double stress_work  = 0.; ///< sum of s : de V (J/m)
     double gravity_work = 0.; ///< sum of m g dx (J/m)
     double damping_work = 0.; ///< taken by local damping (J/m)
-    /** Of prescribed velocities, tractions and absorbing sides (J/m). */
+    /** Work of prescribed velocities, tractions and absorbing boundaries
+     *  (J/m). */
     double support_work = 0.;
 
-    /** Of gravity, damping, and the same (N s/m). */
+    /** Impulse of gravity, damping and these (N s/m). */
     dealii::Tensor<1, dim> impulse;
 
-    /** What was taken away (Stage::removes()), or left the grid. */
+    /** Removed points (Stage::removes()), or points that left the grid. */
     double                 removed_mass = 0.;      ///< (kg/m)
     dealii::Tensor<1, dim> removed_momentum;       ///< (N s/m)
     double                 removed_energy    = 0.; ///< kinetic (J/m)
     double                 removed_potential = 0.; ///< from the lower corner
 
-    /** Of kinetic damping: kinetic energy set to zero (J/m). */
+    /** Kinetic energy set to zero by kinetic damping (J/m). */
     double stopped_energy = 0.;
 
-    unsigned long small_masses = 0; ///< nodes passed over as massless
+    unsigned long small_masses = 0; ///< nodes skipped as massless
 
     void
     state(StateRow &row)
@@ -58,18 +59,18 @@ namespace geocone::GEOCONE_DIM
   };
 
   /**
-   * What an explicit step does at the nodes: from momentum, force and mass, which
-   * the points have written, to velocity and its change, which they read; with
-   * gravity, local damping and prescribed velocities. Clears what it has used.
+   * Explicit step at the nodes: from momentum, force and mass, written by the
+   * points, to velocity and its change, which they read; with gravity, local
+   * damping and prescribed velocities. Clears its input.
    */
   class NodalUpdate
   {
   public:
     /**
-     * @param flip_part of the points' velocity, for the momentum that
-     * conditions give by way of PIC
-     * @param least_mass nodes with this mass or less are passed over (kg/m)
-     * @param boundary what acts on sides, or null
+     * @param flip_part of the points' velocity, for the momentum from
+     * conditions by way of PIC
+     * @param least_mass nodes with this mass or less are skipped (kg/m)
+     * @param boundary forces on sides, or null
      * @param sum to which impulses and works of this rank are added
      */
     NodalUpdate(GridTransfer             &transfer,
@@ -79,7 +80,7 @@ namespace geocone::GEOCONE_DIM
                 const BoundaryForces     *boundary,
                 Exchange                 &sum);
 
-    /** The step as nodes see it. */
+    /** Data of a step at the nodes. */
     struct Step
     {
       double                 t, dt; ///< (s)
@@ -88,30 +89,33 @@ namespace geocone::GEOCONE_DIM
       bool                   measures_force; ///< for unbalanced_force()
     };
 
-    /** To be called after GridTransfer::sort(). */
+    /** Marks prescribed components; must be called after
+     *  GridTransfer::sort(). */
     void
     mark_held();
 
-    /** Velocity before the step, v = p/m with conditions at t; keeps the masses. */
+    /** Computes the velocity before the step, v = p/m, with conditions at t;
+     *  keeps the masses. */
     void
     velocity_before(const double t);
 
-    /** Velocity from the points' new momentum, with conditions at the end of the
-     *  step, by which the points will move. */
+    /** Computes the velocity from the points' new momentum, with conditions at
+     *  the end of the step, for the motion of the points. */
     void
     velocity_after(const Step &step);
 
     /**
-     * Velocity at the end of the step and its change, by the forces.
-     * @param velocity_is_read whether `read` holds the velocity before it, and
-     * not `write` the momentum
+     * Computes the velocity at the end of the step and its change from the
+     * forces.
+     * @param velocity_is_read whether `read` holds the velocity before it,
+     * rather than `write` the momentum
      * @param moves whether the points will move by it
      */
     void
     accelerate(const Step &step, const bool velocity_is_read, const bool moves);
 
-    /** Largest force on a free component of a node of this rank, before damping,
-     *  when it was last measured (N/m). */
+    /** Largest force on a free component of a node of this rank, before
+     *  damping, at its last evaluation (N/m). */
     double
     unbalanced_force() const
     {
@@ -123,7 +127,7 @@ namespace geocone::GEOCONE_DIM
     std::vector<Reaction>
     take_support_impulses();
 
-    /** What this rank has summed up since, for a checkpoint. */
+    /** Sums of this rank since then, for a checkpoint. */
     void
     state(StateRow &row)
     {
@@ -133,26 +137,26 @@ namespace geocone::GEOCONE_DIM
     }
 
   private:
-    /** A force that the points have written (N/m). */
+    /** Nodal force written by the points (N/m). */
     double &
     force_at(const unsigned int node, const unsigned int component)
     {
       return transfer.write[node_size * node + change_of_node + component];
     }
 
-    /** read = write/mass, and no change. */
+    /** Sets read = write/mass, and no change. */
     void
     divide_momentum();
 
     double
     prescribed_velocity(const PrescribedNode &node, const double t) const;
 
-    /** Finds the velocities that conditions give; the reaction is what the points get
-     *  of momentum beyond the forces. */
+    /** Sets the prescribed velocities; the reaction is the momentum transferred
+     *  to the points beyond the forces. */
     void
     hold_prescribed(const Step &step);
 
-    /** Books an impulse to the condition of a node. */
+    /** Adds an impulse to the condition of a node. */
     void
     add_impulse(const PrescribedNode &node, const double impulse);
 
@@ -167,7 +171,7 @@ namespace geocone::GEOCONE_DIM
     void
     damp(const Step &step);
 
-    /** Nothing in write, and in mass unless it is kept. */
+    /** Clears write, and mass unless it is kept. */
     void
     clear(const bool keep_mass);
 
@@ -177,7 +181,7 @@ namespace geocone::GEOCONE_DIM
     const BoundaryForces     *boundary;
     Exchange                 &sum;
 
-    /** A component of a node whose velocity is given in this step. */
+    /** A nodal component with prescribed velocity in this step. */
     struct Held
     {
       unsigned int node, component;
